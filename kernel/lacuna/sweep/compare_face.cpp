@@ -665,7 +665,7 @@ private:
 } // namespace
 
 Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
-             const mesh::LayeredNodes* layers)
+             const mesh::LayeredNodes* layers, const RunContext& context)
 {
     Skin skin;
     skin.faces.resize(face_count);
@@ -695,21 +695,36 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
         for (const Index n : rim) skin.node.push_back(layer * row + n);
     }
     for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
-    skin.points.reserve(skin.node.size());
-    for (const Index n : skin.node)
-        skin.points.push_back(layers != nullptr ? layers->on_skin(n) : mesh.nodes[index(n)]);
+    skin.points.resize(skin.node.size());
+    parallel_for(context, skin.node.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            skin.points[i] = layers != nullptr ? layers->on_skin(skin.node[i])
+                                               : mesh.nodes[index(skin.node[i])];
+    });
 
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
-        for (Index& n : quad.nodes) n = number(n);
-        double longest2 = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Vec3 side = skin.points[index(quad.nodes[(k + 1) % 4])] - skin.points[index(quad.nodes[k])];
-            longest2 = std::max(longest2, side.squaredNorm());
+    struct Numbered {
+        mesh::SkinQuad quad;
+        double side = 0; ///< the longest
+    };
+    std::vector<Numbered> quads(mesh.skin_count());
+    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            mesh::SkinQuad& quad = quads[i].quad;
+            quad = mesh::skin_quad(mesh, i);
+            for (Index& n : quad.nodes) n = number(n);
+            double longest2 = 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3 side = skin.points[index(quad.nodes[(k + 1) % 4])] -
+                                  skin.points[index(quad.nodes[k])];
+                longest2 = std::max(longest2, side.squaredNorm());
+            }
+            quads[i].side = std::sqrt(longest2);
         }
+    });
+    for (const auto& [quad, side] : quads) {
         SkinOfFace& face = skin.faces[faces[index(quad.patch)].index()];
         face.quads.push_back(quad.nodes);
-        face.side.push_back(std::sqrt(longest2));
+        face.side.push_back(side);
     }
     for (SkinOfFace& face : skin.faces) {
         for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());

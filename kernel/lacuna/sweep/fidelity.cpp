@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
+#include <lacuna/core/parallel.h>
 #include <lacuna/surface/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -53,6 +55,13 @@ FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const D
     return result;
 }
 
+DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& options)
+{
+    const bool made_void = model[face].origin == Origin::made_void;
+    const bool between = made_void && options.between.contains(face);
+    return {options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip, !made_void};
+}
+
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
 
 /// A length a little below `value`, in two digits.
@@ -89,7 +98,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     const Model& model = volume.model;
     Fidelity result;
     result.volume = volume_of_mesh;
-    const Skin skin = skin_of(mesh, faces, model.faces.size(), layers);
+    const Skin skin = skin_of(mesh, faces, model.faces.size(), layers, context);
     const Vec3 origin = mesh.nodes.front();
     std::vector<surface::FaceShape> shapes;
     for (const SkinOfFace& patch : skin.faces) {
@@ -100,29 +109,37 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
+    // Faces side by side: what a large one does on one thread is done beside others.
+    RunContext quiet;
+    quiet.threads = context.threads;
+    quiet.cancel = context.cancel;
+    std::vector<FaceFidelity> compared(skin.faces.size());
+    parallel_for(context, skin.faces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const SkinOfFace& patch = skin.faces[f];
+            if (patch.quads.empty()) continue;
+            const DeviationLimit limit = limit_of(model, patch.face, options);
+            if (kept.contains(patch.face)) {
+                compared[f].face = patch.face;
+                compared[f].quads = patch.quads.size();
+            } else {
+                compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
+            }
+        }
+    });
     double area = 0;
     for (const SkinOfFace& patch : skin.faces) {
-        FaceFidelity face;
-        face.face = patch.face;
-        face.quads = patch.quads.size();
-        const bool made_void = model[patch.face].origin == Origin::made_void;
-        const bool between = made_void && options.between.contains(patch.face);
-        const DeviationLimit limit{options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip,
-                                   !made_void};
-        if (patch.quads.empty()) {
-            face = left_out(model, skin, patch.face, limit);
-        } else if (!kept.contains(patch.face)) {
-            face = compare_face(mesh, skin, patch, std::move(shapes[patch.face.index()]), sign, limit,
-                                context);
-        }
+        FaceFidelity& face = compared[patch.face.index()];
+        if (patch.quads.empty())
+            face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
         face.name = name_of(model, patch.face);
         face.tag = model[patch.face].tag;
-        face.made_void = made_void;
+        face.made_void = model[patch.face].origin == Origin::made_void;
         const double own = face_area(model, patch.face);
         result.max_distance = std::max(result.max_distance, face.max_distance);
         result.mean_distance += own * face.mean_distance;
         area += own;
-        result.faces.push_back(face);
+        result.faces.push_back(std::move(face));
     }
     if (area > 0) result.mean_distance /= area;
     return result;

@@ -33,7 +33,7 @@ struct Skin {
 /// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin).
 /// @param layers  what makes the nodes of a mesh that does not hold them; null: it holds them.
 Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
-             const mesh::LayeredNodes* layers = nullptr);
+             const mesh::LayeredNodes* layers = nullptr, const RunContext& context = {});
 
 /// How far a face and its quads may be apart.
 struct DeviationLimit {
