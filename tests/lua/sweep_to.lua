@@ -203,7 +203,8 @@ refused("no.vtu", { layers = 4, write = { version = 2.2 } }, "version")
 refused("no.msh", { layers = 4, write = { quality = "shape_and_size" } }, "shape_and_size", "the mean of all")
 refused("no.msh", { layres = 4 }, "layres", "layers")
 refused("no.msh", { layers = 4, min_scaled_jacobian = 0.999999 }, "below the limit")
-check.fails(function() lacuna.assembly { void }:sweep_to(path("no.msh"), { [3] = 4 }) end, "sweep_to: the keys")
+local alone = lacuna.assembly { void }
+check.fails(function() alone:sweep_to(path("no.msh"), { [3] = 4 }) end, "sweep_to: the keys")
 
 -- --- memory
 

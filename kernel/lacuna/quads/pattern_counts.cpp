@@ -230,6 +230,8 @@ private:
                     loops.push_back(std::move(*counts));
                 }
                 if (loops.size() < region_.loops.size()) continue;
+                // A symmetric region is not filled otherwise than its images.
+                if (!is_part_ && !are_alike(*counts_of(loops), pairs)) continue;
                 if (grids.size() < loops.size()) quads = asked; // not known
                 cost += kQuads * (quads - asked) * (quads - asked) / asked;
                 if (is_part_) {
