@@ -78,6 +78,29 @@ check.fails(function()
   end
 end, "intervals")
 
+-- A block on an L without its top, whose rim bends in no plane, lacks that top: it is not read across.
+for _, bends in ipairs { { 0.4, 1.5, 1.2 }, { 0.3, 2.5, 2 }, { 0.5, 1, 2 } } do
+  local up, along, over = table.unpack(bends)
+  local function top(x, y) return { x, y, 3 + up * math.sin(along * x) * math.cos(over * y) } end
+  local rim = { { -1.5, -1, 0 }, { 1.5, -1, 0 }, { 1.5, 0, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, { -1.5, 1, 0 } }
+  local ell = lacuna.model()
+  ell:add_face { name = "low", points = rim, cells = { { 1, 3, 2 }, { 1, 4, 3 }, { 1, 6, 4 }, { 4, 6, 5 } } }
+  for i, a in ipairs(rim) do
+    local b = rim[i % #rim + 1]
+    local points, cells = { a, b }, { { 1, 2, 3 } }
+    for k = 8, 0, -1 do
+      points[#points + 1] = top(a[1] + (b[1] - a[1]) * k / 8, a[2] + (b[2] - a[2]) * k / 8)
+      if k > 0 then cells[#cells + 1] = { 1, #points, #points + 1 } end
+    end
+    ell:add_face { name = "side_" .. i, points = points, cells = cells }
+  end
+  local read = ell:open_volume {}
+  read:close()
+  check.that(read.class == "III" or read.class == "IV", read.class)
+  check.that(read:describe():find("as a membrane does", 1, true), "what is open is told")
+  check.that(read:sweep { layers = 4, size = 0.3 }.hexes > 0)
+end
+
 -- Sizes and layers by default.
 local function only(mesh, start)
   local found = lines(mesh, start)

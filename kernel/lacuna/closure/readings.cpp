@@ -24,6 +24,8 @@ namespace {
 
 /// As many readings of the given faces are sealed. A choice: some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
+/// And as many are tried where one closes with a membrane. For the time: bent faces take long to close.
+constexpr std::size_t kMostSettled = 3;
 /// Volumes that differ by less than this share of the larger are as large: what chords leave out of round
 /// faces, and more.
 constexpr double kSameVolume = 5e-3;
@@ -171,9 +173,10 @@ void keep_likely(std::vector<Void>& found)
 }
 
 /// Readings of the given faces, sealed and sorted by what they enclose.
-/// @param settled  leave out those that close with a membrane
-std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, bool settled,
-                        const RunContext& context)
+/// @param most     as many are sealed
+/// @param settled  leave out those that close with a membrane, and count those that do not seal too
+std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
+                        bool settled, const RunContext& context)
 {
     std::vector<Void> found;
     std::size_t sealed = 0;
@@ -186,10 +189,10 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
             filled->ways.push_back(candidate);
             continue;
         }
-        if (sealed == kMostSealed) break;
+        if (sealed == most) break;
         std::optional<Sealed> now = seal(model, candidate.roles, context);
+        if (now || settled) ++sealed;
         if (!now || (settled && has_membranes(*now))) continue;
-        ++sealed;
         auto same = std::find_if(found.begin(), found.end(),
                                  [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
         if (same == found.end())
@@ -201,6 +204,20 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
     }
     keep_likely(found);
     return found;
+}
+
+/// The one void that readings without steps enclose, however unlikely, closed without a membrane; what of
+/// several is meant, nobody knows.
+std::optional<Void> settled_void(const Model& model, std::vector<RoleCandidate> candidates,
+                                 const RunContext& context)
+{
+    std::erase_if(candidates, [&](const RoleCandidate& candidate) {
+        return connected_parts(model, candidate.roles.source).size() > 1 ||
+               connected_parts(model, candidate.roles.target).size() > 1;
+    });
+    std::vector<Void> found = voids(model, candidates, kMostSettled, true, context);
+    if (found.size() != 1 || has_steps(found.front().sealed.volume, context)) return std::nullopt;
+    return std::move(found.front());
 }
 
 /// Whether a way over a closed skin can be swept in pieces, where an end lies at several heights.
@@ -537,7 +554,8 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
 {
     if (auto floor = read_floor(model, faces, context)) return {std::move(*floor)};
     const RoleOptions near;
-    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), false, context);
+    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), kMostSealed, false,
+                                    context);
     RoleOptions far;
     far.margin = std::numeric_limits<double>::infinity();
     far.most = kMostTried;
@@ -549,12 +567,15 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         const auto end = std::find_if(seals, all.end(), [&](const RoleCandidate& candidate) {
             return candidate.cost > seals->cost + near.margin;
         });
-        found = voids(model, {seals, end}, false, context);
+        found = voids(model, {seals, end}, kMostSealed, false, context);
     }
     if (!found.empty() && has_membranes(found.front().sealed)) {
-        // What it encloses is a guess; a reading whose rims say how void faces go is not.
-        auto settled = voids(model, role_candidates(model, faces, far, context), true, context);
-        if (!settled.empty()) found = std::move(settled);
+        // What it encloses is a guess; where the rims say how void faces go it is none.
+        auto settled = settled_void(model, role_candidates(model, faces, far, context), context);
+        if (settled) {
+            found.clear();
+            found.push_back(std::move(*settled));
+        }
     }
     if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
     std::vector<Reading> readings;

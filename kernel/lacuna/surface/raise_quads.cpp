@@ -8,6 +8,7 @@
 #include <lacuna/surface/projector.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -32,6 +33,9 @@ constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
 constexpr double kWorthIt = 0.02;
 /// A node stays this share of the way from its neighbours on an edge. A choice.
 constexpr double kApart = 0.1;
+/// No side gets shorter than this share of the shortest that there was at one of its ends: sines alone let
+/// quads shrink to needles. A choice.
+constexpr double kShortest = 0.5;
 
 class Raiser {
 public:
@@ -58,6 +62,16 @@ public:
         grounds_.resize(freedom_.faces.size());
         quads_at_ = mesh::quads_at_nodes(mesh_.quads, nodes_.size());
         restless_.assign(nodes_.size(), 1);
+        least_side_.assign(nodes_.size(), std::numeric_limits<double>::infinity());
+        for (const Quad& quad : mesh_.quads) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::size_t a = index(quad[k]), b = index(quad[(k + 1) % 4]);
+                if (a == b) continue;
+                const double side = kShortest * (nodes_[a] - nodes_[b]).norm();
+                least_side_[a] = std::min(least_side_[a], side);
+                least_side_[b] = std::min(least_side_[b], side);
+            }
+        }
         const std::vector<Vec3> before = nodes_;
         for (int round = 0; round < kRounds; ++round) {
             check_cancelled(context_);
@@ -153,6 +167,19 @@ private:
         return worst;
     }
 
+    /// Whether a node is as far from its neighbours as it has to stay.
+    [[nodiscard]] bool keeps_apart(std::size_t p, const Star& star) const
+    {
+        return std::ranges::all_of(star.quads, [&](std::size_t q) {
+            const Quad& quad = mesh_.quads[q];
+            const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
+                                                    quad.begin());
+            return std::ranges::all_of(std::array{(k + 1) % 4, (k + 3) % 4}, [&](std::size_t next) {
+                return (nodes_[index(quad[next])] - nodes_[p]).norm() >= least_side_[p];
+            });
+        });
+    }
+
     bool raise_round()
     {
         std::set<std::size_t> poor;
@@ -208,7 +235,7 @@ private:
                     const Vec3 old = nodes_[p];
                     nodes_[p] = geometry::point_at(line.points, line.arc, to * length);
                     const double found = worst_of(star);
-                    if (found > best + kLeastGain * step / star.shortest) {
+                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p, star)) {
                         best = found;
                         at[i] = to;
                         better = true;
@@ -254,7 +281,7 @@ private:
                     nodes_[p] = from + step * (std::cos(angle) * u + std::sin(angle) * v);
                     if (!ground.flat) nodes_[p] = ground.tree->closest(nodes_[p]).point;
                     const double found = worst_of(star);
-                    if (found > best + kLeastGain * step / star.shortest) {
+                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p, star)) {
                         best = found;
                         better = true;
                     } else {
@@ -328,7 +355,8 @@ private:
     std::vector<Line> lines_;
     std::vector<Ground> grounds_;
     mesh::Incidence quads_at_;
-    std::vector<char> restless_; ///< worth another look
+    std::vector<char> restless_;     ///< worth another look
+    std::vector<double> least_side_; ///< of each node, that its sides must keep
 };
 
 } // namespace
