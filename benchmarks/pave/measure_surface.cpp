@@ -18,11 +18,6 @@ namespace lacuna::bench {
 
 namespace {
 
-// Those of measure_plane().
-constexpr double kOffRight = 20 * std::numbers::pi / 180;
-constexpr double kOffHeight = 0.3;
-constexpr double kShortest = 0.6, kLongest = 1.6;
-
 class Meter {
 public:
     Meter(const SurfaceQuads& mesh, const topology::Model& model, FaceId face, double size)
@@ -75,7 +70,8 @@ public:
                 const double length = side(quads_[q], k).norm();
                 ++result.edges;
                 ratios += length / asked_;
-                if (length >= kShortest * asked_ && length <= kLongest * asked_) ++result.edges_of_size;
+                if (length >= quads::kShortestOfSize * asked_ && length <= quads::kLongestOfSize * asked_)
+                    ++result.edges_of_size;
                 if (other != mesh::kRimSide) continue;
                 rim[p] = 1;
                 ++result.rows;
@@ -88,8 +84,8 @@ public:
         for (std::size_t p = 0; p < points_.size(); ++p) {
             if (rim[p] != 0) {
                 rim_angles_.push_back(turn[p]);
-                const double wanted = std::max(1.0, std::round(turn[p] / (std::numbers::pi / 2)));
-                if (valence[p] != static_cast<Index>(wanted)) ++result.boundary_irregular;
+                const double fitting = std::max(1.0, std::round(turn[p] / (std::numbers::pi / 2)));
+                if (valence[p] != static_cast<Index>(fitting)) ++result.boundary_irregular;
                 continue;
             }
             ++result.interior;
@@ -181,12 +177,12 @@ private:
         const std::array<double, 4> wanted{first, second, std::numbers::pi - second,
                                            std::numbers::pi - first};
         for (std::size_t i = 0; i < 4; ++i) {
-            if (std::abs(angle(quad, (k + i) % 4) - wanted[i]) > kOffRight) return false;
+            if (std::abs(angle(quad, (k + i) % 4) - wanted[i]) > quads::kRowOffRight) return false;
         }
         const Vec3 across = (normal(quad[k]) + normal(quad[(k + 1) % 4])).cross(side(quad, k)).normalized();
         for (const std::size_t far : {k + 2, k + 3}) {
             const double above = (at(quad[far % 4]) - at(quad[k])).dot(across);
-            if (std::abs(above - asked_) > kOffHeight * asked_) return false;
+            if (std::abs(above - asked_) > quads::kRowOffHeight * asked_) return false;
         }
         return true;
     }

@@ -5,6 +5,7 @@
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -13,12 +14,8 @@ namespace lacuna::test {
 
 namespace {
 
-// Those of measure_plane().
-constexpr double kOffRight = 20 * std::numbers::pi / 180;
-constexpr double kOffHeight = 0.3;
 /// Corners within this of half way between two numbers of quads have either [right angles].
 constexpr double kEither = 0.15;
-constexpr double kShortest = 0.6, kLongest = 1.6;
 
 class UnionMeter {
 public:
@@ -33,6 +30,13 @@ public:
             }
         }
         for (auto& [at, normal] : normal_) normal.stableNormalize();
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                Corner& corner = corner_[{face_[q], quads_[q][k]}];
+                corner.angle += angle(q, k);
+                ++corner.quads;
+            }
+        }
         opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(nodes_.size()));
     }
 
@@ -71,7 +75,8 @@ public:
                 if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
                 const double length = side(quad, k).norm();
                 ++result.edges;
-                if (length >= kShortest * size_ && length <= kLongest * size_) ++result.edges_of_size;
+                if (length >= quads::kShortestOfSize * size_ && length <= quads::kLongestOfSize * size_)
+                    ++result.edges_of_size;
             }
             sum += least;
             result.min_scaled_jacobian = std::min(result.min_scaled_jacobian, least);
@@ -111,27 +116,42 @@ private:
         const double turn = std::atan2(cross.norm(), a.dot(b));
         return cross.dot(normal_.at({face_[q], quad[k]})) >= 0 ? turn : 2 * std::numbers::pi - turn;
     }
+    /// By the rule of `quads::measure_plane()`, for the face that the quad is of.
+    [[nodiscard]] double wanted(std::size_t q, std::size_t k) const
+    {
+        const Corner& corner = corner_.at({face_[q], quads_[q][k]});
+        return quads::row_corner(corner.angle, corner.quads);
+    }
     [[nodiscard]] bool stands_well(std::size_t q, std::size_t k) const
     {
         const Quad& quad = quads_[q];
+        const double first = wanted(q, k), second = wanted(q, (k + 1) % 4), straight = std::numbers::pi;
+        const std::array<double, 4> corners{first, second, straight - second, straight - first};
         for (std::size_t i = 0; i < 4; ++i) {
-            if (std::abs(angle(q, i) - std::numbers::pi / 2) > kOffRight) return false;
+            if (std::abs(angle(q, (k + i) % 4) - corners[i]) > quads::kRowOffRight) return false;
         }
         const Vec3 across = (normal_.at({face_[q], quad[k]}) + normal_.at({face_[q], quad[(k + 1) % 4]}))
                                 .cross(side(quad, k))
                                 .normalized();
         for (const std::size_t far : {k + 2, k + 3}) {
             const double above = (at(quad[far % 4]) - at(quad[k])).dot(across);
-            if (std::abs(above - size_) > kOffHeight * size_) return false;
+            if (std::abs(above - size_) > quads::kRowOffHeight * size_) return false;
         }
         return true;
     }
+
+    /// Of a face, at a node.
+    struct Corner {
+        double angle = 0; ///< [radian]
+        Index quads = 0;
+    };
 
     const std::vector<Vec3>& nodes_;
     const std::vector<Quad>& quads_;
     const std::vector<Index>& face_;
     double size_;
     std::map<std::pair<Index, Index>, Vec3> normal_; ///< of each face at each node
+    std::map<std::pair<Index, Index>, Corner> corner_;
     std::vector<Index> opposite_;
 };
 

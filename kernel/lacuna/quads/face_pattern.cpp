@@ -162,12 +162,7 @@ struct FacePattern {
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr int kSweeps = 20; // a choice, not a measurement
-    const auto least = [&](const std::vector<Vec2>& points) {
-        double worst = 1;
-        for (const Quad& quad : mesh.quads) worst = std::min(worst, scaled_jacobian(points, quad));
-        return worst;
-    };
-    const double before = least(mesh.points);
+    const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (before > 0) return;
     std::vector<Vec2> points = mesh.points, sum(points.size());
     std::vector<int> sides(points.size());
@@ -188,7 +183,7 @@ void spread_folds(PlanarQuads& mesh, std::size_t fixed)
             if (sides[p] > 0) points[p] = sum[p] / sides[p];
         }
     }
-    if (least(points) > before) mesh.points = std::move(points);
+    if (least_scaled_jacobian(points, mesh.quads) > before) mesh.points = std::move(points);
 }
 
 class PatternFiller {

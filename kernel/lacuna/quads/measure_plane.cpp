@@ -9,17 +9,12 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <vector>
 
 namespace lacuna::quads {
 
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-/// What `measure_plane()` promises: how far the corners and the height of a good row may be off. Choices, not
-/// measurements.
-constexpr double kOffRight = 20 * std::numbers::pi / 180;
-constexpr double kOffHeight = 0.3;
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
@@ -33,30 +28,15 @@ bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t sid
         const Vec2& here = at(points, quad[k]);
         const double corner = turn_between(at(points, quad[(k + 1) % 4]) - here,
                                            at(points, quad[(k + 3) % 4]) - here);
-        if (std::abs(corner - wanted[i]) > kOffRight) return false;
+        if (std::abs(corner - wanted[i]) > kRowOffRight) return false;
     }
     const Vec2& from = at(points, quad[side]);
     const Vec2 along = (at(points, quad[(side + 1) % 4]) - from).normalized();
     for (const std::size_t far : {side + 2, side + 3}) {
         const double above = cross(along, at(points, quad[far % 4]) - from);
-        if (std::abs(above - height) > kOffHeight * height) return false;
+        if (std::abs(above - height) > kRowOffHeight * height) return false;
     }
     return true;
-}
-
-/// The angle inside the region at each of its boundary nodes, loop after loop.
-std::vector<double> boundary_angles(const PlanarRegion& region)
-{
-    std::vector<double> angles;
-    for (const std::vector<Index>& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& here = at(region.points, loop[i]);
-            angles.push_back(
-                turn_between(at(region.points, loop[(i + 1) % loop.size()]) - here,
-                             at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here));
-        }
-    }
-    return angles;
 }
 
 /// Boundary nodes whose number of quads is not that of the right angles in their corner.
@@ -128,6 +108,27 @@ double scaled_jacobian(std::span<const Vec2> points, const Quad& quad)
     // Rounding may take the sine of a right angle above 1.
     return std::min(
         1.0, least_sine(at(points, quad[0]), at(points, quad[1]), at(points, quad[2]), at(points, quad[3])));
+}
+
+double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads)
+{
+    double least = 1;
+    for (const Quad& quad : quads) least = std::min(least, scaled_jacobian(points, quad));
+    return least;
+}
+
+std::vector<double> boundary_angles(const PlanarRegion& region)
+{
+    std::vector<double> angles;
+    for (const std::vector<Index>& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2& here = at(region.points, loop[i]);
+            angles.push_back(
+                turn_between(at(region.points, loop[(i + 1) % loop.size()]) - here,
+                             at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here));
+        }
+    }
+    return angles;
 }
 
 double row_corner(double angle, Index quads)

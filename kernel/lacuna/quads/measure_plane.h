@@ -5,14 +5,19 @@
 #include <lacuna/quads/region.h>
 
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace lacuna::quads {
 
 /// Verdict's scaled Jacobian of a quad in the plane: the least sine of its corners, -1…1, 1 for a rectangle,
 /// negative where a corner is folded, 0 where a side has no length.
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
+
+/// The least of all quads; 1 of none.
+double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads);
 
 /// Sides this much shorter or longer than asked for are of another size. Choices, not measurements.
 inline constexpr double kShortestOfSize = 0.6, kLongestOfSize = 1.6;
@@ -41,6 +46,13 @@ private:
         return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
     }
 };
+
+/// The angle inside the region at each of its boundary nodes, loop after loop [radian].
+std::vector<double> boundary_angles(const PlanarRegion& region);
+
+/// How far the corners of a good row quad may be off what is wanted [radian], and the height of what is
+/// opposite its boundary side, of that. Choices, not measurements.
+inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3;
 
 /// The angle wanted of a row quad's corner at a boundary node [radian]: half of the node's where a side bends
 /// there by 45° at most and two quads share it, for both halves of a round hole's corner cannot be right;

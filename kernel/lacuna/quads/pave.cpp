@@ -164,8 +164,6 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
-    // More take long, and nobody looks at them one by one. A choice, not a measurement.
-    constexpr std::size_t kMostSymmetric = 20'000;
     if (options.smooth && best.mesh.quads.size() <= kMostSymmetric) {
         square_rows(best.mesh, region);
         symmetrise(best.mesh, region);

@@ -24,9 +24,6 @@ namespace {
 /// Up to this many quads a region is paved in several ways: for 3000 that takes 0.5 s at most, measured on
 /// the named outlines.
 constexpr std::size_t kSmall = 4000;
-/// More quads take long, and nobody looks at them one by one: no symmetry is kept, and those of a region of
-/// half the nodes are cut in four. A choice, not a measurement.
-constexpr double kMostSymmetric = 20'000;
 /// Quads made in all with every row of weights: some eight meshes of a region of kSmall. Where the worst quad
 /// stays poor the outline is the cause more than the cuts, and less is spent. Choices, not measurements.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
@@ -149,16 +146,26 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
     return attempt;
 }
 
+/// What quads have to be better than.
+struct Limits {
+    double least, mean; ///< scaled Jacobian
+    double of_size;     ///< share of sides of the size asked
+};
+
+bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& region)
+{
+    if (attempt.worst < limits.least) return false;
+    const PlaneQuality quality = measure_plane(attempt.mesh, region);
+    return quality.min_scaled_jacobian > limits.least && quality.mean_scaled_jacobian > limits.mean &&
+           quality.size_share() > limits.of_size;
+}
+
 /// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
     // A worst quad with room for what a sweep makes worse, and nearly all square and of the size asked;
     // choices, not measurements.
-    constexpr double kGood = 0.72, kMean = 0.92;
-    if (attempt.worst < kGood) return false;
-    const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > of_size;
+    return reaches({0.72, 0.92, of_size}, attempt, region);
 }
 
 /// Whether images of a part are so good that nothing else need be tried: what is symmetric may have a few
@@ -168,9 +175,8 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
                   const std::function<double(const Vec2&)>& asked, bool few)
 {
-    // Choices, not measurements.
-    constexpr double kGood = 0.7, kMean = 0.9, kSizes = 0.93, kGoodFew = 0.75, kMeanFew = 0.87;
-    if (attempt.worst < (few ? kGoodFew : kGood) || !find_fault(attempt.mesh, region).empty()) return false;
+    constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0}; // choices, not measurements
+    if (!find_fault(attempt.mesh, region).empty()) return false;
     // Where images meet, on an axis or at the centre, each may have a quad too many.
     constexpr Index kMostQuads = 6;
     std::vector<Index> valence(attempt.mesh.points.size(), 0);
@@ -179,20 +185,15 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
             if (++valence[index(p)] > kMostQuads) return false;
         }
     }
-    const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.mean_scaled_jacobian > (few ? kMeanFew : kMean) &&
-           (few || quality.size_share() > kSizes) && has_quads_asked(attempt.mesh, asked);
+    return reaches(few ? kGoodFew : kGood, attempt, region) && has_quads_asked(attempt.mesh, asked);
 }
 
 /// Whether quads of a coarser mesh, cut in four, are so good that nothing else need be tried.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
-    // Choices, not measurements.
-    constexpr double kGood = 0.65, kMean = 0.97, kSizes = 0.95;
-    if (attempt.worst < kGood || !find_fault(attempt.mesh, region).empty()) return false;
-    const PlaneQuality quality = measure_plane(attempt.mesh, region);
-    return quality.min_scaled_jacobian > kGood && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kSizes && has_quads_asked(attempt.mesh, region.size);
+    constexpr Limits kGood{0.65, 0.97, 0.95}; // choices, not measurements
+    return find_fault(attempt.mesh, region).empty() && reaches(kGood, attempt, region) &&
+           has_quads_asked(attempt.mesh, region.size);
 }
 
 } // namespace

@@ -37,10 +37,9 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region)
     CoarseRegion made;
     for (const auto& loop : region.loops) {
         if (loop.size() % 2 != 0) return std::nullopt;
-        const bool later = can_leave_out(region, loop, 0);
-        if (!later && !can_leave_out(region, loop, 1)) return std::nullopt;
         // The first node stays where either may, for it is often one of a symmetry.
         const std::size_t first = can_leave_out(region, loop, 1) ? 0 : 1;
+        if (first == 1 && !can_leave_out(region, loop, 0)) return std::nullopt;
         made.region.loops.emplace_back();
         for (std::size_t i = first; i < loop.size(); i += 2) {
             made.region.loops.back().push_back(static_cast<Index>(made.own.size()));

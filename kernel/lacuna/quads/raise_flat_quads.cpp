@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/raise_flat_quads.h>
 
-#include <lacuna/quads/detail/pattern_search.h>
+#include <lacuna/geometry/pattern_search.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/measure_plane.h>
 
@@ -42,8 +42,8 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
         worst = found;
         points[p] = to;
     }
-    worst = pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0},
-                           [&](const Vec2& to, double /*floor*/) { return worst_at(to); });
+    worst = geometry::pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0},
+                                     [&](const Vec2& to, double /*floor*/) { return worst_at(to); });
     return worst > before + kLeastGain;
 }
 

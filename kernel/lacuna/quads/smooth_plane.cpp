@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/smooth_plane.h>
 
-#include <lacuna/quads/detail/pattern_search.h>
+#include <lacuna/geometry/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
 #include <lacuna/quads/detail/untangle_plane.h>
 #include <lacuna/quads/measure_plane.h>
@@ -20,13 +20,6 @@ constexpr double kStill = 0.02;
 /// Over-relaxation of the steps except in the first sweep and the last: an error that spans many quads then
 /// takes a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;
-
-double least_jacobian(std::span<const Vec2> points, std::span<const Quad> quads)
-{
-    double least = 1;
-    for (const Quad& quad : quads) least = std::min(least, scaled_jacobian(points, quad));
-    return least;
-}
 
 class Smoother {
 public:
@@ -158,7 +151,7 @@ private:
         const auto sine_at = [&](const Vec2& to, double floor) {
             return least_sine_above(points_, star, to, floor, first);
         };
-        return pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
+        return geometry::pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
                before + kLeastGain;
     }
 
@@ -179,7 +172,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
                            const SmoothPlaneOptions& options, const RunContext& context)
 {
     SmoothedPlane result;
-    double least = least_jacobian(points, quads);
+    double least = least_scaled_jacobian(points, quads);
     result.min_before = result.min_after = least;
     result.was_folded = result.folded = !(least > 0);
     if (fixed >= points.size()) return result;
@@ -187,7 +180,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
         std::vector<char> mask(points.size(), 0);
         std::fill(mask.begin(), mask.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
         untangle_plane(points, quads, mask, {});
-        least = least_jacobian(points, quads);
+        least = least_scaled_jacobian(points, quads);
     }
     Smoother smoother(points, quads, fixed, options);
     smoother.ask_sizes();
@@ -200,7 +193,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
         check_cancelled(context);
         if (!smoother.raise(options.good_enough)) break;
     }
-    result.min_after = least_jacobian(points, quads);
+    result.min_after = least_scaled_jacobian(points, quads);
     result.folded = !(result.min_after > 0);
     return result;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/square_rows.h>
 
+#include <lacuna/geometry/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/pattern_search.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/measure_plane.h>
 
@@ -32,9 +32,7 @@ public:
         : mesh_(mesh), fixed_(region.points.size()), stars_(mesh.points.size(), mesh.quads)
     {
         collect(region);
-        double least = 1;
-        for (const Quad& quad : mesh.quads) least = std::min(least, scaled_jacobian(mesh.points, quad));
-        floor_ = std::max(kGood, least);
+        floor_ = std::max(kGood, least_scaled_jacobian(mesh.points, mesh.quads));
     }
 
     /// Move nodes once each. @return how far one went at most, of the mean length of its sides
@@ -46,8 +44,8 @@ public:
     }
 
 private:
-    // All are choices, not measurements: what a row may cost its neighbours, what is kept of the limits of
-    // `measure_plane()`, 20° and 0.3, and what quads in general weigh beside rows.
+    // All are choices, not measurements: what a row may cost its neighbours, what is kept of kRowOffRight and
+    // kRowOffHeight, and what quads in general weigh beside rows.
     static constexpr double kGood = 0.8;
     static constexpr double kOffRight = 0.31, kOffHeight = 0.26, kShape = 0.005;
 
@@ -56,12 +54,12 @@ private:
     void collect(const PlanarRegion& region)
     {
         std::vector<double> wanted(fixed_, 0);
+        const std::vector<double> angles = boundary_angles(region);
+        std::size_t node = 0;
         for (const auto& loop : region.loops) {
-            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-                const Vec2& p = at(loop[i]);
-                wanted[index(loop[i])] = row_corner(
-                    turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p),
-                    static_cast<Index>(stars_[index(loop[i])].size()));
+            for (const Index p : loop) {
+                const auto quads = static_cast<Index>(stars_[index(p)].size());
+                wanted[index(p)] = row_corner(angles[node++], quads);
             }
         }
         const std::vector<Index> opposite = mesh::opposite_sides(mesh_.quads,
@@ -169,7 +167,7 @@ private:
             return -cost;
         };
         Vec2 x = start;
-        pattern_search(x, value(start, 0), {side, kFirst, kLast, 0}, value);
+        geometry::pattern_search(x, value(start, 0), {side, kFirst, kLast, 0}, value);
         here = x;
         return (x - start).norm() / side;
     }

@@ -78,13 +78,6 @@ private:
     std::unordered_map<std::uint64_t, std::size_t> side_; ///< 4 × quad + place, by a side's ends
 };
 
-double least_jacobian(const PlanarQuads& mesh)
-{
-    double least = 1;
-    for (const Quad& quad : mesh.quads) least = std::min(least, scaled_jacobian(mesh.points, quad));
-    return least;
-}
-
 } // namespace
 
 std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region)
@@ -102,7 +95,8 @@ std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region)
     // Means of nodes that smoothing left nearly where their images are do not make quads worse, but may
     // where it stopped early.
     constexpr double kWorse = 0.01; // a choice, not a measurement
-    if (least_jacobian(made) < least_jacobian(mesh) - kWorse) return 1;
+    const double before = least_scaled_jacobian(mesh.points, mesh.quads);
+    if (least_scaled_jacobian(made.points, made.quads) < before - kWorse) return 1;
     mesh = std::move(made);
     return symmetries.size() + 1;
 }

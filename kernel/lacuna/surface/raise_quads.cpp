@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/raise_quads.h>
 
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/pattern_search.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/mesh/incidence.h>
 #include <lacuna/surface/edge_nodes.h>
@@ -62,16 +63,7 @@ public:
         grounds_.resize(freedom_.faces.size());
         quads_at_ = mesh::quads_at_nodes(mesh_.quads, nodes_.size());
         restless_.assign(nodes_.size(), 1);
-        least_side_.assign(nodes_.size(), std::numeric_limits<double>::infinity());
-        for (const Quad& quad : mesh_.quads) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const std::size_t a = index(quad[k]), b = index(quad[(k + 1) % 4]);
-                if (a == b) continue;
-                const double side = kShortest * (nodes_[a] - nodes_[b]).norm();
-                least_side_[a] = std::min(least_side_[a], side);
-                least_side_[b] = std::min(least_side_[b], side);
-            }
-        }
+        for (std::size_t p = 0; p < nodes_.size(); ++p) least_side_.push_back(kShortest * shortest_side(p));
         const std::vector<Vec3> before = nodes_;
         for (int round = 0; round < kRounds; ++round) {
             check_cancelled(context_);
@@ -137,23 +129,33 @@ private:
     struct Star {
         std::vector<std::size_t> quads;
         std::vector<Vec3> normals;
-        double shortest = 0; ///< side
+        double shortest = 0; ///< side at the node
     };
+
+    /// Of the sides that end at a node.
+    [[nodiscard]] double shortest_side(std::size_t p) const
+    {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Index q : quads_at_.of(p)) {
+            const Quad& quad = mesh_.quads[index(q)];
+            const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
+                                                    quad.begin());
+            for (const std::size_t next : {(k + 1) % 4, (k + 3) % 4})
+                shortest = std::min(shortest, (nodes_[index(quad[next])] - nodes_[p]).norm());
+        }
+        return shortest;
+    }
 
     [[nodiscard]] std::optional<Star> star_of(std::size_t p) const
     {
         Star star;
-        star.shortest = std::numeric_limits<double>::infinity();
+        star.shortest = shortest_side(p);
         std::map<Index, Vec3> of_face;
         for (const Index q : quads_at_.of(p)) {
             const Quad& quad = mesh_.quads[index(q)];
             if (mesh::is_triangle(quad)) return {};
             star.quads.push_back(index(q));
             of_face.try_emplace(mesh_.face[index(q)], Vec3::Zero()).first->second += area_of(index(q));
-            const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
-                                                    quad.begin());
-            for (const std::size_t next : {(k + 1) % 4, (k + 3) % 4})
-                star.shortest = std::min(star.shortest, (nodes_[index(quad[next])] - nodes_[p]).norm());
         }
         for (const std::size_t q : star.quads) star.normals.push_back(of_face.at(mesh_.face[q]));
         return star;
@@ -168,17 +170,7 @@ private:
     }
 
     /// Whether a node is as far from its neighbours as it has to stay.
-    [[nodiscard]] bool keeps_apart(std::size_t p, const Star& star) const
-    {
-        return std::ranges::all_of(star.quads, [&](std::size_t q) {
-            const Quad& quad = mesh_.quads[q];
-            const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
-                                                    quad.begin());
-            return std::ranges::all_of(std::array{(k + 1) % 4, (k + 3) % 4}, [&](std::size_t next) {
-                return (nodes_[index(quad[next])] - nodes_[p]).norm() >= least_side_[p];
-            });
-        });
-    }
+    [[nodiscard]] bool keeps_apart(std::size_t p) const { return shortest_side(p) >= least_side_[p]; }
 
     bool raise_round()
     {
@@ -235,7 +227,7 @@ private:
                     const Vec3 old = nodes_[p];
                     nodes_[p] = geometry::point_at(line.points, line.arc, to * length);
                     const double found = worst_of(star);
-                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p, star)) {
+                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p)) {
                         best = found;
                         at[i] = to;
                         better = true;
@@ -270,29 +262,22 @@ private:
         if (!(normal.squaredNorm() > 0)) return false;
         const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u), start = nodes_[p];
         const double before = worst_of(star);
-        double best = before;
-        for (double step = kFirst * star.shortest; step > kLast * star.shortest; step /= 2) {
-            for (bool better = true; better;) {
-                better = false;
-                const Vec3 from = nodes_[p];
-                for (int way = 0; way < 8; ++way) {
-                    const double angle = way * std::atan(1.0);
-                    const Vec3 old = nodes_[p];
-                    nodes_[p] = from + step * (std::cos(angle) * u + std::sin(angle) * v);
-                    if (!ground.flat) nodes_[p] = ground.tree->closest(nodes_[p]).point;
-                    const double found = worst_of(star);
-                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p, star)) {
-                        best = found;
-                        better = true;
-                    } else {
-                        nodes_[p] = old;
-                    }
-                }
-            }
-        }
-        if (best > before + kWorthIt) return true;
-        nodes_[p] = start;
-        return false;
+        const auto place = [&](const Vec2& to) {
+            nodes_[p] = start + to.x() * u + to.y() * v;
+            if (!ground.flat) nodes_[p] = ground.tree->closest(nodes_[p]).point;
+        };
+        const auto value = [&](const Vec2& to, double /*floor*/) {
+            place(to);
+            return keeps_apart(p) ? worst_of(star) : -std::numeric_limits<double>::infinity();
+        };
+        Vec2 at(0, 0);
+        const geometry::PatternSteps steps{star.shortest, kFirst, kLast, kLeastGain};
+        const bool better = geometry::pattern_search(at, before, steps, value) > before + kWorthIt;
+        if (better)
+            place(at);
+        else
+            nodes_[p] = start;
+        return better;
     }
 
     /// Nodes that moved go to the exact edges and faces; where the worst quad around them is worse there than

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace lacuna::quads {
+namespace lacuna::geometry {
 
 /// Steps of `pattern_search()`.
 struct PatternSteps {
@@ -45,4 +45,4 @@ double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Val
     return best;
 }
 
-} // namespace lacuna::quads
+} // namespace lacuna::geometry
