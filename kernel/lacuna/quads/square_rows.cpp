@@ -156,28 +156,34 @@ private:
         const Vec2 start = at(p);
         const double floor = std::min(floor_, least_sine(mesh_.points, star, start));
         Vec2& here = mesh_.points[index(p)];
-        const auto value = [&](const Vec2& to, double /*floor*/) {
-            if (least_sine(mesh_.points, star, to) < floor) return -std::numeric_limits<double>::infinity();
-            const Vec2 kept = here;
-            here = to;
+        const auto cost_above = [&](double bound) {
             double cost = 0;
             for (const Index row : of_node_[index(p)]) cost += cost_of(rows_[index(row)]);
-            for (const Spoke& spoke : star) cost += kShape * shape_of(p, spoke);
+            for (std::size_t i = 0; i < star.size() && cost < bound; ++i)
+                cost += kShape * shape_of(p, star[i]);
+            return cost;
+        };
+        const auto value = [&](const Vec2& to, double least) {
+            const Vec2 kept = here;
+            here = to;
+            const double cost = cost_above(-least);
             here = kept;
-            return -cost;
+            return cost < -least && least_sine(mesh_.points, star, to) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, value(start, 0), {side, kFirst, kLast, 0}, value);
+        geometry::pattern_search(x, -cost_above(std::numeric_limits<double>::infinity()),
+                                 {side, kFirst, kLast, 0}, value);
         here = x;
         return (x - start).norm() / side;
     }
 
-    /// Sum over a quad's corners of (|a|² + |b|²) / 2 (a × b) - 1: none for a square.
+    /// Sum over the corners of a quad that change when `p` moves of (|a|² + |b|²) / 2 (a × b) - 1: none for a
+    /// square.
     [[nodiscard]] double shape_of(Index p, const Spoke& spoke) const
     {
         const std::array<Vec2, 4> q{at(p), at(spoke.next), at(spoke.across), at(spoke.before)};
         double sum = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
+        for (const std::size_t k : {0U, 1U, 3U}) {
             const Vec2 a = q[(k + 1) % 4] - q[k], b = q[(k + 3) % 4] - q[k];
             sum += (a.squaredNorm() + b.squaredNorm()) / (2 * cross(a, b)) - 1;
         }
@@ -200,7 +206,7 @@ std::size_t square_rows(PlanarQuads& mesh, const PlanarRegion& region)
     // measurements.
     constexpr double kLess = 0.004, kLessOfSize = 0.02;
     constexpr int kRounds = 12, kIdle = 3; // idle ones bring no row more
-    constexpr double kStill = 1e-3;        // of a side: no more is gained
+    constexpr double kStill = 0.03;        // of a side: no more is gained
     const PlaneQuality before = measure_plane(mesh, region);
     if (before.good_rows == before.rows) return 0;
     PlanarQuads made = mesh;
