@@ -96,6 +96,8 @@ def judge(ours, theirs, asked):
     bars = {"valid": ours["fault"] == "" and ours["triangles"] == 0}
     if asked >= 120:
         bars["row"] = ours["row_share"] >= 0.95
+        # Sharp and blunt corners leave no quad a right one: how it stands beside what they allow.
+        bars["row of possible"] = ours["row_share"] >= 0.95 * ours["possible_row_share"]
         bars["size"] = ours["size_share"] >= 0.95
     if ours["mesher"] == "source":
         bars["count"] = 0.75 * asked <= ours["quads"] <= 1.25 * asked

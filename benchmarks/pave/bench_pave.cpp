@@ -82,10 +82,11 @@ void report(const char* domain, const char* mesher, const quads::PlaneQuality& q
         "{\"domain\": \"%s\", \"mesher\": \"%s\", \"quads\": %zu, \"triangles\": %zu, \"seconds\": %.4f, "
         "\"min_scaled_jacobian\": %.4f, \"mean_scaled_jacobian\": %.4f, \"irregular\": %zu, "
         "\"irregular_share\": %.5f, \"boundary_irregular\": %zu, \"row_share\": %.4f, "
-        "\"size_share\": %.4f, \"mean_edge_ratio\": %.4f, %s\"fault\": \"%s\"}\n",
+        "\"possible_row_share\": %.4f, \"size_share\": %.4f, \"mean_edge_ratio\": %.4f, %s\"fault\": "
+        "\"%s\"}\n",
         domain, mesher, q.quads, triangles, time, q.min_scaled_jacobian, q.mean_scaled_jacobian, q.irregular,
-        q.irregular_share(), q.boundary_irregular, q.row_share(), q.size_share(), q.mean_edge_ratio,
-        more.c_str(), fault.c_str());
+        q.irregular_share(), q.boundary_irregular, q.row_share(), q.possible_row_share(), q.size_share(),
+        q.mean_edge_ratio, more.c_str(), fault.c_str());
 }
 
 /// The JSON member of a number, with a comma after it.
@@ -162,6 +163,7 @@ void add_to(quads::PlaneQuality& sum, const quads::PlaneQuality& q)
     sum.boundary_irregular += q.boundary_irregular;
     sum.rows += q.rows;
     sum.good_rows += q.good_rows;
+    sum.possible_rows += q.possible_rows;
     sum.edges += q.edges;
     sum.edges_of_size += q.edges_of_size;
 }

@@ -62,6 +62,26 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("what rows a corner's angle allows holds for all meshes of the sector")
+{
+    for (const double degrees : {30, 65, 75, 90, 105, 115, 130, 140, 180, 220, 240, 300}) {
+        CAPTURE(degrees);
+        const double angle = degrees * std::numbers::pi / 180;
+        const bool sharp = degrees<70, blunt = degrees> 110 && degrees < 135;
+        CHECK(quads::may_be_good(angle) == !(sharp || blunt));
+        CHECK(quads::may_be_good(angle, 1) == (degrees >= 70 && degrees <= 110));
+        // A grid on two sides of the corner has rows for all sides but, at most, those of sharp corners.
+        if (degrees >= 180) continue;
+        PlaneGrid grid = test::plane_grid(4, 3);
+        test::map(grid, [&](const Vec2& p) {
+            return Vec2(p.x() + p.y() * std::cos(angle), p.y() * std::sin(angle));
+        });
+        const quads::PlaneQuality q = quads::measure_plane(grid.mesh, grid.region);
+        CHECK(q.possible_rows >= q.good_rows);
+        CHECK((q.possible_rows == q.rows) == (degrees >= 70 && degrees <= 110));
+    }
+}
+
 TEST_CASE("rows and edges are judged by the size asked")
 {
     for (const double height : {0.5, 0.65, 0.75, 1.0, 1.25, 1.35, 1.7}) {

@@ -137,6 +137,20 @@ double row_corner(double angle, Index quads)
     return quads == 2 && std::abs(angle - 2 * kRight) <= kMostBend ? angle / 2 : kRight;
 }
 
+bool may_be_good(double angle, Index quads)
+{
+    return std::abs(angle / static_cast<double>(quads) - row_corner(angle, quads)) <= kRowOffRight;
+}
+
+bool may_be_good(double angle)
+{
+    constexpr Index kMostQuads = 4; // in a full turn
+    for (Index quads = 1; quads <= kMostQuads; ++quads) {
+        if (may_be_good(angle, quads)) return true;
+    }
+    return false;
+}
+
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
 {
     PlaneQuality result;
@@ -148,12 +162,14 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
     }
     std::vector<char> on_boundary(mesh.points.size(), 0);
     std::vector<double> wanted(mesh.points.size(), kRight);
+    std::vector<char> possible(mesh.points.size(), 1);
     const std::vector<double> angles = boundary_angles(region);
     std::size_t node = 0;
     for (const std::vector<Index>& loop : region.loops) {
         for (const Index p : loop) {
             on_boundary[index(p)] = 1;
-            wanted[index(p)] = row_corner(angles[node++], valence[index(p)]);
+            wanted[index(p)] = row_corner(angles[node], valence[index(p)]);
+            possible[index(p)] = may_be_good(angles[node++]) ? 1 : 0;
         }
     }
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
@@ -176,6 +192,8 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
             if (length >= kShortestOfSize * asked && length <= kLongestOfSize * asked) ++result.edges_of_size;
             if (other != mesh::kRimSide) continue;
             ++result.rows;
+            if (possible[index(quad[k])] != 0 && possible[index(quad[(k + 1) % 4])] != 0)
+                ++result.possible_rows;
             if (stands_well(mesh.points, quad, k, asked, wanted[index(quad[k])],
                             wanted[index(quad[(k + 1) % 4])]))
                 ++result.good_rows;

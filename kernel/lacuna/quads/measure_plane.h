@@ -32,12 +32,15 @@ struct PlaneQuality {
     std::size_t boundary_irregular = 0; ///< boundary nodes whose quads are not as many as right angles fit in
     std::size_t rows = 0;               ///< boundary sides
     std::size_t good_rows = 0;          ///< of them, those with a good row quad, see `measure_plane()`
+    std::size_t possible_rows = 0;      ///< boundary sides with both ends where `may_be_good()` holds
     std::size_t edges = 0;
     std::size_t edges_of_size = 0; ///< of them, those 0.6 to 1.6 times as long as asked; all without a size
     double mean_edge_ratio = 1;    ///< edge length over asked size, mean; 1 without a size
 
     [[nodiscard]] double irregular_share() const { return share(irregular, interior); }
     [[nodiscard]] double row_share() const { return rows == 0 ? 1 : share(good_rows, rows); }
+    /// The share of good rows that the outline's corners allow.
+    [[nodiscard]] double possible_row_share() const { return rows == 0 ? 1 : share(possible_rows, rows); }
     [[nodiscard]] double size_share() const { return edges == 0 ? 1 : share(edges_of_size, edges); }
 
 private:
@@ -60,6 +63,13 @@ inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3
 /// @param angle  inside the region [radian].
 /// @param quads  at the node.
 double row_corner(double angle, Index quads);
+
+/// Whether so many quads at a boundary node can all have corners there within kRowOffRight of what is wanted
+/// of row quads: not one in a corner below 70° or above 110°, say.
+/// @param angle  inside the region [radian].
+bool may_be_good(double angle, Index quads);
+/// The same of any number of quads.
+bool may_be_good(double angle);
 
 /// Measure quads over a region.
 ///

@@ -54,12 +54,14 @@ private:
     void collect(const PlanarRegion& region)
     {
         std::vector<double> wanted(fixed_, 0);
+        std::vector<char> possible(fixed_, 0);
         const std::vector<double> angles = boundary_angles(region);
         std::size_t node = 0;
         for (const auto& loop : region.loops) {
             for (const Index p : loop) {
                 const auto quads = static_cast<Index>(stars_[index(p)].size());
-                wanted[index(p)] = row_corner(angles[node++], quads);
+                wanted[index(p)] = row_corner(angles[node], quads);
+                possible[index(p)] = may_be_good(angles[node++], quads) ? 1 : 0;
             }
         }
         const std::vector<Index> opposite = mesh::opposite_sides(mesh_.quads,
@@ -69,6 +71,7 @@ private:
             if (opposite[side] != mesh::kRimSide) continue;
             const Quad& quad = mesh_.quads[side / 4];
             const std::size_t k = side % 4;
+            if (possible[index(quad[k])] == 0 || possible[index(quad[(k + 1) % 4])] == 0) continue;
             RowSide row{quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4], quad[(k + 3) % 4], {}, {}, 0};
             const double length = (at(row.b) - at(row.a)).norm();
             row.along = (at(row.b) - at(row.a)) / length;
