@@ -4,12 +4,12 @@
 #include <lacuna/core/edge_key.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
+#include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 
 namespace lacuna::quads {
@@ -103,28 +103,11 @@ std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region)
 
 std::vector<std::size_t> segments_alike(const PlanarRegion& region, std::span<const int> segment)
 {
-    const auto of = [&](Index p) { return static_cast<std::size_t>(segment[index(p)]); };
     std::size_t count = 0;
     for (const int s : segment) count = std::max(count, static_cast<std::size_t>(s) + 1);
     geometry::UnionFind sets(count);
-    constexpr auto kNone = std::numeric_limits<std::size_t>::max();
-    for (const Symmetry& symmetry : outline_symmetries(region)) {
-        std::vector<std::size_t> onto(count, kNone), from(count, kNone);
-        bool maps = true;
-        for (const auto& loop : region.loops) {
-            for (std::size_t i = 0, n = loop.size(); i < n && maps; ++i) {
-                // A mirroring takes the side's end to where the image starts.
-                const Index start = symmetry.map.mirrors ? loop[(i + 1) % n] : loop[i];
-                const std::size_t own = of(loop[i]), image = of(symmetry.to[index(start)]);
-                maps = (onto[own] == kNone || onto[own] == image) &&
-                       (from[image] == kNone || from[image] == own);
-                onto[own] = image;
-                from[image] = own;
-            }
-        }
-        for (std::size_t s = 0; maps && s < count; ++s) {
-            if (onto[s] != kNone) sets.unite_least(s, onto[s]);
-        }
+    for (const SegmentSymmetry& symmetry : segment_symmetries(region, segment)) {
+        for (std::size_t s = 0; s < count; ++s) sets.unite_least(s, symmetry.onto[s]);
     }
     std::vector<std::size_t> least(count);
     for (std::size_t s = 0; s < count; ++s) least[s] = sets.find(s);

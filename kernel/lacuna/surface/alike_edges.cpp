@@ -59,4 +59,49 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
     return alike;
 }
 
+namespace {
+
+void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
+{
+    constexpr double kSame = 0.01; // share by which those may differ; a choice, not a measurement
+    for (std::vector<EdgeId>& set : alike_edges(model, face)) {
+        double sum = 0;
+        bool same = true;
+        for (const EdgeId edge : set) {
+            const SeedPiece& piece = seeds.pieces.at(edge).front();
+            same = same && seeds.pieces.at(edge).size() == 1 && !piece.fixed && piece.low.empty() &&
+                   piece.high.empty();
+            sum += piece.sides;
+        }
+        const double mean = sum / static_cast<double>(set.size());
+        for (const EdgeId edge : set)
+            same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kSame * mean;
+        if (!same) continue;
+        // What is not the same by rounding alone must not round to different numbers.
+        int most = 1, least = 1;
+        for (const EdgeId edge : set) {
+            most = std::max(most, seeds.pieces.at(edge).front().count);
+            least = std::max(least, seeds.pieces.at(edge).front().least);
+        }
+        for (const EdgeId edge : set) {
+            SeedPiece& piece = seeds.pieces.at(edge).front();
+            piece.sides = mean;
+            piece.count = most;
+            piece.least = least;
+        }
+        alike[face].push_back(std::move(set));
+    }
+}
+
+} // namespace
+
+AlikeEdges ask_alike(Seeds& seeds, const Model& model, std::span<const FaceId> faces)
+{
+    AlikeEdges alike;
+    for (const FaceId face : faces) {
+        if (!seeds.kept.contains(face)) ask_alike(seeds, model, face, alike);
+    }
+    return alike;
+}
+
 } // namespace lacuna::surface

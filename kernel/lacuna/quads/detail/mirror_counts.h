@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/quads/detail/counted_loop.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
-#include <lacuna/quads/pattern_counts.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
 
 namespace lacuna::quads {
+
+/// Numbers of sides for the part of a symmetric region between mirror axes, and so for all of its images.
+/// @return those with which a grid fills the part or, where there are none, the numbers wanted, rounded;
+///         nothing where no axis may be cut along.
+std::optional<std::vector<int>> mirror_counts(const CountTask& task);
 
 /// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does; where
 /// there are none, those of the size with an even number round the part.

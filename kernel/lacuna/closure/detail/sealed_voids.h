@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/readings.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// A reading of the given faces, sealed.
+struct Sealed : SealedVolume {
+    double enclosed = 0; ///< [model length³]
+};
+
+/// One void, and the readings that enclose it.
+struct Void {
+    double cost = 0;                           ///< of its likeliest reading, and of what closing bends
+    topology::RoleCandidate first;             ///< by which it was sealed
+    Sealed sealed;                             ///< as that seals it
+    std::vector<topology::RoleCandidate> ways; ///< the likeliest first
+    bool fills_flat_loops = false;             ///< all that is missing
+    bool flat_filled = false;                  ///< sealed by flat faces within the free loops, by no roles
+};
+
+/// Some faces sealed by their roles; nothing where that cannot be done.
+/// @throw Cancelled
+std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
+                           const RunContext& context);
+
+/// Whether a void face leaves open how its inside bends.
+bool has_membranes(const Sealed& sealed);
+
+/// Readings of the given faces, sealed and sorted by what they enclose.
+/// @param most     as many are sealed
+/// @param settled  leave out those that close with a membrane, and count those that do not seal too
+std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
+                        std::size_t most, bool settled, const RunContext& context);
+
+/// The one void that readings without steps enclose, however unlikely, closed without a membrane; what of
+/// several is meant, nobody knows.
+std::optional<Void> settled_void(const topology::Model& model,
+                                 std::vector<topology::RoleCandidate> candidates, const RunContext& context);
+
+/// Add a void that flat faces close, unless it is one of those known: then that is closed by the fewer faces.
+/// Only those about as likely as the likeliest stay.
+void add_filled(std::vector<Void>& found, Void filled);
+
+} // namespace lacuna::closure

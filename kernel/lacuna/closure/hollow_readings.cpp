@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/hollow_readings.h>
+
+#include <lacuna/closure/detail/bowl.h>
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/void_sweeps.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& faces,
+                                 const RunContext& context)
+{
+    auto filled = fill_flat_loops(model, faces, context);
+    if (!filled) return std::nullopt;
+    auto bowl = part_bowl(filled->volume, context);
+    if (!bowl) return std::nullopt;
+    Reading reading;
+    Roles& roles = reading.roles.roles;
+    for (std::size_t f = 0; f < bowl->parent.size(); ++f) {
+        const std::size_t given = bowl->parent[f].index();
+        if (given >= faces.size()) continue;
+        const Role role = bowl->volume.role[f];
+        std::vector<FaceId>& list = role == Role::source   ? roles.source
+                                    : role == Role::target ? roles.target
+                                                           : roles.walls;
+        if (std::ranges::find(list, faces[given]) == list.end()) list.push_back(faces[given]);
+    }
+    reading.classification.value = filled->closure.void_faces.empty() ? VolumeClass::closed
+                                   : roles.target.empty()             ? VolumeClass::IV
+                                                                      : VolumeClass::III;
+    reading.classification.reasons.push_back(
+        "the bottom goes over into the walls smoothly; it is parted from them " +
+        with_digits(bowl->depth, 4) + " below " + name_of(bowl->volume.model, bowl->mouth) +
+        ", where it bends");
+    reading.roles.value = reading.classification.value;
+    reading.roles.reasons = reading.classification.reasons;
+    reading.volume = std::move(bowl->volume);
+    reading.closure = std::move(filled->closure);
+    reading.enclosed = enclosed_volume(reading.volume);
+    return reading;
+}
+
+std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>& faces,
+                                  const RunContext& context)
+{
+    const Roles walls{{}, {}, faces};
+    std::vector<FaceId> low, high;
+    try {
+        OpenVolume open = open_volume(model, walls, context); // numbers the faces as they are listed
+        if (free_loops(open).size() != 2 || connected_parts(open.model, open.faces(Role::wall)).size() != 1)
+            return std::nullopt;
+        const EndLoops ends = group_loops(open);
+        low = floors_round(open, ends.source);
+        high = floors_round(open, ends.target);
+    } catch (const InvalidInput&) {
+        return std::nullopt; // other readings say why, or get on without
+    }
+    if (low.empty() == high.empty()) return std::nullopt; // two floors are the ends of a ring
+    const std::optional<Sealed> sealed = seal(model, walls, context);
+    if (!sealed) return std::nullopt;
+    Reading reading;
+    reading.volume = sealed->volume;
+    reading.closure = sealed->closure;
+    reading.enclosed = sealed->enclosed;
+    if (low.empty()) {
+        for (Role& role : reading.volume.role)
+            role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;
+    }
+    Roles& roles = reading.roles.roles;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        (reading.volume.role[f] == Role::source ? roles.source : roles.walls).push_back(faces[f]);
+    reading.classification = class_as_given(model, roles);
+    reading.roles.value = reading.classification.value;
+    reading.roles.reasons.push_back(name_of(model, roles.source.front()) +
+                                    " is a floor round a narrower bore, and the bore is closed there");
+    return reading;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/sealed_voids.h>
+
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/steps.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// And as many are tried where one closes with a membrane. For the time: bent faces take long to close.
+constexpr std::size_t kMostSettled = 3;
+/// Volumes that differ by less than this share of the larger are as large: what chords leave out of round
+/// faces, and more.
+constexpr double kSameVolume = 5e-3;
+/// And skins lie on each other where they are no further apart than this share of the cube root of what they
+/// enclose. A choice, not a measurement.
+constexpr double kSameSkin = 0.02;
+/// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
+/// likelier. A choice, not a measurement.
+constexpr double kBentVoid = 0.5;
+
+/// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
+/// several loops.
+bool fills_each_loop(const OpenVolume& open, std::size_t loops)
+{
+    const Classification found = classify(open);
+    switch (found.value) {
+    case VolumeClass::closed:
+        return true;
+    case VolumeClass::III: // every vertex of both ends is on a wall, which leads to the other
+        return found.wall_free_source.empty() && found.wall_free_target.empty();
+    case VolumeClass::IV:
+        return loops == 1;
+    case VolumeClass::V:
+        return loops == 2;
+    default:
+        return false;
+    }
+}
+
+/// The void faces of a volume.
+geometry::FacetTree void_facets(const Sealed& sealed)
+{
+    std::vector<Triangle> facets;
+    for (const FaceId face : sealed.closure.void_faces) {
+        const std::vector<Triangle>& own = sealed.volume.model[face].triangles;
+        facets.insert(facets.end(), own.begin(), own.end());
+    }
+    return {sealed.volume.model.points, facets};
+}
+
+/// Whether the corners and the middles of one volume's void facets lie near those of another.
+bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near)
+{
+    const Model& model = sealed.volume.model;
+    const auto on = [&](const Vec3& p) { return other.closest(p, near * near).triangle >= 0; };
+    for (const FaceId face : sealed.closure.void_faces) {
+        for (const Triangle& t : model[face].triangles) {
+            if (!on((model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3)) return false;
+            for (const Index p : t)
+                if (!on(model.at(p))) return false;
+        }
+    }
+    return true;
+}
+
+bool enclose_the_same(const Sealed& a, const Sealed& b)
+{
+    const double larger = std::max(a.enclosed, b.enclosed);
+    if (std::abs(a.enclosed - b.enclosed) > kSameVolume * larger) return false;
+    const double near = kSameSkin * std::cbrt(larger);
+    return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
+}
+
+/// Whether a reading only fills flat free loops, which any other that does fills alike.
+bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& context)
+{
+    try {
+        const OpenVolume open = open_volume(model, roles, context);
+        const std::vector<Rim> loops = free_loops(open);
+        return fills_each_loop(open, loops.size()) &&
+               std::all_of(loops.begin(), loops.end(),
+                           [&](const Rim& rim) { return is_flat(open.model, rim); });
+    } catch (const InvalidInput&) {
+        return false; // sealing it says no as well
+    }
+}
+
+/// How unlikely a void is: by its ends, and by how far its void faces are from flat.
+double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
+{
+    const Model& model = sealed.volume.model;
+    double bent = 0, whole = 0;
+    for (const FaceId face : sealed.closure.void_faces) {
+        const double area = face_area(model, face);
+        // As ends are judged: four times, so that 90° costs 0.4 of what a half turn does.
+        bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
+        whole += area;
+    }
+    return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
+}
+
+void keep_likely(std::vector<Void>& found)
+{
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Void& a, const Void& b) { return a.cost < b.cost; });
+    std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
+        return v.cost > least + RoleOptions{}.margin;
+    });
+}
+
+} // namespace
+
+std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
+{
+    try {
+        Sealed sealed;
+        sealed.volume = open_volume(model, roles, context);
+        if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
+            sealed.match = matching::match(sealed.volume, {}, context);
+        sealed.closure = close(sealed.volume, sealed.match, {.hints = false}, context);
+        sealed.enclosed = enclosed_volume(sealed.volume);
+        return sealed;
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    } catch (const NotClosed&) {
+        return std::nullopt;
+    }
+}
+
+bool has_membranes(const Sealed& sealed)
+{
+    return !membranes(sealed.volume.model, sealed.closure.void_faces).empty();
+}
+
+std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
+                        bool settled, const RunContext& context)
+{
+    std::vector<Void> found;
+    std::size_t sealed = 0;
+    for (const RoleCandidate& candidate : candidates) {
+        check_cancelled(context);
+        const bool flat = fills_flat_loops(model, candidate.roles, context);
+        const auto filled = std::find_if(found.begin(), found.end(),
+                                         [&](const Void& v) { return flat && v.fills_flat_loops; });
+        if (filled != found.end()) {
+            filled->ways.push_back(candidate);
+            continue;
+        }
+        if (sealed == most) break;
+        std::optional<Sealed> now = seal(model, candidate.roles, context);
+        if (now || settled) ++sealed;
+        if (!now || (settled && has_membranes(*now))) continue;
+        auto same = std::find_if(found.begin(), found.end(),
+                                 [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
+        if (same == found.end())
+            same = found.insert(found.end(),
+                                Void{cost_of(candidate, *now), candidate, std::move(*now), {}, false});
+        same->ways.push_back(candidate);
+
+        same->fills_flat_loops = same->fills_flat_loops || flat;
+    }
+    keep_likely(found);
+    return found;
+}
+
+std::optional<Void> settled_void(const Model& model, std::vector<RoleCandidate> candidates,
+                                 const RunContext& context)
+{
+    std::erase_if(candidates, [&](const RoleCandidate& candidate) {
+        return connected_parts(model, candidate.roles.source).size() > 1 ||
+               connected_parts(model, candidate.roles.target).size() > 1;
+    });
+    std::vector<Void> found = voids(model, candidates, kMostSettled, true, context);
+    if (found.size() != 1 || has_steps(found.front().sealed.volume, context)) return std::nullopt;
+    return std::move(found.front());
+}
+
+void add_filled(std::vector<Void>& found, Void filled)
+{
+    const auto known = std::ranges::find_if(
+        found, [&](const Void& v) { return enclose_the_same(v.sealed, filled.sealed); });
+    if (known == found.end()) {
+        found.push_back(std::move(filled));
+    } else if (filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
+        known->first = std::move(filled.first);
+        known->sealed = std::move(filled.sealed);
+        known->flat_filled = true;
+    }
+    keep_likely(found);
+}
+
+} // namespace lacuna::closure

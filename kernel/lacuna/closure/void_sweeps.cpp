@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/void_sweeps.h>
+
+#include <lacuna/closure/steps.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// As many other ways to sweep a void are kept. A choice: each may cost as much as the first.
+constexpr std::size_t kMostOthers = 3;
+
+/// Whether a way over a closed skin can be swept in pieces, where an end lies at several heights.
+bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
+{
+    OpenVolume volume{skin, std::vector<Role>(skin.faces.size(), Role::wall), {}, false};
+    for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
+    for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
+    try {
+        if (has_steps(volume, context)) cut_steps(volume, context);
+        return true;
+    } catch (const NotSweepable&) {
+        return false;
+    }
+}
+
+/// The faces of a sealed volume that were given, as the model knows them, and whether there are others.
+struct GivenPart {
+    std::vector<FaceId> faces; ///< rising
+    bool all = true;
+};
+
+GivenPart given_part(const std::vector<FaceId>& faces, const std::vector<FaceId>& as_named)
+{
+    GivenPart part;
+    for (const FaceId face : faces) {
+        if (face.index() < as_named.size())
+            part.faces.push_back(as_named[face.index()]);
+        else
+            part.all = false;
+    }
+    std::sort(part.faces.begin(), part.faces.end());
+    return part;
+}
+
+/// The ends of a way over a sealed skin, as the model knows them.
+struct Ends {
+    GivenPart source, target;
+};
+
+std::vector<FaceId> rising(std::vector<FaceId> faces)
+{
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+std::string ways_in_words(const Reading& reading)
+{
+    if (reading.ways == 1) return {};
+    return std::to_string(reading.ways) + " readings enclose the same volume, " +
+           with_digits(reading.enclosed, 4) +
+           "; of the likely ones this is swept with the fewest irregular nodes, " +
+           std::to_string(reading.roles.irregular) + " on its source at least, and the most even cells";
+}
+
+/// Open a volume by roles of the model's faces.
+void take_open(const Model& model, RoleCandidate roles, Reading& reading, const RunContext& context)
+{
+    reading.volume = open_volume(model, roles.roles, context);
+    reading.classification = classify(reading.volume);
+    reading.roles = std::move(roles);
+}
+
+/// Whether a reading of the given faces has these ends, whichever is the source.
+bool has_ends(const RoleCandidate& way, const Ends& ends)
+{
+    for (const GivenPart* end : {&ends.source, &ends.target})
+        if (!end->all && !end->faces.empty()) return false; // given faces and others in one end
+    const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
+    return (s == ends.source.faces && t == ends.target.faces) ||
+           (t == ends.source.faces && s == ends.target.faces);
+}
+
+/// Of sweeps as good as each other that with open ends first, both or one: what is missing is how one gets
+/// into a bore or a pocket. Then those whose ends were given, then those between faces that closing makes.
+std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
+{
+    const auto same = std::find_if(ways.begin(), ways.end(),
+                                   [&](const RoleCandidate& way) { return has_ends(way, ends); });
+    if (same == ways.end()) return 3;
+    return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
+}
+
+/// Take the best of the ways to sweep a void out of the rest, which come first as they are the better.
+RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
+                        const std::function<Ends(const RoleCandidate&)>& ends_of,
+                        const std::vector<RoleCandidate>& ways)
+{
+    const auto end = std::find_if(sweeps.begin(), sweeps.end(), [&](const RoleCandidate& way) {
+        return way.irregular > sweeps.front().irregular;
+    });
+    const auto best = std::min_element(sweeps.begin(), end,
+                                       [&](const RoleCandidate& a, const RoleCandidate& b) {
+                                           return openness(ends_of(a), ways) < openness(ends_of(b), ways);
+                                       });
+    RoleCandidate taken = std::move(*best);
+    sweeps.erase(best);
+    if (sweeps.size() > kMostOthers) sweeps.resize(kMostOthers);
+    return taken;
+}
+
+} // namespace
+
+std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& context)
+{
+    const auto fails = [&](const RoleCandidate& way) { return !can_be_cut(skin, way.roles, context); };
+    const RoleOptions near;
+    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), near, context);
+    const bool any = !all.empty();
+    std::erase_if(all, fails);
+    if (any && all.empty()) { // the likeliest cannot be swept; what comes after them may
+        RoleOptions far;
+        far.margin = std::numeric_limits<double>::infinity();
+        all = role_candidates(skin, all_faces(skin), far, context);
+        all.erase(all.begin(), std::ranges::find_if_not(all, fails));
+        std::erase_if(all, [&, least = all.empty() ? 0 : all.front().cost](const RoleCandidate& way) {
+            return way.cost > least + near.margin || fails(way);
+        });
+    }
+    std::stable_sort(all.begin(), all.end(), [](const RoleCandidate& a, const RoleCandidate& b) {
+        return a.irregular < b.irregular;
+    });
+    return all;
+}
+
+Classification class_as_given(const Model& model, const Roles& roles)
+{
+    OpenVolume open;
+    std::vector<FaceId> faces;
+    for (const auto& [list, role] : {std::pair{&roles.source, Role::source},
+                                     {&roles.target, Role::target},
+                                     {&roles.walls, Role::wall}}) {
+        faces.insert(faces.end(), list->begin(), list->end());
+        open.role.insert(open.role.end(), list->size(), role);
+    }
+    open.model = extract(model, faces);
+    orient_consistently(open.model);
+    Classification found = classify(open);
+    return found;
+}
+
+void set_ends(OpenVolume& volume, const Roles& roles)
+{
+    std::fill(volume.role.begin(), volume.role.end(), Role::wall);
+    for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
+    for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
+    volume.turned_round = false;
+}
+
+std::optional<Reading> read(const Model& model, const std::vector<Void>& likelier, Void& found,
+                            const RunContext& context)
+{
+    Reading reading;
+    reading.enclosed = found.sealed.enclosed;
+    reading.ways = std::max<std::size_t>(1, found.ways.size());
+    const RoleCandidate& first = found.first;
+    std::vector<FaceId> as_named = first.roles.source; // in the order open_volume() takes them
+    as_named.insert(as_named.end(), first.roles.target.begin(), first.roles.target.end());
+    as_named.insert(as_named.end(), first.roles.walls.begin(), first.roles.walls.end());
+    std::vector<RoleCandidate> sweeps;
+    // Two ends alone were given as such.
+    if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
+    if (sweeps.empty()) {
+        take_open(model, first, reading, context);
+        reading.sealed = std::move(found.sealed);
+        return reading;
+    }
+    const auto ends_of = [&](const RoleCandidate& way) {
+        return Ends{given_part(way.roles.source, as_named), given_part(way.roles.target, as_named)};
+    };
+    RoleCandidate best = take_best(sweeps, ends_of, found.ways);
+    auto [source, target] = ends_of(best);
+    if (source.faces.empty() && !target.faces.empty()) {
+        std::swap(source, target);
+        std::swap(best.roles.source, best.roles.target);
+    }
+    const auto is_same = [&](const RoleCandidate& way) { return has_ends(way, {source, target}); };
+    for (const Void* other = likelier.data(); other != &found; ++other) {
+        if (std::any_of(other->ways.begin(), other->ways.end(), is_same)) return std::nullopt;
+    }
+    const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
+    const long irregular = best.irregular;
+    if (!sweeps.empty())
+        reading.others = std::make_shared<const OtherSweeps>(
+            OtherSweeps{found.sealed.volume, found.sealed.closure, std::move(sweeps)});
+    if (same != found.ways.end()) {
+        const bool as_sealed = same == found.ways.begin() && !found.flat_filled &&
+                               !found.sealed.closure.void_faces.empty();
+        take_open(model, *same, reading, context);
+        if (as_sealed) reading.sealed = std::move(found.sealed);
+        reading.roles.irregular = irregular;
+    } else if (found.sealed.closure.void_faces.empty()) {
+        for (std::vector<FaceId>* list : {&best.roles.source, &best.roles.target, &best.roles.walls})
+            *list = given_part(*list, as_named).faces;
+        take_open(model, std::move(best), reading, context);
+    } else {
+        reading.volume = std::move(found.sealed.volume);
+        reading.closure = std::move(found.sealed.closure);
+        set_ends(reading.volume, best.roles);
+        reading.roles = std::move(best);
+        reading.roles.roles = {source.faces, target.faces,
+                               given_part(reading.roles.roles.walls, as_named).faces};
+        reading.classification = class_as_given(model, reading.roles.roles);
+        reading.roles.value = reading.classification.value;
+        const std::string how = found.flat_filled ? "sealed by flat faces within its free loops"
+                                                  : "sealed as " + in_words(model, first.roles, first.value);
+        reading.roles.reasons.push_back(how + ", and swept between faces that closing made");
+    }
+    if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
+    return reading;
+}
+
+} // namespace lacuna::closure

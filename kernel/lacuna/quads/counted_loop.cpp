@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/counted_loop.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::quads {
+namespace {
+
+double cost_of(const CountedRun& run, int count)
+{
+    const double off = count - run.wanted;
+    return count > 0 ? off * off / count : std::numeric_limits<double>::infinity();
+}
+
+/// What a side of a run adds to the excess of sides one way over those back.
+std::array<int, 2> step_of(int quarter)
+{
+    std::array<int, 2> step{};
+    step[static_cast<std::size_t>(quarter % 2)] = quarter < 2 ? 1 : -1;
+    return step;
+}
+
+int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
+
+int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
+
+void add(CountedLoop& loop, CountedRun& run, int by)
+{
+    run.count += by;
+    const auto step = step_of(run.quarter);
+    for (std::size_t k = 0; k < 2; ++k) loop.excess[k] += by * step[k];
+}
+
+bool may_be(const CountTask& task, const CountedLoop& loop, const CountedRun& run, int count,
+            const CountRange& range)
+{
+    const BoundarySegment& own = task.segments[run.segment];
+    if (count < 1 || own.fixed) return count >= 1;
+    const int sides = sides_of(loop, run.segment) + count - run.count;
+    if (count < run.count && sides < own.least) return false;
+    const double off = sides / own.wanted;
+    return (off <= range.most && off >= range.least) || std::abs(sides - own.wanted) <= 1;
+}
+
+bool improves(const CountedLoop& loop, const CountedRun& run, int by, const CountedRun* other)
+{
+    std::array<int, 2> now = loop.excess;
+    for (std::size_t k = 0; k < 2; ++k) {
+        now[k] += by * step_of(run.quarter)[k];
+        if (other != nullptr) now[k] -= by * step_of(other->quarter)[k];
+    }
+    return badness(now) < badness(loop.excess);
+}
+
+double area_of(const PlanarRegion& region, const std::vector<Index>& loop)
+{
+    double twice = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 &a = region.points[static_cast<std::size_t>(loop[i])],
+                   &b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+        twice += a.x() * b.y() - a.y() * b.x();
+    }
+    return twice / 2;
+}
+
+/// The runs that a loop's headings divide its segments into.
+std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, double share)
+{
+    std::vector<CountedRun> runs;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::size_t s = task.segment_of(loop.nodes[i]);
+        const int quarter = quarter_of(loop.heading[i]);
+        auto run = std::find_if(runs.begin(), runs.end(),
+                                [&](const CountedRun& r) { return r.segment == s && r.quarter == quarter; });
+        if (run == runs.end()) run = runs.insert(run, {s, quarter, 0, 0});
+        run->wanted += share * task.segments[s].wanted / task.own[s];
+        ++run->count;
+    }
+    return runs;
+}
+
+} // namespace
+
+CountTask::CountTask(const PlanarRegion& of, std::span<const int> segment_of_side,
+                     std::span<const BoundarySegment> all)
+    : region(of), segment(segment_of_side), segments(all), own(all.size(), 0)
+{
+    for (const auto& loop : region.loops) {
+        for (const Index p : loop) ++own[segment_of(p)];
+    }
+}
+
+double mean_size(const CountTask& task)
+{
+    double length = 0, wanted = 0;
+    for (const auto& loop : task.region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &a = task.region.points[static_cast<std::size_t>(loop[i])],
+                       &b = task.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+            length += (b - a).norm();
+            wanted += task.segments[task.segment_of(loop[i])].wanted / task.own[task.segment_of(loop[i])];
+        }
+    }
+    return length / wanted;
+}
+
+double quads_asked(const CountTask& task)
+{
+    const PlanarRegion& region = task.region;
+    double area = 0, density = 0;
+    for (const auto& loop : region.loops) area += area_of(region, loop);
+    if (!region.size) {
+        const double size = mean_size(task);
+        return area / (size * size);
+    }
+    for (const Vec2& p : region.points)
+        density += 1 / (region.size(p) * region.size(p)) / static_cast<double>(region.points.size());
+    return area * density;
+}
+
+std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share)
+{
+    CountedLoop counted;
+    counted.runs = runs_of(task, loop, share);
+    counted.soft = static_cast<int>(std::count(loop.movable.begin(), loop.movable.end(), 1));
+    std::vector<Vec2> points = task.region.points;
+    std::vector<Quad> quads;
+    if (!lay_pattern_rows(loop, points, quads, [](const Vec2&) { return 1.0; })) return std::nullopt;
+    for (const int h : loop.heading) {
+        const int quarter = quarter_of(h);
+        const auto step = step_of(quarter);
+        for (std::size_t k = 0; k < 2; ++k) counted.excess[k] += step[k];
+        if (quarter < 2) ++counted.added[static_cast<std::size_t>(quarter)];
+    }
+    for (const CountedRun& run : counted.runs) {
+        if (run.quarter < 2) counted.added[static_cast<std::size_t>(run.quarter)] -= run.count;
+    }
+    for (CountedRun& run : counted.runs) {
+        counted.wanted += run.wanted;
+        if (!task.segments[run.segment].fixed)
+            add(counted, run, std::max(1, static_cast<int>(std::lround(run.wanted))) - run.count);
+    }
+    // Rounding may have left a segment of several runs with fewer than it needs.
+    for (CountedRun& run : counted.runs) {
+        const BoundarySegment& own = task.segments[run.segment];
+        if (!own.fixed && sides_of(counted, run.segment) < own.least) add(counted, run, 1);
+    }
+    return counted;
+}
+
+bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
+{
+    while (badness(loop.excess) > 0) {
+        double least = std::numeric_limits<double>::infinity();
+        CountedRun *best = nullptr, *other = nullptr;
+        int best_by = 0;
+        for (CountedRun& run : loop.runs) {
+            for (const int by : {1, -1}) {
+                if (!may_be(task, loop, run, run.count + by, range)) continue;
+                const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
+                if (!task.segments[run.segment].fixed) {
+                    if (!improves(loop, run, by, nullptr) || cost >= least) continue;
+                    least = cost;
+                    best = &run;
+                    other = nullptr;
+                    best_by = by;
+                    continue;
+                }
+                // A given number of sides that turn: the turn moves.
+                for (CountedRun& next : loop.runs) {
+                    if (next.segment != run.segment || &next == &run || next.count - by < 1) continue;
+                    const double both = cost + cost_of(next, next.count - by) - cost_of(next, next.count);
+                    if (!improves(loop, run, by, &next) || both >= least) continue;
+                    least = both;
+                    best = &run;
+                    other = &next;
+                    best_by = by;
+                }
+            }
+        }
+        if (best == nullptr) return false;
+        add(loop, *best, best_by);
+        if (other != nullptr) add(loop, *other, -best_by);
+    }
+    return true;
+}
+
+void change_both(const CountTask& task, CountedLoop& loop, int quarter)
+{
+    double least = std::numeric_limits<double>::infinity();
+    std::array<CountedRun*, 2> best{};
+    int best_by = 0;
+    for (const int by : {1, -1}) {
+        std::array<CountedRun*, 2> cheapest{};
+        double sum = 0;
+        for (int back = 0; back < 2; ++back) {
+            double own = std::numeric_limits<double>::infinity();
+            for (CountedRun& run : loop.runs) {
+                if (run.quarter != quarter + 2 * back || task.segments[run.segment].fixed ||
+                    !may_be(task, loop, run, run.count + by, kSegment))
+                    continue;
+                const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
+                if (cost >= own) continue;
+                own = cost;
+                cheapest[static_cast<std::size_t>(back)] = &run;
+            }
+            sum += own;
+        }
+        if (sum >= least) continue;
+        least = sum;
+        best = cheapest;
+        best_by = by;
+    }
+    if (best_by == 0) return;
+    for (CountedRun* run : best) add(loop, *run, best_by);
+}
+
+double sum_of_costs(const CountedLoop& loop)
+{
+    double sum = 0;
+    for (const CountedRun& run : loop.runs) sum += cost_of(run, run.count);
+    return sum;
+}
+
+int sides_of(const CountedLoop& loop, std::size_t segment)
+{
+    int sum = 0;
+    for (const CountedRun& run : loop.runs) sum += run.segment == segment ? run.count : 0;
+    return sum;
+}
+
+std::vector<int> counts_of(const CountTask& task, const std::vector<CountedLoop>& loops)
+{
+    std::vector<int> counts(task.segments.size(), 0);
+    for (const CountedLoop& loop : loops) {
+        for (const CountedRun& run : loop.runs) counts[run.segment] += run.count;
+    }
+    return counts;
+}
+
+} // namespace lacuna::quads

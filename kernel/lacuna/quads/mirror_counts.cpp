@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/mirror_counts.h>
+
+#include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/ring_counts.h>
+#include <lacuna/quads/detail/segment_symmetry.h>
+#include <lacuna/quads/detail/straight_counts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lacuna::quads {
+namespace {
+
+/// Counts for a part of a region, between mirror axes: in the range that is promised or, of few quads, where
+/// no grid fills it so, in a ring's.
+std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const int> segment,
+                                     std::span<const BoundarySegment> segments, bool few)
+{
+    const CountTask task(part, segment, segments);
+    if (auto ring = ring_counts(task)) return Counts{std::move(*ring)};
+    auto counts = straight_counts(task, {kSegment, true, few});
+    return counts || !few ? counts : straight_counts(task, {kRingSegment, true, few});
+}
+
+/// A region with nodes where mirror axes cross sides that are not given.
+struct Halved {
+    PlanarRegion region;
+    std::vector<int> segment;   ///< of the side from each node to the next
+    std::vector<Index> next;    ///< node of each node's loop
+    std::vector<double> weight; ///< that side in sides of the region: 1 or ½
+    [[nodiscard]] int segment_at(Index p) const { return segment[static_cast<std::size_t>(p)]; }
+};
+
+Halved halve_crossed(const CountTask& task)
+{
+    const PlanarRegion& region = task.region;
+    std::vector<char> crossed(region.points.size(), 0);
+    for (const SegmentSymmetry& symmetry : end_symmetries(region, task.segment)) {
+        const std::vector<Index>& to = symmetry.nodes.to;
+        for (const auto& loop : region.loops) {
+            for (std::size_t i = 0; i < loop.size() && symmetry.nodes.map.mirrors; ++i) {
+                const auto a = static_cast<std::size_t>(loop[i]);
+                const Index b = loop[(i + 1) % loop.size()];
+                if (to[a] == b && to[static_cast<std::size_t>(b)] == loop[i] &&
+                    !task.segments[task.segment_of(loop[i])].fixed)
+                    crossed[a] = 1;
+            }
+        }
+    }
+    Halved halved;
+    halved.region.size = region.size;
+    const auto push = [&](const Vec2& p, int segment, double weight) {
+        halved.region.loops.back().push_back(static_cast<Index>(halved.region.points.size()));
+        halved.region.points.push_back(p);
+        halved.segment.push_back(segment);
+        halved.weight.push_back(weight);
+        halved.next.push_back(static_cast<Index>(halved.region.points.size()));
+    };
+    for (const auto& loop : region.loops) {
+        halved.region.loops.emplace_back();
+        const auto first = static_cast<Index>(halved.region.points.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const auto a = static_cast<std::size_t>(loop[i]),
+                       b = static_cast<std::size_t>(loop[(i + 1) % loop.size()]);
+            const int own = task.segment[a];
+            push(region.points[a], own, crossed[a] ? 0.5 : 1);
+            if (crossed[a]) push((region.points[a] + region.points[b]) / 2, own, 0.5);
+        }
+        halved.next.back() = first;
+    }
+    return halved;
+}
+
+/// The segment that the side from a node of a part to the next is mapped to.
+std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetry& image, Index p)
+{
+    Index a = part.whole[static_cast<std::size_t>(p)];
+    if (image.map.mirrors) a = halved.next[static_cast<std::size_t>(a)];
+    return static_cast<std::size_t>(halved.segment_at(image.to[static_cast<std::size_t>(a)]));
+}
+
+/// The segments of a part: pieces of axes and of the whole region's segments.
+struct PartSegments {
+    std::vector<int> own; ///< of the side from each node of the part to the next
+    std::vector<BoundarySegment> all;
+    std::vector<Index> starts; ///< the side that each begins with, by the whole region's node; -1: an axis
+};
+
+PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
+{
+    constexpr double kTiny = 1e-6; // far above rounding, far below a side
+    PartSegments made;
+    made.own.resize(part.region.points.size());
+    for (const auto& loop : part.region.loops) {
+        int last = -1;
+        for (const Index p : loop) {
+            const auto at = static_cast<std::size_t>(p);
+            const int axis = part.axis[at];
+            const int key = axis >= 0 ? -2 - axis : halved.segment_at(part.whole[at]);
+            if (p == loop.front() || key != last) {
+                made.all.push_back({0, 1, false});
+                made.starts.push_back(axis >= 0 ? -1 : part.whole[at]);
+            }
+            last = key;
+            made.own[at] = static_cast<int>(made.all.size()) - 1;
+            BoundarySegment& segment = made.all.back();
+            if (axis >= 0) {
+                segment.wanted = part.wanted[static_cast<std::size_t>(axis)];
+                continue;
+            }
+            const auto s = static_cast<std::size_t>(key);
+            const double share = halved.weight[static_cast<std::size_t>(part.whole[at])] / task.own[s];
+            segment.wanted += share * task.segments[s].wanted;
+            for (const Symmetry& image : part.images)
+                segment.fixed = segment.fixed || task.segments[image_of(halved, part, image, p)].fixed;
+        }
+    }
+    for (std::size_t t = 0; t < made.all.size(); ++t) {
+        if (made.starts[t] < 0) continue;
+        BoundarySegment& own = made.all[t];
+        const auto s = static_cast<std::size_t>(halved.segment_at(made.starts[t]));
+        const BoundarySegment& whole = task.segments[s];
+        own.least = std::max(1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kTiny)));
+    }
+    return made;
+}
+
+/// The sides wanted of each segment, rounded: to an even number where it mirrors itself.
+std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std::vector<SegmentPair>& pairs)
+{
+    std::vector<int> counts;
+    for (const BoundarySegment& segment : segments)
+        counts.push_back(std::max(segment.least, static_cast<int>(std::lround(segment.wanted))));
+    for (const auto& [a, b] : pairs) {
+        if (a == b && !segments[a].fixed)
+            counts[a] = std::max(2 * ((segments[a].least + 1) / 2),
+                                 2 * static_cast<int>(std::lround(segments[a].wanted / 2)));
+        if (!segments[b].fixed) counts[b] = counts[a];
+    }
+    return counts;
+}
+
+/// Counts for all images of one part; of infinite cost where no grid fills it.
+Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorPart& part, bool few)
+{
+    const PartSegments segments = segments_of(task, halved, part);
+    std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few);
+    const std::vector<SegmentPair> pairs = mirrored_segments(part.region, segments.own);
+    // What is symmetric about more axes is so with numbers that fit them, if no grid.
+    if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
+    const std::vector<int> sides = counts ? counts->sides : rounded(segments.all, pairs);
+    std::vector<int> sum(task.segments.size(), 0);
+    std::vector<char> done(segments.all.size(), 0);
+    for (const auto& loop : part.region.loops) {
+        for (const Index p : loop) {
+            const auto t = static_cast<std::size_t>(segments.own[static_cast<std::size_t>(p)]);
+            if (done[t] || segments.starts[t] < 0) continue;
+            done[t] = 1;
+            for (const Symmetry& image : part.images) sum[image_of(halved, part, image, p)] += sides[t];
+        }
+    }
+    return {std::move(sum), counts ? counts->cost : std::numeric_limits<double>::infinity()};
+}
+
+} // namespace
+
+std::optional<std::vector<int>> mirror_counts(const CountTask& task)
+{
+    const Halved halved = halve_crossed(task);
+    std::vector<Symmetry> symmetries;
+    for (SegmentSymmetry& symmetry : end_symmetries(halved.region, halved.segment))
+        symmetries.push_back(std::move(symmetry.nodes));
+    std::function<double(const Vec2&)> asked = task.region.size;
+    if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
+    // Few quads do not change their size as slowly as many.
+    std::vector<std::function<double(const Vec2&)>> sizes{paving::size_with_boundary(task.region)};
+    if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
+    std::optional<std::vector<int>> first, best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& size : sizes) {
+        const std::size_t choices = &size == &sizes.back() ? 1 : kMostChoices;
+        for (std::size_t choice = 0; choice < choices; ++choice) {
+            const auto part = mirror_part(halved.region, symmetries, size, choice);
+            if (!part) break;
+            Counts counts = counts_by_part(task, halved, *part, sizes.size() > 1);
+            if (counts.cost < least) best = counts.sides;
+            least = std::min(least, counts.cost);
+            if (&size == &sizes.back()) first = std::move(counts.sides);
+        }
+        if (best) break;
+    }
+    return best ? best : first;
+}
+
+std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few)
+{
+    // Given sides between corners are segments of their own, for no corner may move.
+    std::vector<int> segment(part.region.points.size());
+    std::vector<BoundarySegment> segments;
+    std::vector<std::size_t> of_axis(part.wanted.size());
+    for (const auto& loop : part.region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            const auto at = [&](std::size_t k) -> const Vec2& {
+                return part.region.points[static_cast<std::size_t>(loop[k % n])];
+            };
+            const int axis = part.axis[static_cast<std::size_t>(loop[i])];
+            const int last = part.axis[static_cast<std::size_t>(loop[(i + n - 1) % n])];
+            const bool corner = paving::quads_in(
+                                    paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i))) != 2;
+            if (i == 0 || axis != last || (axis < 0 && corner)) segments.push_back({0, 1, axis < 0});
+            segment[static_cast<std::size_t>(loop[i])] = static_cast<int>(segments.size()) - 1;
+            segments.back().wanted += 1;
+            if (axis >= 0) of_axis[static_cast<std::size_t>(axis)] = segments.size() - 1;
+        }
+    }
+    std::vector<int> sides;
+    int given = 0;
+    for (const BoundarySegment& s : segments) given += s.fixed ? static_cast<int>(s.wanted) : 0;
+    for (std::size_t a = 0; a < of_axis.size(); ++a) {
+        sides.push_back(static_cast<int>(segments[of_axis[a]].wanted));
+        segments[of_axis[a]].wanted = part.wanted[a];
+    }
+    const auto counts = counts_of_part(part.region, segment, segments, few);
+    if (counts) {
+        for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
+    }
+    // Quads alone take an even number of sides.
+    if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0)
+        ++*std::max_element(sides.begin(), sides.end());
+    divide_axes(part, sides, size);
+    if (!counts) return std::nullopt;
+    return counts->cost;
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/ring_counts.h>
+
+#include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pattern_ring.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace lacuna::quads {
+namespace {
+
+/// Rows with holes between them bend, so that less is left. A choice, not a measurement.
+constexpr CountRange kRingWithHoles{1 / 1.55, 1.55};
+
+/// The hole of most nodes, the first of several; 0: there is none.
+std::size_t longest_hole(const PlanarRegion& region)
+{
+    std::size_t longest = 0;
+    for (std::size_t l = 1; l < region.loops.size(); ++l) {
+        if (longest == 0 || region.loops[l].size() > region.loops[longest].size()) longest = l;
+    }
+    return longest;
+}
+
+/// The sides of a loop that are not of the size asked, each of which costs as much as one too few.
+double out_of_size(const CountedLoop& loop)
+{
+    int sum = 0;
+    for (const CountedRun& run : loop.runs) {
+        const double off = run.count / run.wanted;
+        if (off < kRing.least || off > kRing.most) sum += run.count;
+    }
+    return sum;
+}
+
+/// How often the same segments follow each other on a loop.
+int repeats(const CountTask& task, std::size_t l)
+{
+    constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+    std::vector<double> wanted;
+    const std::vector<Index>& loop = task.region.loops[l];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::size_t own = task.segment_of(loop[i]);
+        if (i == 0 || own != task.segment_of(loop[i - 1])) wanted.push_back(task.segments[own].wanted);
+    }
+    const std::size_t n = wanted.size();
+    for (std::size_t period = 1; period < n; ++period) {
+        if (n % period != 0) continue;
+        bool same = true;
+        for (std::size_t i = 0; i < n && same; ++i)
+            same = std::abs(wanted[i] - wanted[i % period]) <= kAlike * wanted[i];
+        if (same) return static_cast<int>(n / period);
+    }
+    return 1;
+}
+
+/// How many holes there are beside the one the grid goes round, where they are of one size and at one
+/// distance from it; else 1. A number of sides that they divide leaves them alike.
+int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::size_t about)
+{
+    constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+    const Vec2 centre = centre_of(task.region.points, task.region.loops[about]);
+    double first = 0;
+    for (std::size_t l = 1; l < task.region.loops.size(); ++l) {
+        if (l == about) continue;
+        const double distance = (centre_of(task.region.points, task.region.loops[l]) - centre).norm();
+        if (first == 0) first = distance;
+        if (std::abs(distance - first) > kAlike * first) return 1;
+    }
+    const bool same = std::all_of(others.begin(), others.end(), [&](const CountedLoop& loop) {
+        return std::abs(loop.wanted - others.front().wanted) <= kAlike * others.front().wanted;
+    });
+    return same && !others.empty() ? static_cast<int>(others.size()) : 1;
+}
+
+/// Sides wanted round a ring.
+double wanted_along(const CountedLoop& loop)
+{
+    double sum = 0;
+    for (const CountedRun& run : loop.runs)
+        sum += run.quarter % 2 != 0 ? 0 : run.quarter == 0 ? run.wanted : -run.wanted;
+    return std::abs(sum);
+}
+
+/// The loops of a ring at the least cost in sum, each over what the loop wants.
+/// @param multiple  that the outer loop's number of sides along must be.
+/// @param more      sides more than the inner loop has: the numbers to be tried.
+std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
+                                                  const std::array<CountedLoop, 2>& ends,
+                                                  const std::array<int, 2>& along, int multiple,
+                                                  std::span<const int> more, const CountRange& range)
+{
+    std::optional<std::vector<CountedLoop>> best;
+    double least = std::numeric_limits<double>::infinity();
+    const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
+    // As many quads as asked are worth this much where rows are alike all round; elsewhere rows that
+    // change make up for it. Chosen on gears of 400 and 3,000 quads.
+    constexpr double kQuads = 3;
+    const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
+    for (const int by : more) {
+        for (int sides = (low + multiple - 1) / multiple * multiple; sides < high + multiple;
+             sides += multiple) {
+            if (sides - by < 3) continue;
+            const double off = by == 0 ? sides / mean - 1 : 0;
+            double cost = kQuads * off * off;
+            bool closed = true;
+            std::vector<CountedLoop> tried(ends.begin(), ends.end());
+            for (std::size_t e = 0; e < 2 && closed; ++e) {
+                tried[e].excess[0] -= e == 0 ? sides : by - sides;
+                closed = close_counts(task, tried[e], range);
+                cost += (sum_of_costs(tried[e]) + out_of_size(tried[e])) / tried[e].wanted;
+            }
+            if (!closed || cost >= least) continue;
+            least = cost;
+            best = std::move(tried);
+        }
+    }
+    return best;
+}
+
+/// The loops of a region with headings round a hole.
+struct RingLoops {
+    std::array<CountedLoop, 2> ends; ///< the outer loop and that of the hole
+    std::array<int, 2> along{};      ///< sides that these have along, rounded
+    std::vector<CountedLoop> others; ///< of holes beside it, closed
+};
+
+/// @return nothing where a loop fits no grid round a hole.
+std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
+{
+    const PlanarRegion& region = task.region;
+    RingLoops ring;
+    const Vec2 centre = centre_of(region.points, region.loops[about]);
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const Vec2 own = centre_of(region.points, region.loops[l]);
+        const bool is_end = l == 0 || l == about;
+        LoopFrame frame{is_end, own, 0};
+        if (!is_end) frame.angle = std::atan2(own.y() - centre.y(), own.x() - centre.x());
+        auto headed = head_loop(
+            region.points, region.loops[l], frame,
+            is_end ? kRoundWeight / static_cast<double>(region.loops[l].size()) : kStraightWeight, 1);
+        if (!headed || headed->turns != (is_end ? 0 : -4) ||
+            (is_end && !is_ring_loop(region.points, *headed)))
+            return std::nullopt;
+        auto loop = counted_loop(task, std::move(*headed));
+        if (!loop) return std::nullopt;
+        if (!is_end) {
+            if (!close_counts(task, *loop, kSegment)) return std::nullopt;
+            ring.others.push_back(std::move(*loop));
+            continue;
+        }
+        const std::size_t e = l == 0 ? 0 : 1;
+        ring.along[e] = std::abs(loop->excess[0]);
+        ring.ends[e] = std::move(*loop);
+    }
+    return ring;
+}
+
+/// Numbers for a ring that has no other holes and takes none with rows alike all round.
+/// @param symmetric  how often segments repeat along both loops.
+std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, const RingLoops& ring,
+                                                      int symmetric, int changing)
+{
+    const auto& [ends, along, others] = ring;
+    std::optional<std::vector<CountedLoop>> best;
+    if (symmetric > 2) {
+        // A loop of many corners has that many sides, and the other as many for a symmetric mesh.
+        constexpr CountRange kMany{kRing.least, 4}; // a choice, not a measurement
+        const auto corners = static_cast<int>(
+            std::count_if(ends[0].runs.begin(), ends[0].runs.end(),
+                          [](const CountedRun& run) { return run.quarter == 0; }));
+        if (corners % symmetric == 0 && corners > 2 * symmetric - 1)
+            best = ring_ends(task, ends, {corners, corners}, corners, std::array{0}, kMany);
+    }
+    if (best) return best;
+    // Rows that change their number of sides, alike at two nodes.
+    std::vector<int> more;
+    for (int rows = 1; rows <= changing; ++rows) more.push_back(along[0] > along[1] ? 4 * rows : -4 * rows);
+    best = ring_ends(task, ends, along, 2, more, kSegment);
+    if (!best) best = ring_ends(task, ends, along, 2, more, kRingSegment);
+    return best;
+}
+
+} // namespace
+
+std::optional<std::vector<int>> ring_counts(const CountTask& task)
+{
+    const PlanarRegion& region = task.region;
+    const std::size_t about = longest_hole(region);
+    if (about == 0) return std::nullopt;
+    const auto ring = ring_loops(task, about);
+    if (!ring) return std::nullopt;
+    const int fold = alike(task, ring->others, about);
+    // Numbers that leave loops as symmetric as they are, where others are as good.
+    const int symmetric = std::lcm(fold, std::lcm(repeats(task, 0), repeats(task, about)));
+    std::optional<std::vector<CountedLoop>> best;
+    const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
+    const double size = mean_size(task);
+    const bool alone = ring->others.empty();
+    const int steps = alone ? widths.steps(size) : 0;
+    // An even number, where there is one, leaves what lies beyond a loop to quads alone.
+    for (const int multiple : {std::lcm(alone ? symmetric : fold, 2), std::lcm(fold, 2), fold}) {
+        if (!best)
+            best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},
+                             alone ? kRingSegment : kRingWithHoles);
+    }
+    if (!best && alone) best = changing_ends(task, *ring, symmetric, widths.changing(size));
+    if (!best) return std::nullopt;
+    best->insert(best->end(), ring->others.begin(), ring->others.end());
+    return counts_of(task, *best);
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/segment_symmetry.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace lacuna::quads {
+namespace {
+
+constexpr auto kNone = std::numeric_limits<std::size_t>::max();
+
+/// The image of each segment, of one without sides itself; nothing where one has several.
+std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, std::span<const int> segment,
+                                                  std::size_t count, const Symmetry& symmetry)
+{
+    const auto of = [&](Index p) { return static_cast<std::size_t>(segment[index(p)]); };
+    std::vector<std::size_t> onto(count, kNone), from(count, kNone);
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+            // A mirroring takes the side's end to where the image starts.
+            const Index start = symmetry.map.mirrors ? loop[(i + 1) % n] : loop[i];
+            const std::size_t own = of(loop[i]), image = of(symmetry.to[index(start)]);
+            if ((onto[own] != kNone && onto[own] != image) || (from[image] != kNone && from[image] != own))
+                return std::nullopt;
+            onto[own] = image;
+            from[image] = own;
+        }
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+        if (onto[s] == kNone) onto[s] = s;
+    }
+    return onto;
+}
+
+/// The first nodes of loops that are one segment.
+std::vector<Index> starts_of_whole_loops(const PlanarRegion& region, std::span<const int> segment)
+{
+    std::vector<Index> starts;
+    for (const auto& loop : region.loops) {
+        const int own = segment[index(loop.front())];
+        if (std::all_of(loop.begin(), loop.end(), [&](Index p) { return segment[index(p)] == own; }))
+            starts.push_back(loop.front());
+    }
+    return starts;
+}
+
+} // namespace
+
+std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment)
+{
+    std::size_t count = 0;
+    for (const int s : segment) count = std::max(count, static_cast<std::size_t>(s) + 1);
+    std::vector<SegmentSymmetry> symmetries;
+    for (Symmetry& symmetry : outline_symmetries(region)) {
+        if (auto onto = images_of(region, segment, count, symmetry))
+            symmetries.push_back({std::move(symmetry), std::move(*onto)});
+    }
+    return symmetries;
+}
+
+std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment)
+{
+    std::vector<SegmentSymmetry> symmetries = segment_symmetries(region, segment);
+    const std::vector<Index> starts = starts_of_whole_loops(region, segment);
+    std::erase_if(symmetries, [&](const SegmentSymmetry& symmetry) {
+        return std::any_of(starts.begin(), starts.end(), [&](Index start) {
+            return std::find(starts.begin(), starts.end(), symmetry.nodes.to[index(start)]) == starts.end();
+        });
+    });
+    return symmetries;
+}
+
+std::vector<SegmentPair> mirrored_segments(const PlanarRegion& region, std::span<const int> segment)
+{
+    std::vector<SegmentPair> pairs;
+    for (const SegmentSymmetry& symmetry : end_symmetries(region, segment)) {
+        if (!symmetry.nodes.map.mirrors) continue;
+        for (const auto& loop : region.loops) {
+            for (const Index p : loop) {
+                const auto own = static_cast<std::size_t>(segment[index(p)]);
+                const SegmentPair pair{own, symmetry.onto[own]};
+                if (pair[0] <= pair[1] && (pairs.empty() || pairs.back() != pair)) pairs.push_back(pair);
+            }
+        }
+    }
+    return pairs;
+}
+
+bool are_alike(std::span<const int> counts, std::span<const SegmentPair> pairs)
+{
+    return std::all_of(pairs.begin(), pairs.end(),
+                       [&](const SegmentPair& pair) { return counts[pair[0]] == counts[pair[1]]; });
+}
+
+int unlike(std::span<const int> counts, std::span<const SegmentPair> pairs)
+{
+    return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const SegmentPair& pair) {
+        return counts[pair[0]] != counts[pair[1]] || (pair[0] == pair[1] && counts[pair[0]] % 2 != 0);
+    }));
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/straight_counts.h>
+
+#include <lacuna/quads/detail/count_trial.h>
+#include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pattern_ring.h>
+#include <lacuna/quads/detail/segment_symmetry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lacuna::quads {
+namespace {
+
+/// Where there are fewer quads than this, a grid is made with several numbers and the best are taken. For the
+/// time.
+constexpr double kFewForTrial = 200;
+
+/// The loops of a region with headings in a straight grid.
+struct HeadedLoops {
+    std::vector<PatternLoop> loops;
+    double angle = 0;
+    HalfEnds half = HalfEnds::soft;
+    int fitting = 1; ///< rows that suit the soft turns
+};
+
+/// @return nothing where a loop does not turn once about.
+std::optional<HeadedLoops> head_loops(const PlanarRegion& region, HalfEnds half)
+{
+    HeadedLoops headed{{}, main_angle(region), half};
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        auto loop = head_loop(region.points, region.loops[l], {false, Vec2::Zero(), headed.angle},
+                              kStraightWeight, 1, half);
+        if (!loop || loop->turns != (l == 0 ? 4 : -4)) return std::nullopt;
+        headed.fitting = std::max(headed.fitting, fitting_rows(*loop));
+        headed.loops.push_back(std::move(*loop));
+    }
+    return headed;
+}
+
+/// A loop with the numbers of sides it has now, in a straight grid.
+struct LoopGrid {
+    std::vector<Vec2> points;
+    GridLoop grid;
+    std::size_t laid = 0; ///< quads of the rows between the loop and the grid
+
+    /// Quads that the loop adds to a region's: those within it, less than none of a hole.
+    [[nodiscard]] double quads() const
+    {
+        double twice = 0;
+        for (std::size_t i = 0, n = grid.positions.size(); i < n; ++i) {
+            const GridPosition &a = grid.positions[i], &b = grid.positions[(i + 1) % n];
+            twice += static_cast<double>(a[0]) * b[1] - static_cast<double>(a[1]) * b[0];
+        }
+        return twice / 2 + static_cast<double>(laid);
+    }
+};
+
+std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const CountedLoop& counted,
+                                  const HeadedLoops& as, int rows)
+{
+    const std::vector<Index>& loop = task.region.loops[l];
+    const auto at = [&](std::size_t i) -> const Vec2& {
+        return task.region.points[static_cast<std::size_t>(loop[i % loop.size()])];
+    };
+    LoopGrid made;
+    double length = 0;
+    for (std::size_t from = 0, to = 0; from < loop.size(); from = to) {
+        const std::size_t own = task.segment_of(loop[from]);
+        while (to < loop.size() && task.segment_of(loop[to]) == own) ++to;
+        const int sides = sides_of(counted, own);
+        for (int k = 0; k < sides; ++k) {
+            const double place = static_cast<double>(k) / sides * static_cast<double>(to - from);
+            const auto whole = static_cast<std::size_t>(place);
+            const double part = place - static_cast<double>(whole);
+            made.points.push_back((1 - part) * at(from + whole) + part * at(from + whole + 1));
+        }
+        for (std::size_t i = from; i < to; ++i) length += (at(i + 1) - at(i)).norm();
+    }
+    std::vector<Index> nodes(made.points.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), as.angle}, kStraightWeight, 1, as.half);
+    if (headed) set_soft_rows(*headed, rows);
+    const double mean = length / static_cast<double>(nodes.size());
+    std::vector<Quad> quads;
+    if (!headed || !lay_pattern_rows(*headed, made.points, quads, [&](const Vec2&) { return mean; }) ||
+        !close_pattern_loop(*headed, 0))
+        return std::nullopt;
+    made.grid = positions_of(*headed);
+    made.laid = quads.size();
+    return made;
+}
+
+/// Whether holes lie apart in the outer loop's grid, each where its coordinates put it.
+bool have_place(const std::vector<LoopGrid>& grids)
+{
+    std::vector<GridLoop> loops;
+    for (const LoopGrid& own : grids) {
+        loops.push_back(own.grid);
+        if (loops.size() == 1) continue;
+        Vec2 by = Vec2::Zero();
+        for (std::size_t i = 0; i < own.grid.nodes.size(); ++i) {
+            const Vec2& p = own.points[static_cast<std::size_t>(own.grid.nodes[i])];
+            const GridPosition& at = own.grid.positions[i];
+            by += (mean_value_position(grids[0].points, grids[0].grid, p) - Vec2(at[0], at[1])) /
+                  static_cast<double>(own.grid.nodes.size());
+        }
+        if (!by.allFinite()) return false;
+        for (GridPosition& at : loops.back().positions) {
+            at[0] += static_cast<int>(std::lround(by.x()));
+            at[1] += static_cast<int>(std::lround(by.y()));
+        }
+    }
+    return SubmapGrid(loops).enclose(loops);
+}
+
+/// Whether some quads between two loops would be much flatter than asked.
+bool are_close(const CountTask& task)
+{
+    constexpr double kNarrow = 0.5; // of the size asked: a choice, not a measurement
+    const double narrow = kNarrow * mean_size(task);
+    const PlanarRegion& region = task.region;
+    for (std::size_t l = 1; l < region.loops.size(); ++l) {
+        for (std::size_t m = 0; m < l; ++m) {
+            if (ring_widths(region.points, region.loops[m], region.loops[l]).least < narrow) return true;
+        }
+    }
+    return false;
+}
+
+/// Give holes an even number of columns where their middle lies on a line of the outer loop's grid, and an
+/// odd one where it lies between two; so for rows. A hole in the middle of a plate then stays there.
+void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const LoopGrid& outer)
+{
+    for (std::size_t l = 1; l < loops.size(); ++l) {
+        const Vec2 middle = mean_value_position(outer.points, outer.grid,
+                                                centre_of(task.region.points, task.region.loops[l]));
+        for (int k = 0; k < 2; ++k) {
+            const double off = std::abs(middle[k] - std::round(middle[k]));
+            int across = loops[l].added[static_cast<std::size_t>(k)];
+            for (const CountedRun& run : loops[l].runs) across += run.quarter == k ? run.count : 0;
+            if ((off > 0.25) != (across % 2 != 0)) change_both(task, loops[l], k);
+        }
+    }
+}
+
+/// Loops that close with a number of rows before soft turns and a share of the sides wanted.
+struct ClosedLoops {
+    std::vector<CountedLoop> loops;
+    std::vector<LoopGrid> grids; ///< of those that have one
+    double cost = 0, quads = 0;
+    int soft = 0;
+};
+
+std::optional<ClosedLoops> close_loops(const CountTask& task, const HeadedLoops& headed, int rows,
+                                       double share, const CountRange& range)
+{
+    ClosedLoops closed;
+    for (std::size_t l = 0; l < headed.loops.size(); ++l) {
+        PatternLoop loop = headed.loops[l];
+        set_soft_rows(loop, rows);
+        auto counts = counted_loop(task, std::move(loop), share);
+        if (!counts || !close_counts(task, *counts, range)) return std::nullopt;
+        for (CountedRun& run : counts->runs) run.wanted /= share;
+        closed.cost += sum_of_costs(*counts);
+        closed.soft += counts->soft;
+        if (auto grid = loop_grid(task, l, *counts, headed, rows)) {
+            closed.quads += grid->quads();
+            closed.grids.push_back(std::move(*grid));
+        }
+        closed.loops.push_back(std::move(*counts));
+    }
+    return closed;
+}
+
+/// Numbers for one kind of ends, over the rows before soft turns, and over numbers of sides that are rounded
+/// from a few shares of those wanted, for rows add quads and columns take sides.
+/// @return those looked at, with what each costs.
+std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, HalfEnds half)
+{
+    // What quads are worth, and rows, whose number is to be that of `fitting_rows()`; chosen on 40 of the
+    // held family (benchmarks/pave/).
+    constexpr double kQuads = 0.25, kRows = 1;
+    constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
+    // As many quads as asked, a quarter more or less, is what is promised. Choices.
+    constexpr double kMostOff = 0.25, kOff = 2, kNearAsked = 0.1, kMany = 2000;
+    constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
+    constexpr std::size_t kNear = 4; // of those, for the range that is promised
+    const double asked = quads_asked(task);
+    const auto headed = head_loops(task.region, half);
+    if (!headed || (options.few && are_close(task))) return {};
+    const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
+    std::vector<Counts> all;
+    // What is no part has no axes that take up the difference of more rows.
+    const std::vector<int> all_rows = options.is_part ? rows_to_try(headed->fitting) : std::vector<int>{1};
+    const bool wide = options.range.most > kSegment.most;
+    const std::span<const double> shares = std::span(kShares).first(wide ? kShares.size() : kNear);
+    for (const int rows : all_rows) {
+        for (const double share : shares) {
+            auto closed = close_loops(task, *headed, rows, share, options.range);
+            if (!closed) continue;
+            Counts counts{counts_of(task, closed->loops), closed->cost};
+            // A symmetric region is not filled otherwise than its images.
+            if (!options.is_part && !are_alike(counts.sides, pairs)) continue;
+            const bool has_grids = closed->grids.size() == closed->loops.size();
+            const double quads = has_grids ? closed->quads : asked; // not known
+            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+            if (options.is_part) {
+                const int fitting = headed->fitting;
+                const double off = std::log(static_cast<double>(rows) / fitting);
+                counts.cost += kRows * closed->soft * std::max(1.0, fitting / 2.0) * off * off +
+                               kUnlike * unlike(counts.sides, pairs);
+            }
+            const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
+            if (std::abs(quads - asked) > kMostOff * asked) counts.cost += kOff;
+            // Few lines leave holes no place, and for many looking takes long.
+            const bool looks = options.is_part ? options.few : asked < kMany;
+            const bool has_place = !looks || (has_grids && have_place(closed->grids));
+            if (!has_place) counts.cost += kOff;
+            if (!options.few || has_place) {
+                if (closed->loops.size() > 1 && !closed->grids.empty()) {
+                    centre_holes(task, closed->loops, closed->grids.front());
+                    counts.sides = counts_of(task, closed->loops);
+                }
+                all.push_back(std::move(counts));
+            }
+            if (closed->soft == 0 && share == shares.back()) return all;
+            if (!options.is_part && fits && has_place) return all;
+        }
+    }
+    return all;
+}
+
+bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
+
+/// Of several counts those that a grid fills best by measure, the cheapest first, until one is good.
+/// Nothing where none is filled, or there is no choice.
+std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
+{
+    // A score of quads as they should be, and grids made at most: for the time. Choices.
+    constexpr double kGood = 3.1;
+    constexpr std::size_t kMost = 4;
+    std::stable_sort(all.begin(), all.end(), is_cheaper);
+    const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
+    all.erase(std::unique(all.begin(), all.end(), alike), all.end());
+    if (all.size() < 2) return std::nullopt;
+    std::optional<Counts> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
+        const auto score = score_of_counts(task.region, task.segment, all[i].sides, quads_asked(task));
+        if (!score || *score <= most) continue;
+        most = *score;
+        best = all[i];
+    }
+    return best;
+}
+
+} // namespace
+
+std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
+{
+    // What soft ends are worth; chosen as what quads are.
+    constexpr double kSoft = 2;
+    std::vector<Counts> all = counts_looked_at(task, options, HalfEnds::soft);
+    for (Counts& counts : all) counts.cost /= kSoft;
+    if (has_half_ends(task.region)) {
+        for (Counts& counts : counts_looked_at(task, options, HalfEnds::hard))
+            all.push_back(std::move(counts));
+    }
+    const auto least = std::min_element(all.begin(), all.end(), is_cheaper);
+    if (least == all.end()) return std::nullopt;
+    Counts best = *least;
+    if (!options.is_part && quads_asked(task) < kFewForTrial) {
+        if (auto filled = best_filled(task, std::move(all))) return filled;
+    }
+    return best;
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/seeds.h>
+#include <lacuna/topology/model.h>
+
+#include <span>
+#include <string>
+
+/// Rows and numbers of sides that a person asks of edges. Internal to this folder.
+namespace lacuna::surface {
+
+/// Nodes on edges at the heights of boundary layers that end there.
+/// @throw NotSweepable "surface.layers_room".
+void end_rows(Seeds& seeds, const topology::Model& model, const RimRows& rows);
+
+/// Numbers of sides that a person asks for: their nodes, for good.
+/// @throw NotSweepable "surface.sides_asked".
+void set_sides(Seeds& seeds, const topology::Model& model, std::span<const SidesAsked> sides);
+
+/// @throw NotSweepable "surface.sides_asked", always.
+[[noreturn]] void refuse_sides(const std::string& what);
+
+} // namespace lacuna::surface

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/even_sides.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/detail/sides_asked.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+bool odd(const Model& model, const Seeds& seeds, FaceId face)
+{
+    return sides_of(model, seeds, face) % 2 != 0;
+}
+
+/// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
+struct WayOut {
+    EdgeId edge;
+    FaceId into;
+    std::vector<EdgeId> raised;
+};
+
+/// The edges of a mapped face's side opposite to one of its edges.
+std::vector<EdgeId> opposite_to(const FaceGrids& grids, FaceId face, EdgeId edge)
+{
+    for (const SidePair& sides : grids.opposite.at(face)) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (std::find(sides[k].begin(), sides[k].end(), edge) != sides[k].end()) return sides[1 - k];
+        }
+    }
+    return {};
+}
+
+/// One more side on an edge that a face's symmetries leave where it is: that of the longest sides, of no
+/// other face. @return false where there is none
+bool raise_alike(const SeedTask& task, const AlikeEdges& alike, FaceId face, Seeds& seeds)
+{
+    const auto sets = alike.find(face);
+    if (sets == alike.end()) return false;
+    std::optional<EdgeId> best;
+    double longest = 0;
+    for (const std::vector<EdgeId>& set : sets->second) {
+        const EdgeId edge = set.front();
+        if (set.size() > 1 || task.users.at(edge).size() > 1 || !task.rim.contains(edge)) continue;
+        const SeedPiece& piece = seeds.pieces.at(edge).front();
+        if (piece.length <= longest * piece.count) continue;
+        longest = piece.length / piece.count;
+        best = edge;
+    }
+    return best && raise(seeds, {*best}, 1);
+}
+
+/// No quads fill a rim with an odd number of sides. Where all are given, the longest of the rim's that no
+/// kept quads of the source stand on is divided, and that is said.
+std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids, Seeds& seeds)
+{
+    std::set<FaceId> triangles;
+    for (const FaceId face : task.faces) {
+        if (!is_free(grids, seeds, face) || !odd(task.model, seeds, face)) continue;
+        SeedPiece* longest = nullptr;
+        EdgeId at;
+        for (const EdgeId edge : task.rim) {
+            const std::set<FaceId>& users = task.users.at(edge);
+            if (!users.contains(face) || users.size() > 1) continue;
+            for (SeedPiece& piece : seeds.pieces[edge]) {
+                if (piece.asked || (longest != nullptr && piece.length <= longest->length)) continue;
+                longest = &piece;
+                at = edge;
+            }
+        }
+        if (longest == nullptr) continue;
+        if (task.wedges) {
+            seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
+                                  std::to_string(sides_of(task.model, seeds, face)) +
+                                  " sides, an odd number: one of its cells is a triangle");
+            triangles.insert(face);
+            continue;
+        }
+        seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
+                              std::to_string(sides_of(task.model, seeds, face)) +
+                              " sides, an odd number, which no quads fill: a side on " +
+                              name_of(task.model, at) +
+                              ", with what stands on it, is divided in two; wedges = true keeps it");
+        longest->kept.push_back((longest->from + longest->to) / 2);
+        longest->count = 2;
+    }
+    return triangles;
+}
+
+void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<FaceId>& triangles,
+                const Seeds& seeds)
+{
+    for (const FaceId face : task.faces) {
+        if (!is_free(grids, seeds, face) || !odd(task.model, seeds, face) || triangles.contains(face))
+            continue;
+        std::string counts;
+        for (const EdgeId edge : edges_of(task.model, face)) {
+            const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
+            if (std::none_of(pieces.begin(), pieces.end(), [](const SeedPiece& p) { return p.asked; }))
+                continue;
+            counts += (counts.empty() ? "" : ", ") + name_of(task.model, edge) + " " +
+                      std::to_string(seeds.count(edge));
+        }
+        if (!counts.empty()) {
+            refuse_sides("the loops of " + name_of(task.model, face) +
+                         " have an odd number of sides in all, which no quads fill, and no edge is free "
+                         "to take one more; asked for: " +
+                         counts + ". Change one of them by one");
+        }
+        throw NotSweepable(
+            "surface.odd_loop",
+            "the loops of " + name_of(task.model, face) +
+                " have an odd number of sides in all, and no edge of it is free to take one more");
+    }
+}
+
+} // namespace
+
+void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike, Seeds& seeds)
+{
+    std::vector<WayOut> exits;
+    std::set<std::pair<EdgeId, FaceId>> known;
+    const auto push = [&](EdgeId edge, FaceId from, std::vector<EdgeId> raised) {
+        raised.push_back(edge);
+        for (const FaceId into : task.users.at(edge)) {
+            if (into == from || is_fixed(seeds, edge) || !known.insert({edge, into}).second) continue;
+            exits.push_back({edge, into, raised});
+        }
+    };
+    std::vector<EdgeId> rim(task.rim.begin(), task.rim.end());
+    std::stable_sort(rim.begin(), rim.end(), [&](EdgeId a, EdgeId b) {
+        return edge_length(task.model, a) > edge_length(task.model, b);
+    });
+    for (const EdgeId edge : rim) push(edge, {}, {});
+    std::map<FaceId, std::vector<EdgeId>> way_out;
+    std::vector<FaceId> order;
+    const auto settle = [&](FaceId face, const std::vector<EdgeId>& raised) {
+        if (!way_out.try_emplace(face, raised).second) return;
+        order.push_back(face);
+        for (const EdgeId edge : edges_of(task.model, face)) push(edge, face, {});
+    };
+    std::size_t next = 0;
+    const auto spread = [&] {
+        for (; next < exits.size(); ++next) {
+            const WayOut way = exits[next];
+            if (seeds.kept.contains(way.into)) continue;
+            if (is_free(grids, seeds, way.into)) {
+                settle(way.into, way.raised);
+                continue;
+            }
+            for (const EdgeId edge : opposite_to(grids, way.into, way.edge)) push(edge, way.into, way.raised);
+        }
+    };
+    spread();
+    // Faces that no way leads to from the rim hand their odd sides to one of them, where two cancel.
+    for (const FaceId face : task.faces) {
+        if (!is_free(grids, seeds, face)) continue;
+        settle(face, {});
+        spread();
+    }
+    for (auto face = order.rbegin(); face != order.rend(); ++face) {
+        if (!odd(task.model, seeds, *face) || raise_alike(task, alike, *face, seeds)) continue;
+        for (const EdgeId edge : way_out.at(*face)) raise(seeds, {edge}, 1);
+    }
+}
+
+void finish_even(const SeedTask& task, const FaceGrids& grids, Seeds& seeds)
+{
+    check_even(task, grids, divide_given_sides(task, grids, seeds), seeds);
+}
+
+} // namespace lacuna::surface

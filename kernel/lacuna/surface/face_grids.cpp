@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/face_grids.h>
+
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Faces whose grid would have a mean scaled Jacobian or a share of even sides below these are given to the
+/// planar mesher. Grids bear more than the source alone shows: of the bent pipe's flat rings they have a mean
+/// of 0.80 and what is paved instead 0.95, but swept the grids' hexahedra have 0.94 and those of the others
+/// 0.88, the worst 0.67 and 0.58. So this is for grids that no sweep makes good; a choice.
+constexpr double kFairMean = 0.7, kFairEven = 0.6;
+
+/// Whether the size asks for about as many sides of quads on either side of the face. Where it does not, one
+/// side would get as many as the other needs.
+bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
+{
+    // As `alike()` for lengths, in counts; up to four sides any ratio will do. A choice, not a measurement.
+    constexpr int kUnlike = 3, kFew = 4;
+    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
+        const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
+        return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
+    });
+}
+
+/// Whether a grid over a face is nearly as good as what the planar mesher makes, or cannot be had otherwise.
+bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
+{
+    if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
+    const MappedFace::Shape shape = mapped.shape(task.size);
+    return (shape.mean_scaled_jacobian >= kFairMean && shape.even_share >= kFairEven) ||
+           !faces_one_way(task.model, face, face_area_vector(task.model, face).stableNormalized());
+}
+
+void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
+{
+    if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
+    const auto corners = four_corners(task.model, face);
+    // How many columns of a submapped face pass a neck is what other sides leave over.
+    if (!corners && task.sizing.gap > 0 && !task.sizing.counts_across && task.style == QuadStyle::automatic)
+        return;
+    const std::vector<SidePair> opposite = corners ? side_pairs(task.model, face, *corners)
+                                                   : grid_sides(task.model, face);
+    if (task.style == QuadStyle::mapped && opposite.empty()) {
+        throw NotSweepable(
+            "surface.not_four_sided",
+            name_of(task.model, face) +
+                " is to be mapped and has neither four corners (vertices with an inner angle below 135°) "
+                "on one loop nor loops of right angles alone; use quads = \"auto\"");
+    }
+    if (opposite.empty() || (task.style == QuadStyle::automatic &&
+                             !(alike(task.model, opposite) && counts_alike(seeds, opposite))))
+        return;
+    if (!corners) {
+        grids.opposite[face] = opposite;
+        seeds.submapped.insert(face);
+        return;
+    }
+    MappedFace mapped(task.model, face, *corners);
+    if (!is_fairly_mapped(task, face, mapped)) return;
+    grids.opposite[face] = opposite;
+    seeds.corners[face] = *corners;
+    grids.mapped.try_emplace(face, std::move(mapped));
+    if (!task.sizing.counts_across) return;
+    for (const SidePair& sides : opposite) {
+        for (const std::vector<EdgeId>& side : sides)
+            raise(seeds, side, task.sizing.gap - total(seeds, side));
+    }
+}
+
+/// "5 (edge 1) and 7 (edge 3)" of sides whose counts differ.
+std::string unlike_counts(const Model& model, const Seeds& seeds, const std::vector<SidePair>& pairs)
+{
+    std::string words;
+    for (const SidePair& sides : pairs) {
+        if (total(seeds, sides[0]) == total(seeds, sides[1])) continue;
+        for (std::size_t k = 0; k < 2; ++k) {
+            words += words.empty() ? "" : " and ";
+            words += std::to_string(total(seeds, sides[k])) + " (";
+            for (std::size_t i = 0; i < sides[k].size(); ++i)
+                words += (i > 0 ? ", " : "") + name_of(model, sides[k][i]);
+            words += ")";
+        }
+        break;
+    }
+    return words;
+}
+
+} // namespace
+
+FaceGrids choose_grids(const SeedTask& task, Seeds& seeds)
+{
+    FaceGrids grids;
+    for (const FaceId face : task.faces) choose(task, face, grids, seeds);
+    return grids;
+}
+
+bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face)
+{
+    return !grids.opposite.contains(face) && !seeds.kept.contains(face);
+}
+
+bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
+{
+    constexpr double kSteepest = 0.5; // cosine of 60°; a choice, not a measurement
+    const std::vector<Triangle>& facets = model[face].triangles;
+    return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
+        const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        return area.dot(normal) >= kSteepest * area.norm();
+    });
+}
+
+void balance(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
+{
+    const std::size_t most = 4 * seeds.pieces.size() + 16;
+    for (std::size_t round = 0;; ++round) {
+        bool changed = false;
+        for (auto it = grids.opposite.begin(); it != grids.opposite.end();) {
+            bool raised = false, stuck = false;
+            for (const SidePair& sides : it->second) {
+                const int difference = total(seeds, sides[0]) - total(seeds, sides[1]);
+                if (difference == 0) continue;
+                stuck = !raise(seeds, sides[difference > 0 ? 1 : 0], std::abs(difference)) || stuck;
+                raised = true;
+            }
+            changed = changed || raised;
+            if (stuck && task.style == QuadStyle::mapped) {
+                throw NotSweepable("surface.kept_side",
+                                   name_of(task.model, it->first) +
+                                       " is to be mapped, and sides opposite to each other have " +
+                                       unlike_counts(task.model, seeds, it->second) +
+                                       ", given or asked for; use quads = \"auto\", or give both as "
+                                       "many");
+            }
+            if (stuck || (raised && round > most)) {
+                seeds.corners.erase(it->first);
+                seeds.submapped.erase(it->first);
+                grids.mapped.erase(it->first);
+                it = grids.opposite.erase(it);
+            } else {
+                ++it;
+            }
+        }
+        if (!changed) return;
+    }
+}
+
+} // namespace lacuna::surface

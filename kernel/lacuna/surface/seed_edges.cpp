@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/seed_edges.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/detail/edge_turning.h>
+#include <lacuna/surface/edge_nodes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// Sides for a full turn where none are asked for. With fewer a quad of a round face has a corner of 120° or
+/// more.
+constexpr int kFewestPerTurn = 6;
+
+/// Part of a side by which the curvature may ask for more before it gets one: what the sampling of a curve
+/// is off by. A choice, not a measurement.
+constexpr double kPartOfSide = 0.05;
+
+/// Points per piece at which the size is asked: a choice, not a measurement.
+constexpr int kSizeSamples = 32;
+
+/// Sizes that differ by a smaller share along an edge are one, and its nodes stand evenly: less than can be
+/// seen.
+constexpr double kSameSize = 1e-3;
+
+/// How much the target's rim turns in even steps along a segment [radian].
+std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
+{
+    const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
+    std::vector<double> turning;
+    for (int i = 0; i < kSizeSamples; ++i) {
+        double from = segment.target_from + i * step;
+        while (from >= whole) from -= whole;
+        const double past = std::max(from + step - whole, 0.0);
+        turning.push_back(target.between(from, from + step - past) + target.between(0, past));
+    }
+    return turning;
+}
+
+/// The parts of the source's rim that one edge each of the target's rim is over, as pieces.
+void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
+{
+    const EdgeTurning target(model, link.target.uses());
+    for (const RimSegment& segment : link.segments) {
+        const EdgeUse use = link.source.uses()[segment.use];
+        const double start = link.source.start(segment.use);
+        const double length = link.source.start(segment.use + 1) - start;
+        double from = std::clamp((segment.source_from - start) / length, 0.0, 1.0);
+        double to = std::clamp((segment.source_to - start) / length, 0.0, 1.0);
+        if (use.reversed) {
+            std::swap(from, to);
+            from = 1 - from;
+            to = 1 - to;
+        }
+        SeedPiece piece{from, to, segment.source_to - segment.source_from, 1};
+        piece.opposite = opposite_turning(target, segment);
+        if (use.reversed) std::reverse(piece.opposite.begin(), piece.opposite.end());
+        piece.fixed = segment.given;
+        seeds.pieces[use.edge].push_back(std::move(piece));
+    }
+    for (auto& [edge, pieces] : seeds.pieces) {
+        std::sort(pieces.begin(), pieces.end(),
+                  [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
+    }
+}
+
+/// A face of quads and triangles is a mesh, and no hexahedra stand on its triangles. Facets that are all
+/// triangles are a shape. That it is meshed anew where that was asked for is said.
+void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
+{
+    const Face& f = task.model[face];
+    const std::size_t quads = f.given_quads.size(), triangles = f.triangles.size() - 2 * quads;
+    if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
+    const std::string found = name_of(task.model, face) + " came with " + std::to_string(quads) +
+                              " quads and " + std::to_string(triangles) +
+                              " triangles, on which no hexahedra stand";
+    if (task.style == QuadStyle::automatic) {
+        throw NotSweepable("surface.given_triangles",
+                           found + "; use wedges = true to keep all of them, quads = \"paved\" to mesh "
+                                   "the face anew inside its rim, or load with keep_mesh = false");
+    }
+    seeds.notes.push_back(found + ": it is meshed anew inside its rim");
+}
+
+/// Whether a face came with quads that are to be its mesh.
+bool keeps(const SeedTask& task, FaceId face)
+{
+    const Face& f = task.model[face];
+    const bool whole = has_cells_to_keep(f, task.wedges);
+    if (task.style == QuadStyle::kept && !whole) {
+        throw NotSweepable(
+            "surface.not_kept",
+            name_of(task.model, face) + " has " + std::to_string(f.given_quads.size()) +
+                " quads of its own and " +
+                std::to_string(f.triangles.size() - std::min(f.triangles.size(), 2 * f.given_quads.size())) +
+                " triangles; quads = \"keep\" needs quads all over: wedges = true keeps triangles too, "
+                "and quads = \"auto\" makes quads");
+    }
+    return whole && (task.style == QuadStyle::kept || task.style == QuadStyle::automatic);
+}
+
+/// The pieces of an edge get the nodes it came with.
+void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
+{
+    const std::vector<double> arc = geometry::arc_lengths(edge_line(model, edge));
+    for (SeedPiece& piece : seeds.pieces[edge]) {
+        const double slack = model.tolerance / arc.back();
+        const std::size_t sides = piece.kept.size();
+        piece.kept.clear();
+        bool from = false, to = false;
+        for (const double length : arc) {
+            const double f = length / arc.back();
+            from = from || std::abs(f - piece.from) <= slack;
+            to = to || std::abs(f - piece.to) <= slack;
+            if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
+        }
+        // A piece that is one side already has no node inside.
+        if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
+            throw NotSweepable("surface.kept_rim", name_of(model, edge) + " of " + name_of(model, face) +
+                                                       ", whose quads are to be kept, has no node where "
+                                                       "the other end has a corner; mesh both ends "
+                                                       "alike, or load with keep_mesh = false");
+        }
+        piece.fixed = true;
+        piece.wanted.clear();
+        piece.count = static_cast<int>(piece.kept.size()) + 1;
+    }
+}
+
+/// How many sides size and curvature ask for, and where they are wanted.
+void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
+{
+    const int per_turn = task.sizing.curvature > 0 ? task.sizing.curvature : kFewestPerTurn;
+    std::vector<double> at;
+    for (int i = 0; i < kSizeSamples; ++i)
+        at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
+    const EdgeTurning turning(task.model, edge);
+    const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
+    // Only what the opposite rim turns more counts: an oblique end turns unevenly and as much.
+    const double own = turning.between(piece.from * turning.length(), piece.to * turning.length());
+    const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
+    const double more = opposite > own ? (opposite - own) / opposite : 0;
+    double by_turn = 0, by_size = 0, sides = 0;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    piece.wanted = {0};
+    const std::vector<Vec3> points = edge_points(task.model, edge, at);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double from = piece.from * turning.length() + static_cast<double>(i) * step;
+        double turn = turning.between(from, from + step);
+        if (more > 0) turn += more * piece.opposite[i];
+        const double size = piece.length / kSizeSamples / task.size(points[i]);
+        const double bend = turn * per_turn / (2 * std::numbers::pi);
+        const double here = std::max(size, bend);
+        by_turn += bend;
+        by_size += size;
+        sides += here;
+        piece.wanted.push_back(sides);
+        least = std::min(least, here);
+        most = std::max(most, here);
+    }
+    if (most < least * (1 + kSameSize)) piece.wanted.clear();
+    if (sides > std::numeric_limits<Index>::max() / 8) {
+        char count[32];
+        std::snprintf(count, sizeof count, "%.3g", sides);
+        throw NotSweepable("surface.too_many_sides",
+                           name_of(task.model, edge) + " would have " + count +
+                               " sides by the size asked for, more than nodes can be numbered; "
+                               "give a larger size");
+    }
+    const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
+    piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});
+    piece.bends = piece.count > std::max(1L, std::lround(by_size));
+    piece.sides = std::max(sides, by_turn);
+    piece.least = std::max(1, bends);
+}
+
+} // namespace
+
+Seeds ask_edges(const SeedTask& task, std::span<const LinkingSurface> links,
+                const std::map<EdgeId, double>& lengths)
+{
+    const Model& model = task.model;
+    Seeds seeds;
+    for (const LinkingSurface& link : links) add_rim(model, link, seeds);
+    for (const FaceId face : task.faces) {
+        if (keeps(task, face))
+            seeds.kept.insert(face);
+        else
+            note_mixed(task, face, seeds);
+    }
+    for (const auto& [edge, faces] : task.users)
+        seeds.pieces.try_emplace(edge, std::vector<SeedPiece>{{0, 1, edge_length(model, edge), 1}});
+    for (auto& [edge, pieces] : seeds.pieces) {
+        const auto swept_to = lengths.find(edge);
+        const double longer = swept_to == lengths.end() ? 1 : swept_to->second / edge_length(model, edge);
+        for (SeedPiece& piece : pieces) {
+            if (piece.fixed) continue;
+            ask_size(task, edge, piece);
+            piece.count = std::max(piece.count, static_cast<int>(std::lround(longer * piece.count)));
+            piece.sides = std::max(1.0, longer) * piece.sides;
+        }
+    }
+    for (const FaceId face : seeds.kept) {
+        for (const EdgeId edge : edges_of(model, face)) keep_nodes(model, face, edge, seeds);
+    }
+    for (const auto& [edge, faces] : task.users) {
+        if (model[edge].keeps_nodes && !task.rim.contains(edge))
+            keep_nodes(model, *faces.begin(), edge, seeds);
+    }
+    return seeds;
+}
+
+} // namespace lacuna::surface

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/seed_program.h>
+
+#include <lacuna/surface/detail/interval_program.h>
+#include <lacuna/surface/detail/round_sides.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// What a line across a mapped face weighs beside an edge of its rim: a choice, not a measurement.
+constexpr double kLineWeight = 1;
+
+/// Two threes side by side fill a face from this turn of its round side on: 120°. A choice.
+constexpr double kHalves = 2 * std::numbers::pi / 3;
+
+/// What a core of as many sides one way as the other weighs beside an edge. With a quarter of it sectors
+/// about one point got unlike numbers, 15 and 13 on every other radius.
+constexpr double kEvenCore = 1;
+
+/// Quads of a sector from which its numbers of sides go by rows along the round side. Quarters of a disc got
+/// 80 and 86 quads for 30 and 12 asked by rows, 45 and 39 without; at 120 the rows are better in all.
+constexpr double kQuadsForRows = 20;
+
+/// Numbers of sides to be solved for, and the pieces they are of.
+struct Program {
+    IntervalProgram intervals;
+    std::vector<SeedPiece*> pieces;
+    std::vector<std::size_t> piece_variable;
+    std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
+};
+
+void add_piece(SeedPiece& piece, Program& program)
+{
+    const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
+    const double wanted = rows > 0 ? piece.count : piece.sides;
+    const std::size_t variable = program.intervals.variables.size();
+    program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), 1});
+    program.intervals.variables.push_back({std::max(piece.least, rows + 1), piece.count, piece.fixed});
+    program.pieces.push_back(&piece);
+    program.piece_variable.push_back(variable);
+}
+
+/// The variables of edges.
+std::vector<std::size_t> variables_of(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
+{
+    std::vector<std::size_t> variables;
+    for (const EdgeId edge : edges) {
+        std::vector<SeedPiece>& own = seeds.pieces.at(edge);
+        const auto [found, fresh] = program.first.try_emplace(edge, program.intervals.variables.size());
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            variables.push_back(found->second + i);
+            if (fresh) add_piece(own[i], program);
+        }
+    }
+    return variables;
+}
+
+/// Mapped and submapped faces: as many sides on opposite ones.
+void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Program& program)
+{
+    for (const auto& [face, pairs] : grids.opposite) {
+        const auto mapped = grids.mapped.find(face);
+        std::array<std::vector<double>, 2> inside;
+        if (mapped != grids.mapped.end()) inside = mapped->second.wanted_inside(task.size);
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            IntervalEquation equation{variables_of(seeds, pairs[k][0], program),
+                                      variables_of(seeds, pairs[k][1], program)};
+            IntervalProgram& intervals = program.intervals;
+            if (mapped != grids.mapped.end()) {
+                for (const double sides : inside[k])
+                    intervals.wishes.push_back({equation.one, std::max(sides, kLeastWish), kLineWeight});
+                if (task.sizing.counts_across) {
+                    intervals.floors.push_back({equation.one, task.sizing.gap});
+                    intervals.floors.push_back({equation.other, task.sizing.gap});
+                }
+            }
+            intervals.equations.push_back(std::move(equation));
+        }
+    }
+}
+
+/// Whether a face of three sides, one of them round, shares an edge with another free one: the number of
+/// sides there has to do for both. None of its sides are given or asked for, and its quads are enough for
+/// rows along the round side.
+bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds& seeds, FaceId face,
+                      const std::vector<EdgeId>& edges)
+{
+    const std::vector<std::vector<EdgeId>> sides = sides_by_corners(task.model, face);
+    if (task.sizing.gap > 0 || sides.size() != 3 ||
+        std::ranges::any_of(edges, [&](EdgeId edge) { return is_fixed(seeds, edge); }))
+        return false;
+    const auto bulge = bulge_of(task.model, face, sides, task.size);
+    if (!bulge || bulge->turn / 2 * std::pow(bulge->radius / bulge->size, 2) < kQuadsForRows) return false;
+    return std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+        const std::set<FaceId>& users = task.users.at(edge);
+        return std::any_of(users.begin(), users.end(),
+                           [&](FaceId user) { return user != face && is_free(grids, seeds, user); });
+    });
+}
+
+/// What a free face needs. Of three sides: each as many as two of three grids have that meet in one node
+/// inside, so an even number in all and none more than the others together. Of two, as a half disc, its
+/// round side and the other: those of two such threes side by side, with a square core. Of two others:
+/// one has an even number more than the other, as round four corners of a grid, two of them inside.
+/// Others: an even number in all.
+/// @return  whether one side is round, and the numbers are those of its rows as well
+bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edges, Seeds& seeds,
+              Program& program)
+{
+    IntervalProgram& intervals = program.intervals;
+    const auto fresh = [&] {
+        intervals.variables.push_back({});
+        return intervals.variables.size() - 1;
+    };
+    const std::vector<std::vector<EdgeId>> side = sides_by_corners(task.model, face);
+    const auto bulge = bulge_of(task.model, face, side, task.size);
+    if (side.size() == 3) {
+        std::array<std::vector<std::size_t>, 3> own;
+        for (std::size_t s = 0; s < 3; ++s) own[s] = variables_of(seeds, side[s], program);
+        const std::array<std::size_t, 3> grid{fresh(), fresh(), fresh()};
+        for (std::size_t s = 0; s < 3; ++s)
+            intervals.equations.push_back({own[s], {grid[s], grid[(s + 1) % 3]}});
+        if (bulge) {
+            const std::size_t rows = grid[(bulge->side + 2) % 3];
+            const double core = wish_rows(*bulge, 1, own[bulge->side], rows, intervals);
+            for (const std::size_t v : grid) {
+                if (v != rows) intervals.wishes.push_back({{v}, core, kEvenCore});
+            }
+            return true;
+        }
+    } else if (side.size() == 2 && bulge && bulge->turn > kHalves) {
+        const std::vector<std::size_t> round = variables_of(seeds, side[bulge->side], program),
+                                       other = variables_of(seeds, side[1 - bulge->side], program);
+        const std::size_t core = fresh(), rows = fresh();
+        intervals.equations.push_back({round, {core, core, core, core}});
+        intervals.equations.push_back({other, {core, core, rows, rows}});
+        intervals.wishes.push_back({{core}, wish_rows(*bulge, 2, round, rows, intervals), kEvenCore});
+        return true;
+    } else if (side.size() == 2) {
+        const double a = length_of(task.model, side[0]), b = length_of(task.model, side[1]);
+        std::vector<std::size_t> longer = variables_of(seeds, side[a > b ? 0 : 1], program),
+                                 shorter = variables_of(seeds, side[a > b ? 1 : 0], program);
+        const std::size_t more = fresh();
+        shorter.insert(shorter.end(), {more, more});
+        intervals.equations.push_back({std::move(longer), std::move(shorter)});
+    } else {
+        std::vector<std::size_t> all = variables_of(seeds, edges, program);
+        const std::size_t half = fresh();
+        intervals.equations.push_back({std::move(all), {half, half}});
+    }
+    return false;
+}
+
+/// Free faces that share edges with mapped ones, so that these leave them numbers that close.
+/// @return edges that have numbers of a grid so
+std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds,
+                                   Program& program)
+{
+    std::set<EdgeId> settled;
+    if (task.style != QuadStyle::automatic) return settled;
+    for (const FaceId face : task.faces) {
+        const std::vector<EdgeId> edges = edges_of(task.model, face);
+        const bool beside = std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+            const std::set<FaceId>& users = task.users.at(edge);
+            return std::any_of(users.begin(), users.end(),
+                               [&](FaceId user) { return grids.opposite.contains(user); });
+        });
+        if (is_free(grids, seeds, face) && (beside || is_sector_beside(task, grids, seeds, face, edges))) {
+            if (add_free(task, face, edges, seeds, program)) settled.insert(edges.begin(), edges.end());
+        }
+    }
+    return settled;
+}
+
+/// The same with as many sides on edges that symmetries of a face map onto each other.
+IntervalProgram with_alike(const Program& program, const AlikeEdges& alike)
+{
+    IntervalProgram intervals = program.intervals;
+    for (const auto& [face, sets] : alike) {
+        for (const std::vector<EdgeId>& set : sets) {
+            const auto first = program.first.find(set.front());
+            for (std::size_t i = 1; i < set.size() && first != program.first.end(); ++i) {
+                const auto other = program.first.find(set[i]);
+                if (other != program.first.end())
+                    intervals.equations.push_back({{first->second}, {other->second}});
+            }
+        }
+    }
+    return intervals;
+}
+
+/// The same with as many sides on edges of a submapped face that want as many.
+IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const IntervalProgram& intervals,
+                              const Program& program)
+{
+    constexpr double kSame = 0.01; // as of edges alike
+    IntervalProgram straight = intervals;
+    for (const FaceId face : seeds.submapped) {
+        std::vector<std::pair<double, std::size_t>> wanted; // by variable
+        for (const EdgeId edge : edges_of(task.model, face)) {
+            const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
+            const auto first = program.first.find(edge);
+            if (first == program.first.end() || pieces.size() > 1 || pieces.front().fixed) continue;
+            wanted.emplace_back(pieces.front().sides, first->second);
+        }
+        std::sort(wanted.begin(), wanted.end());
+        for (std::size_t i = 1; i < wanted.size(); ++i) {
+            if (wanted[i].first <= (1 + kSame) * wanted[i - 1].first)
+                straight.equations.push_back({{wanted[i - 1].second}, {wanted[i].second}});
+        }
+    }
+    return straight;
+}
+
+/// Whether numbers of sides with which the lines of grids are straight cost little more than others: an L
+/// of 400 quads gets 24, 12 and 12 sides where 23, 12 and 11 would cost least.
+bool is_worth_it(const Program& program, const std::vector<int>& straight, const std::vector<int>& counts)
+{
+    constexpr double kCost = 2, kQuads = 0.15; // of the cost, and the share of quads: choices
+    if (std::ranges::find(straight, 0) != straight.end()) return false;
+    double sides = 0, wanted = 0;
+    for (std::size_t p = 0; p < program.pieces.size(); ++p) {
+        if (program.pieces[p]->fixed) continue;
+        sides += straight[program.piece_variable[p]];
+        wanted += program.pieces[p]->sides;
+    }
+    return std::abs(sides * sides / (wanted * wanted) - 1) <= kQuads &&
+           cost_of_intervals(program.intervals, straight) <=
+               kCost * cost_of_intervals(program.intervals, counts);
+}
+
+} // namespace
+
+std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
+                                Seeds& seeds)
+{
+    Program all;
+    add_mapped(task, grids, seeds, all);
+    const Program mapped = all;
+    std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
+    const IntervalProgram intervals = with_alike(all, alike);
+    std::vector<int> counts = solve_intervals(intervals);
+    std::vector<int> straight = solve_intervals(with_straight(task, seeds, intervals, all));
+    if (is_worth_it(all, straight, counts)) counts = std::move(straight);
+    if (std::ranges::find(counts, 0) != counts.end()) {
+        const std::vector<int> unlike = solve_intervals(all.intervals);
+        for (std::size_t v = 0; v < counts.size(); ++v) {
+            if (counts[v] == 0) counts[v] = unlike[v];
+        }
+    }
+    std::vector<int> fewer; // where free faces have no solution
+    for (std::size_t p = 0; p < all.pieces.size(); ++p) {
+        int count = counts[all.piece_variable[p]];
+        if (count == 0 && p < mapped.pieces.size()) {
+            if (fewer.empty()) fewer = solve_intervals(mapped.intervals);
+            count = fewer[mapped.piece_variable[p]];
+        }
+        if (count > 0) all.pieces[p]->count = count;
+    }
+    return settled;
+}
+
+} // namespace lacuna::surface

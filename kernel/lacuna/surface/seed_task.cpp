@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/seed_task.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+SeedTask::SeedTask(const OpenVolume& of, std::span<const LinkingSurface> links, const SizeField& asked,
+                   QuadStyle as, const ShapeSizing& by, bool with_wedges)
+    : volume(of),
+      model(of.model),
+      size(asked),
+      style(as),
+      sizing(by),
+      wedges(with_wedges),
+      faces(of.faces(Role::source))
+{
+    for (const FaceId face : faces) {
+        for (const EdgeId edge : edges_of(model, face)) users[edge].insert(face);
+    }
+    for (const LinkingSurface& link : links) {
+        for (const RimSegment& segment : link.segments) {
+            const EdgeId edge = link.source.uses()[segment.use].edge;
+            rim.insert(edge);
+            users[edge];
+        }
+    }
+}
+
+std::vector<EdgeId> edges_of(const Model& model, FaceId face)
+{
+    std::vector<EdgeId> edges;
+    for (const Loop& loop : model[face].loops) {
+        for (const EdgeUse& use : loop.uses) edges.push_back(use.edge);
+    }
+    return edges;
+}
+
+int total(const Seeds& seeds, const std::vector<EdgeId>& edges)
+{
+    return std::accumulate(edges.begin(), edges.end(), 0,
+                           [&](int sum, EdgeId e) { return sum + seeds.count(e); });
+}
+
+int sides_of(const Model& model, const Seeds& seeds, FaceId face)
+{
+    return total(seeds, edges_of(model, face));
+}
+
+bool is_fixed(const Seeds& seeds, EdgeId edge)
+{
+    const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
+    return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
+}
+
+bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by)
+{
+    for (; by > 0; --by) {
+        SeedPiece* longest = nullptr;
+        for (const EdgeId edge : edges) {
+            for (SeedPiece& piece : seeds.pieces[edge]) {
+                if (piece.fixed) continue;
+                if (longest == nullptr || piece.length / piece.count > longest->length / longest->count)
+                    longest = &piece;
+            }
+        }
+        if (longest == nullptr) return false;
+        ++longest->count;
+    }
+    return true;
+}
+
+} // namespace lacuna::surface

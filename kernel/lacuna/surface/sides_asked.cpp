@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/sides_asked.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/surface/detail/seed_pieces.h>
+#include <lacuna/surface/edge_nodes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+std::string in_short(double x)
+{
+    char words[32];
+    std::snprintf(words, sizeof words, "%.4g", x);
+    return words;
+}
+
+/// Height over the side that rows run along, up to which an edge has room for them.
+double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
+{
+    const std::vector<double>& other = at_end ? piece.low : piece.high;
+    const double far = at_end ? (other.empty() ? piece.from : other.back())
+                              : (other.empty() ? piece.to : other.front());
+    const double at[] = {far};
+    return (edge_points(model, edge, at).front() - model.at(model[end.corner].point)).dot(end.inward);
+}
+
+/// Nodes on an edge at the heights of rows that end at one of its ends.
+void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const RimRows::End& end)
+{
+    std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
+    SeedPiece& piece = at_end ? pieces.back() : pieces.front();
+    if (piece.fixed) return; // whether its nodes will do shows when the rows are placed
+    const std::vector<double>& heights = seeds.rows.heights[static_cast<std::size_t>(end.table)];
+    std::vector<double>& own = at_end ? piece.high : piece.low;
+    own = row_places(model, edge, at_end, end, heights);
+    const double low = piece.low.empty() ? piece.from : piece.low.back();
+    const double high = piece.high.empty() ? piece.to : piece.high.front();
+    if (own.size() < heights.size() || !(low < high)) {
+        throw NotSweepable(
+            "surface.layers_room",
+            "the boundary layers of " + name_of(model, end.wall) + ", " + in_short(heights.back()) +
+                " high, end on " + name_of(model, edge) + " at " + name_of(model, end.corner) +
+                ", where there is room for " + in_short(room_on(model, piece, edge, at_end, end)) +
+                ((at_end ? piece.low : piece.high).empty() ? ""
+                                                           : " beside the rows that end at its other end") +
+                "; ask for fewer or thinner rows");
+    }
+    const double share = (high - low) / (piece.to - piece.from);
+    const double sides_between = piece.wanted.empty() ? share * piece.count
+                                                      : wanted_at(piece, high) - wanted_at(piece, low);
+    piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) +
+                  static_cast<int>(piece.low.size() + piece.high.size());
+}
+
+/// Number of sides up to a share of the length, by the bias.
+double index_at(double share, const SidesAsked& asked)
+{
+    if (asked.count < 2 || asked.bias == 1) return share * asked.count;
+    const double growth = std::log(asked.bias) / (asked.count - 1);
+    return std::log1p(share * std::expm1(growth * asked.count)) / growth;
+}
+
+double length_at(double index, const SidesAsked& asked)
+{
+    if (asked.count < 2 || asked.bias == 1) return index / asked.count;
+    const double growth = std::log(asked.bias) / (asked.count - 1);
+    return std::expm1(growth * index) / std::expm1(growth * asked.count);
+}
+
+/// The nodes at the ends of pieces: those nearest by the bias, one side at least each.
+std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
+{
+    std::vector<int> node{0};
+    const auto pieces = static_cast<int>(ends.size()) - 1;
+    for (int p = 1; p < pieces; ++p) {
+        const double at = index_at(ends[static_cast<std::size_t>(p)] / ends.back(), asked);
+        node.push_back(
+            std::clamp(static_cast<int>(std::lround(at)), node.back() + 1, asked.count - (pieces - p)));
+    }
+    node.push_back(asked.count);
+    return node;
+}
+
+/// Who asked for the sides of a piece.
+using Askers = std::map<const SeedPiece*, std::string>;
+
+/// Put what is asked of a piece in its place.
+void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiece& own,
+            const std::string& who, const SidesAsked& asked)
+{
+    const auto before = askers.find(&piece);
+    if (piece.fixed) {
+        const std::string other = before != askers.end() ? before->second : "the mesh given there";
+        if (piece.count != own.count)
+            refuse_sides(who + " (" + std::to_string(own.count) + " of them on this part), and " + other +
+                         " has " + std::to_string(piece.count));
+        for (std::size_t i = 0; i < own.kept.size() && before != askers.end(); ++i) {
+            if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model.tolerance)
+                refuse_sides(who + ", and " + other + ", with other lengths");
+        }
+        return;
+    }
+    if (!piece.low.empty() || !piece.high.empty()) {
+        const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
+        if (own.count <= rows)
+            refuse_sides(who + ", where boundary layers end that have " + std::to_string(rows) +
+                         " of their own: ask for " + std::to_string(rows + 1) + " or more");
+        if (asked.bias != 1)
+            refuse_sides(who + " with a bias, where boundary layers end: these set the lengths");
+        piece.count = own.count;
+        const std::vector<double> at = piece.fractions();
+        piece.kept.assign(at.begin() + 1, at.end());
+        piece.fixed = piece.asked = true;
+    } else {
+        piece = own;
+    }
+    askers[&piece] = who;
+}
+
+/// A number of sides that a person asks for: its nodes, for good.
+void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAsked& asked)
+{
+    const std::string who = asked.name + " asks for " + std::to_string(asked.count) + " sides";
+    std::vector<SeedPiece*> pieces;
+    std::vector<bool> reversed;
+    std::vector<std::string> names;
+    for (const SidesAsked::Part& part : asked.parts) {
+        std::vector<std::size_t> within;
+        std::vector<SeedPiece>& all = seeds.pieces.at(part.edge);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double middle = (all[i].from + all[i].to) / 2;
+            if (middle > part.from && middle < part.to) within.push_back(i);
+        }
+        if (part.reversed) std::reverse(within.begin(), within.end());
+        for (const std::size_t i : within) {
+            pieces.push_back(&all[i]);
+            reversed.push_back(part.reversed);
+            names.push_back(name_of(model, part.edge));
+        }
+    }
+    if (static_cast<std::size_t>(asked.count) < pieces.size()) {
+        refuse_sides(who + " where corners of both ends leave at least " + std::to_string(pieces.size()));
+    }
+    std::vector<double> ends{0}; // running lengths
+    for (const SeedPiece* piece : pieces) ends.push_back(ends.back() + piece->length);
+    const std::vector<int> node = nodes_at(ends, asked);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        SeedPiece own = *pieces[p];
+        own.fixed = own.asked = true;
+        own.count = node[p + 1] - node[p];
+        own.kept.clear();
+        const double from = index_at(ends[p] / ends.back(), asked),
+                     to = index_at(ends[p + 1] / ends.back(), asked);
+        for (int i = 1; i < own.count; ++i) {
+            const double at = from + (to - from) * i / own.count;
+            double share = (length_at(at, asked) * ends.back() - ends[p]) / (ends[p + 1] - ends[p]);
+            if (reversed[p]) share = 1 - share;
+            own.kept.push_back(own.from + share * (own.to - own.from));
+        }
+        std::sort(own.kept.begin(), own.kept.end());
+        settle(model, askers, *pieces[p], own, who + " on " + names[p], asked);
+    }
+}
+
+} // namespace
+
+void end_rows(Seeds& seeds, const Model& model, const RimRows& rows)
+{
+    seeds.rows = rows;
+    for (const auto& [at, end] : rows.ends) end_rows(seeds, model, at.first, at.second, end);
+}
+
+void set_sides(Seeds& seeds, const Model& model, std::span<const SidesAsked> sides)
+{
+    Askers askers;
+    for (const SidesAsked& asked : sides) set_sides(seeds, model, askers, asked);
+}
+
+void refuse_sides(const std::string& what)
+{
+    throw NotSweepable("surface.sides_asked", "intervals: " + what);
+}
+
+} // namespace lacuna::surface
