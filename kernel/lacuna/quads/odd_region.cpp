@@ -107,9 +107,18 @@ public:
 
     void run()
     {
+        // A node stays where it is as long as nothing round it moves.
+        std::vector<char> awake(points_.size(), 1);
         for (int round = 0; round < kRounds; ++round) {
             bool moved = false;
-            for (const Index n : free_) moved = move(n) || moved;
+            for (const Index n : free_) {
+                if (awake[index(n)] == 0) continue;
+                awake[index(n)] = 0;
+                if (!move(n)) continue;
+                moved = true;
+                for (const Index q : at_.of(index(n)))
+                    for (const Index other : quads_[index(q)]) awake[index(other)] = 1;
+            }
             if (!moved) break;
         }
         closed_.worst = 1;
@@ -122,10 +131,14 @@ public:
     }
 
 private:
-    [[nodiscard]] double worst_at(Index n) const
+    /// The worst cell at a node; somewhere in -1…floor where that is no better than `floor`.
+    [[nodiscard]] double worst_at(Index n, double floor) const
     {
         double worst = 1;
-        for (const Index q : at_.of(index(n))) worst = std::min(worst, quality_of(points_, quads_[index(q)]));
+        for (const Index q : at_.of(index(n))) {
+            worst = std::min(worst, quality_of(points_, quads_[index(q)]));
+            if (worst <= floor) break;
+        }
         return worst;
     }
 
@@ -152,11 +165,11 @@ private:
         side /= count;
         Vec2 best = points_[index(n)];
         const Vec2 old = best;
-        double worst = worst_at(n);
+        double worst = worst_at(n, -1);
         bool moved = false;
         const auto offer = [&](const Vec2& place) {
             points_[index(n)] = place;
-            const double found = worst_at(n);
+            const double found = worst_at(n, worst + kGain);
             if (found <= worst + kGain) return;
             worst = found;
             best = place;
@@ -180,108 +193,180 @@ private:
     std::vector<Index> free_, cells_;
 };
 
-/// Closes rows of a mesh of the divided region.
-class RowCloser {
-public:
-    /// @param middle  the node that was added; those before it are the region's.
-    RowCloser(const PlanarQuads& mesh, Index middle)
-        : mesh_(mesh),
-          middle_(middle),
-          opposite_(mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()))),
-          on_rim_(mesh.points.size(), 0)
-    {
-        for (std::size_t side = 0; side < opposite_.size(); ++side) {
-            if (opposite_[side] == mesh::kRimSide) on_rim_[index(mesh.quads[side / 4][side % 4])] = 1;
-        }
-    }
-
-    /// Every way of closing: from either side of the rim that ends at the middle node, up to each of the
-    /// first quads of the row.
-    [[nodiscard]] std::vector<Closed> run() const
-    {
-        std::vector<Closed> found;
-        for (std::size_t side = 0; side < opposite_.size(); ++side) {
-            if (opposite_[side] != mesh::kRimSide) continue;
-            if (from(side) == middle_ || to(side) == middle_) add_row(static_cast<Index>(side), found);
-        }
-        return found;
-    }
-
-private:
-    [[nodiscard]] Index from(std::size_t side) const { return mesh_.quads[side / 4][side % 4]; }
-    [[nodiscard]] Index to(std::size_t side) const { return mesh_.quads[side / 4][(side + 1) % 4]; }
-
-    /// Of a row across sides, each closed to one node until a quad is left that becomes the triangle.
-    void add_row(Index side, std::vector<Closed>& found) const
-    {
-        std::vector<Segment> closed;
-        std::vector<Index> gone;
-        std::set<Index> touched;
-        for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
-            const Index a = from(index(side)), b = to(index(side));
-            // Two nodes of the boundary stay two, but for the one that was added.
-            const bool both = on_rim_[index(a)] != 0 && on_rim_[index(b)] != 0;
-            if ((step > 0 && both) || !touched.insert(a).second || !touched.insert(b).second) return;
-            closed.push_back({a, b});
-            if (std::optional<Closed> mesh = close(closed, gone, side / 4)) found.push_back(std::move(*mesh));
-            gone.push_back(side / 4);
-            side = opposite_[index(side / 4 * 4 + (side + 2) % 4)];
-        }
-    }
-
-    /// @param gone  quads that vanish; `last` becomes the triangle.
-    [[nodiscard]] std::optional<Closed> close(const std::vector<Segment>& closed,
-                                              const std::vector<Index>& gone, Index last) const
-    {
-        std::vector<Vec2> points = mesh_.points;
-        std::vector<Index> to(points.size());
-        std::iota(to.begin(), to.end(), 0);
-        Closed result;
-        for (const Segment& side : closed) {
-            Index stays = side[0], goes = side[1];
-            const bool swap = stays == middle_ || (goes != middle_ && on_rim_[index(goes)] != 0);
-            if (swap) std::swap(stays, goes);
-            if (on_rim_[index(stays)] == 0)
-                points[index(stays)] = (points[index(stays)] + points[index(goes)]) / 2;
-            to[index(goes)] = stays;
-            result.near.push_back(stays);
-        }
-        std::vector<Index> number(points.size(), -1);
-        for (std::size_t n = 0; n < points.size(); ++n) {
-            if (to[n] != static_cast<Index>(n)) continue;
-            number[n] = static_cast<Index>(result.mesh.points.size());
-            result.mesh.points.push_back(points[n]);
-        }
-        for (Index& n : result.near) n = number[index(n)];
-        std::optional<Quad> triangle;
-        result.mesh.quads.reserve(mesh_.quads.size());
-        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
-            if (std::find(gone.begin(), gone.end(), static_cast<Index>(q)) != gone.end()) continue;
-            Quad corners;
-            std::size_t count = 0;
-            for (const Index n : mesh_.quads[q]) {
-                const Index own = number[index(to[index(n)])];
-                const auto end = corners.begin() + static_cast<std::ptrdiff_t>(count);
-                if (std::find(corners.begin(), end, own) == end) corners[count++] = own;
-            }
-            const bool is_last = static_cast<Index>(q) == last;
-            if (count != (is_last ? 3 : 4)) return std::nullopt;
-            if (is_last)
-                triangle = Quad{corners[0], corners[1], corners[2], corners[2]};
-            else
-                result.mesh.quads.push_back(corners);
-        }
-        result.mesh.quads.push_back(*triangle);
-        result.mesh.how = mesh_.how;
-        Smoother(result, index(middle_)).run();
-        return result;
-    }
-
-    const PlanarQuads& mesh_;
-    Index middle_;
-    std::vector<Index> opposite_;
-    std::vector<char> on_rim_;
+/// A row that may be closed, in a mesh of the divided region.
+struct Row {
+    std::vector<Segment> closed; ///< sides, each closed to one node
+    std::vector<Index> gone;     ///< quads that vanish
+    Index last;                  ///< the quad that becomes the triangle
 };
+
+/// The part of a mesh that closing rows from a node may change or look at. Its nodes and quads keep their
+/// order, so that what is done to them is what would be done in the mesh.
+struct Window {
+    PlanarQuads mesh;
+    std::vector<char> on_rim;        ///< nodes on the region's boundary
+    std::vector<Index> nodes, quads; ///< their numbers in the mesh
+    Index middle;                    ///< the node that was added; those before it are the region's
+};
+
+/// @param middle  the node that was added; those before it are the region's.
+Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
+{
+    // As far as rows go, the rings round them, and the cells of their nodes.
+    constexpr std::size_t kReach = kMostSteps + kRings + 2;
+    const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
+    std::vector<Index> number(mesh.points.size(), -1);
+    std::vector<char> taken(mesh.quads.size(), 0);
+    Window window;
+    window.nodes.push_back(middle);
+    number[index(middle)] = 0;
+    for (std::size_t ring = 0, begin = 0; ring < kReach; ++ring) {
+        const std::size_t end = window.nodes.size();
+        for (; begin < end; ++begin) {
+            for (const Index q : at.of(index(window.nodes[begin]))) {
+                if (taken[index(q)] != 0) continue;
+                taken[index(q)] = 1;
+                window.quads.push_back(q);
+                for (const Index n : mesh.quads[index(q)]) {
+                    if (number[index(n)] >= 0) continue;
+                    number[index(n)] = 0;
+                    window.nodes.push_back(n);
+                }
+            }
+        }
+    }
+    std::sort(window.nodes.begin(), window.nodes.end());
+    std::sort(window.quads.begin(), window.quads.end());
+    std::vector<char> on_rim(mesh.points.size(), 0);
+    for (const std::vector<Index>& loop : divided.loops)
+        for (const Index n : loop) on_rim[index(n)] = 1;
+    for (const Index n : window.nodes) {
+        number[index(n)] = static_cast<Index>(window.mesh.points.size());
+        window.mesh.points.push_back(mesh.points[index(n)]);
+        window.on_rim.push_back(on_rim[index(n)]);
+    }
+    for (const Index q : window.quads) {
+        Quad quad = mesh.quads[index(q)];
+        for (Index& n : quad) n = number[index(n)];
+        window.mesh.quads.push_back(quad);
+    }
+    window.middle = number[index(middle)];
+    return window;
+}
+
+/// Every way of closing a row: from either side of the boundary that ends at the middle node, up to each of
+/// the first quads of the row.
+std::vector<Row> rows_from(const Window& window)
+{
+    const std::vector<Quad>& quads = window.mesh.quads;
+    const std::vector<Index> opposite = mesh::opposite_sides(quads,
+                                                             static_cast<Index>(window.mesh.points.size()));
+    const auto end_of = [&](Index side, Index next) {
+        return quads[index(side / 4)][index((side + next) % 4)];
+    };
+    std::vector<Row> rows;
+    for (Index first = 0; first < static_cast<Index>(opposite.size()); ++first) {
+        if (opposite[index(first)] != mesh::kRimSide) continue;
+        if (end_of(first, 0) != window.middle && end_of(first, 1) != window.middle) continue;
+        Row row;
+        std::set<Index> touched;
+        Index side = first;
+        for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
+            const Index a = end_of(side, 0), b = end_of(side, 1);
+            // Two nodes of the boundary stay two, but for the one that was added.
+            const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
+            if ((step > 0 && both) || !touched.insert(a).second || !touched.insert(b).second) break;
+            row.closed.push_back({a, b});
+            row.last = side / 4;
+            rows.push_back(row);
+            row.gone.push_back(side / 4);
+            side = opposite[index(side / 4 * 4 + (side + 2) % 4)];
+        }
+    }
+    return rows;
+}
+
+/// Close a row; nothing where another cell loses a corner too.
+/// @param middle  the node that was added; those before it are the region's.
+std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
+                            Index middle)
+{
+    std::vector<Vec2> points = mesh.points;
+    std::vector<Index> to(points.size());
+    std::iota(to.begin(), to.end(), 0);
+    Closed result;
+    for (const Segment& side : row.closed) {
+        Index stays = side[0], goes = side[1];
+        const bool swap = stays == middle || (goes != middle && on_rim[index(goes)] != 0);
+        if (swap) std::swap(stays, goes);
+        if (on_rim[index(stays)] == 0)
+            points[index(stays)] = (points[index(stays)] + points[index(goes)]) / 2;
+        to[index(goes)] = stays;
+        result.near.push_back(stays);
+    }
+    std::vector<Index> number(points.size(), -1);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        if (to[n] != static_cast<Index>(n)) continue;
+        number[n] = static_cast<Index>(result.mesh.points.size());
+        result.mesh.points.push_back(points[n]);
+    }
+    for (Index& n : result.near) n = number[index(n)];
+    std::optional<Quad> triangle;
+    result.mesh.quads.reserve(mesh.quads.size());
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        if (std::find(row.gone.begin(), row.gone.end(), static_cast<Index>(q)) != row.gone.end()) continue;
+        Quad corners;
+        std::size_t count = 0;
+        for (const Index n : mesh.quads[q]) {
+            const Index own = number[index(to[index(n)])];
+            const auto end = corners.begin() + static_cast<std::ptrdiff_t>(count);
+            if (std::find(corners.begin(), end, own) == end) corners[count++] = own;
+        }
+        const bool is_last = static_cast<Index>(q) == row.last;
+        if (count != (is_last ? 3 : 4)) return std::nullopt;
+        if (is_last)
+            triangle = Quad{corners[0], corners[1], corners[2], corners[2]};
+        else
+            result.mesh.quads.push_back(corners);
+    }
+    result.mesh.quads.push_back(*triangle);
+    result.mesh.how = mesh.how;
+    Smoother(result, index(middle)).run();
+    return result;
+}
+
+/// A row of a window as one of the mesh that it is part of.
+Row in_mesh(Row row, const Window& window)
+{
+    for (Segment& side : row.closed)
+        for (Index& n : side) n = window.nodes[index(n)];
+    for (Index& q : row.gone) q = window.quads[index(q)];
+    row.last = window.quads[index(row.last)];
+    return row;
+}
+
+/// The best way of closing a row of a mesh of the divided region; nothing where there is none.
+/// @param than  what it must be better than, where given.
+std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
+                                 const std::optional<Closed>& than, const RunContext& context)
+{
+    const Window window = window_at(mesh, divided, middle);
+    std::optional<Closed> best;
+    const Row* row = nullptr;
+    const std::vector<Row> rows = rows_from(window);
+    for (const Row& next : rows) {
+        check_cancelled(context);
+        std::optional<Closed> closed = close(window.mesh, window.on_rim, next, window.middle);
+        if (!closed || (than && !closed->better_than(*than)) || (best && !closed->better_than(*best)))
+            continue;
+        best = std::move(closed);
+        row = &next;
+    }
+    if (!best) return std::nullopt;
+    std::vector<char> on_rim(mesh.points.size(), 0);
+    for (std::size_t n = 0; n < window.nodes.size(); ++n) on_rim[index(window.nodes[n])] = window.on_rim[n];
+    return close(mesh, on_rim, in_mesh(*row, window), middle);
+}
 
 } // namespace
 
@@ -301,10 +386,8 @@ PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& 
         divided.points.push_back((region.points[index(a)] + region.points[index(b)]) / 2);
         loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(sides[s].place) + 1, middle);
         const PlanarQuads filled = mesher(divided, context);
-        for (Closed& closed : RowCloser(filled, middle).run()) {
-            check_cancelled(context);
-            if (!best || closed.better_than(*best)) best = std::move(closed);
-        }
+        if (std::optional<Closed> closed = close_best(filled, divided, middle, best, context))
+            best = std::move(closed);
         if (best && best->worst >= kGoodEnough) break;
     }
     if (!best) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,8 @@ constexpr int kBinBits = 10;          // points are sorted into bins small enoug
 constexpr std::size_t kBins = std::size_t(1) << kBinBits;
 /// Up to so many points the entries of all bins are made at once: 32 MB. A choice.
 constexpr std::size_t kFew = std::size_t(1) << 22;
+/// Up to so many points of a level are searched at once: their entries take 1 MB, and as much to find them.
+constexpr std::size_t kLevel = std::size_t(1) << 17;
 
 std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
 
@@ -149,7 +152,7 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
 
 using Pair = std::array<Index, 2>;
 
-/// A pair within a bin.
+/// A pair within entries.
 std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const Vec3> points, double tolerance,
                                std::vector<std::int32_t>& table)
 {
@@ -174,6 +177,82 @@ std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const V
         if (!twin) table[slot] = static_cast<std::int32_t>(e);
     }
     return found;
+}
+
+std::optional<Pair> least_of(const std::vector<std::optional<Pair>>& found)
+{
+    std::optional<Pair> least;
+    for (const auto& pair : found)
+        if (pair && (!least || *pair < *least)) least = pair;
+    return least;
+}
+
+std::optional<Pair> search_all(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
+{
+    const auto hashes = hashes_of(points, grid, context);
+    // Many points are looked at a sixteenth of the bins at a time, which takes a sixteenth of the memory.
+    const std::size_t width = points.size() > kFew ? kBins / 16 : kBins;
+    std::vector<std::optional<Pair>> found(kBins);
+    Bins bins;
+    for (std::size_t first = 0; first < kBins; first += width) {
+        sort_into_bins(points.size(), hashes.get(), first, first + width, bins, context);
+        parallel_for(context, width, 16, [&](std::size_t begin, std::size_t end) {
+            std::vector<std::int32_t> table;
+            for (std::size_t b = begin; b < end; ++b) {
+                const std::span<const Entry> all(bins.entries.get(), bins.start[width]);
+                found[first + b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]),
+                                              points, grid.tolerance, table);
+            }
+        });
+    }
+    return least_of(found);
+}
+
+/// Whether there is room between each level and the next along the line that leads from the first to the
+/// last.
+bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance, const RunContext& context)
+{
+    if (level == 0 || level > kLevel || points.size() % level != 0 || points.size() < 2 * level) return false;
+    const std::size_t levels = points.size() / level;
+    Vec3 way = Vec3::Zero();
+    for (std::size_t i = 0; i < level; ++i) way += points[points.size() - level + i] - points[i];
+    way = way.stableNormalized();
+    std::vector<std::array<double, 2>> range(levels);
+    parallel_for(context, levels, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = begin; l < end; ++l) {
+            double low = std::numeric_limits<double>::infinity(), high = -low;
+            for (const Vec3& point : points.subspan(l * level, level)) {
+                const double at = way.dot(point);
+                low = std::min(low, at);
+                high = std::max(high, at);
+            }
+            range[l] = {low, high};
+        }
+    });
+    for (std::size_t l = 1; l < levels; ++l)
+        if (!(range[l][0] - range[l - 1][1] > 2 * tolerance)) return false; // twice, for what is rounded
+    return true;
+}
+
+/// A level's entries are made and searched while they are in the second-level cache.
+std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t level, const Grid& grid,
+                                  const RunContext& context)
+{
+    constexpr std::size_t kTogether = 4; // levels that share a table, for what it takes to get it
+    std::vector<std::optional<Pair>> found(points.size() / level);
+    parallel_for(context, found.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+        std::vector<Entry> entries;
+        std::vector<std::int32_t> table;
+        for (std::size_t l = begin; l < end; ++l) {
+            entries.clear();
+            for (std::size_t p = l * level; p < (l + 1) * level; ++p)
+                grid.visit(points[p], [&](std::uint32_t hash) {
+                    entries.push_back({hash, static_cast<Index>(p)});
+                });
+            found[l] = search_bin(entries, points, grid.tolerance, table);
+        }
+    });
+    return least_of(found);
 }
 
 } // namespace
@@ -201,39 +280,14 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
     return bounds;
 }
 
-std::optional<Pair> find_coincident(std::span<const Vec3> points, const Eigen::AlignedBox3d& bounds,
-                                    const RunContext& context)
-{
-    return find_coincident(points, coincidence_tolerance(bounds), bounds, context);
-}
-
-std::optional<Pair> find_coincident(std::span<const Vec3> points, double tolerance,
+std::optional<Pair> find_coincident(std::span<const Vec3> points, std::size_t level, double tolerance,
                                     const Eigen::AlignedBox3d& bounds, const RunContext& context)
 {
     if (points.size() < 2) return std::nullopt;
     if (!(tolerance > 0)) return Pair{0, 1};
     const Grid grid(bounds, tolerance);
-    const auto hashes = hashes_of(points, grid, context);
-
-    // Many points are looked at a sixteenth of the bins at a time, which takes a sixteenth of the memory.
-    const std::size_t width = points.size() > kFew ? kBins / 16 : kBins;
-    std::vector<std::optional<Pair>> found(kBins);
-    Bins bins;
-    for (std::size_t first = 0; first < kBins; first += width) {
-        sort_into_bins(points.size(), hashes.get(), first, first + width, bins, context);
-        parallel_for(context, width, 16, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::int32_t> table;
-            for (std::size_t b = begin; b < end; ++b) {
-                const std::span<const Entry> all(bins.entries.get(), bins.start[width]);
-                found[first + b] = search_bin(all.subspan(bins.start[b], bins.start[b + 1] - bins.start[b]),
-                                              points, grid.tolerance, table);
-            }
-        });
-    }
-    std::optional<Pair> least;
-    for (const auto& pair : found)
-        if (pair && (!least || *pair < *least)) least = pair;
-    return least;
+    return are_apart(points, level, tolerance, context) ? search_levels(points, level, grid, context)
+                                                        : search_all(points, grid, context);
 }
 
 } // namespace lacuna::quality

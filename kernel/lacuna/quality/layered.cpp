@@ -229,7 +229,7 @@ private:
                     place[static_cast<std::size_t>(found - suspects.begin())] = p;
             });
         }
-        const auto pair = find_coincident(place, tolerance_, bounds_, context_);
+        const auto pair = find_coincident(place, 0, tolerance_, bounds_, context_);
         if (!pair) return std::nullopt;
         return std::array<Index, 2>{suspects[index((*pair)[0])], suspects[index((*pair)[1])]};
     }
@@ -340,7 +340,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunConte
         const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
         nodes.resize(static_cast<std::size_t>(last - first + 1) * row);
         layered.nodes.place(first, last + 1, nodes, context);
-        if (auto pair = find_coincident(nodes, tolerance, bounds, context)) {
+        if (auto pair = find_coincident(nodes, row, tolerance, bounds, context)) {
             const auto before = static_cast<Index>(static_cast<std::size_t>(first) * row);
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
         }

@@ -196,7 +196,8 @@ Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunC
                                         [](const Vec3& p) { return !p.allFinite(); });
         return not_finite(node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer));
     }
-    if (const auto pair = find_coincident(nodes, bounds, context))
+    if (const auto pair = find_coincident(nodes, index(std::max<Index>(nodes_per_layer, 0)),
+                                          coincidence_tolerance(bounds), bounds, context))
         return coincident_nodes(node_name(nodes, (*pair)[0], nodes_per_layer),
                                 node_name(nodes, (*pair)[1], nodes_per_layer));
     return std::nullopt;

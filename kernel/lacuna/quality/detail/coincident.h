@@ -22,15 +22,12 @@ inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
     return 1e-9 * bounds.diagonal().norm();
 }
 
-/// Two points within `tolerance` of each other, some of the points of `bounds`.
-std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points, double tolerance,
-                                                    const Eigen::AlignedBox3d& bounds,
-                                                    const RunContext& context);
-
-/// Two points within 1e-9 of the diagonal of `bounds`, the same pair for any thread count. O(points).
+/// Two points within `tolerance` of each other, the same pair for any thread count. O(points).
+/// @param level  points lie in levels of so many, one after the other; 0: in none. Levels between which there
+///               is room along a line are looked at one by one, which takes a quarter of the time.
 /// @pre  bounds holds every point.
-std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points,
-                                                    const Eigen::AlignedBox3d& bounds,
+std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points, std::size_t level,
+                                                    double tolerance, const Eigen::AlignedBox3d& bounds,
                                                     const RunContext& context);
 
 } // namespace lacuna::quality
