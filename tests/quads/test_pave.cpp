@@ -429,3 +429,37 @@ TEST_CASE("what cannot be paved is refused in words")
     CHECK_THROWS_AS(quads::pave(flat, {.exact_rows = 1}), InvalidInput);
     CHECK_THROWS_AS(quads::pave(flat, {.exact_rows = -1}), InvalidInput);
 }
+
+TEST_CASE("a very short boundary side leaves no needles inside")
+{
+    // Sines say nothing about lengths: raised by them alone, nodes near such a side met.
+    for (const double tiny : {0.003, 0.012, 0.04}) {
+        for (const double size : {0.4, 0.55, 0.7, 0.85, 1.0}) {
+            for (const double wide : {1.4, 1.5, 1.6}) {
+                CAPTURE(tiny);
+                CAPTURE(size);
+                CAPTURE(wide);
+                const PlanarRegion region = polygon({{0, 0},
+                                                     {3, 0},
+                                                     {3, 1},
+                                                     {wide + tiny, 1},
+                                                     {wide, 1 + tiny},
+                                                     {wide, 2.5},
+                                                     {0, 2.5}},
+                                                    size);
+                check_paved(region);
+                const quads::PlanarQuads mesh = quads::pave(region).mesh;
+                double shortest = size;
+                for (const Quad& quad : mesh.quads) {
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        const auto at = [&](std::size_t i) {
+                            return mesh.points[static_cast<std::size_t>(quad[i % 4])];
+                        };
+                        shortest = std::min(shortest, (at(k + 1) - at(k)).norm());
+                    }
+                }
+                CHECK(shortest > tiny / 2);
+            }
+        }
+    }
+}

@@ -11,7 +11,8 @@ namespace lacuna::quads::paving {
 namespace {
 
 /// Move a point to where the worst quad around it is better. @return whether it is
-bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p)
+/// @param least_side  that its sides must keep [length]
+bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p, double least_side)
 {
     // Steps of the mean distance to the neighbours; choices, not measurements.
     constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
@@ -38,12 +39,15 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
     // Small steps do not bring back a point far outside its neighbours.
     for (const Vec2& to : {mean, Vec2((mean + x) / 2)}) {
         const double found = worst_at(to);
-        if (found <= worst) continue;
+        if (found <= worst || shortest_side(points, star, to) < least_side) continue;
         worst = found;
         points[p] = to;
     }
-    worst = geometry::pattern_search(points[p], worst, {distance / count, kFirst, kLast, 0},
-                                     [&](const Vec2& to, double /*floor*/) { return worst_at(to); });
+    worst = geometry::pattern_search(
+        points[p], worst, {distance / count, kFirst, kLast, 0}, [&](const Vec2& to, double floor) {
+            const double found = worst_at(to);
+            return found > floor && shortest_side(points, star, to) < least_side ? floor : found;
+        });
     return worst > before + kLeastGain;
 }
 
@@ -56,6 +60,7 @@ void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
     const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlat; };
     if (std::none_of(mesh.quads.begin(), mesh.quads.end(), is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);
+    const std::vector<double> least_side = sides_to_keep(mesh.points, stars, fixed);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         std::vector<char> flat(mesh.points.size(), 0);
         for (const Quad& quad : mesh.quads) {
@@ -64,7 +69,7 @@ void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
         }
         bool moved = false;
         for (std::size_t p = fixed; p < mesh.points.size(); ++p) {
-            if (flat[p] != 0 && raise(mesh.points, stars[p], p)) moved = true;
+            if (flat[p] != 0 && raise(mesh.points, stars[p], p, least_side[p])) moved = true;
         }
         if (!moved) return;
     }

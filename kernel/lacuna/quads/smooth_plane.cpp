@@ -21,6 +21,22 @@ constexpr double kStill = 0.02;
 /// takes a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;
 
+/// Whether a side is far shorter than any between two fixed points: its ends all but met, which sines do not
+/// show.
+bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed)
+{
+    constexpr double kOfShortest = 0.05; // a choice, not a measurement
+    double given = kInfinity, shortest = kInfinity;
+    for (const Quad& quad : quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t a = index(quad[k]), b = index(quad[(k + 1) % 4]);
+            double& least = a < fixed && b < fixed ? given : shortest;
+            least = std::min(least, (points[a] - points[b]).squaredNorm());
+        }
+    }
+    return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
+}
+
 class Smoother {
 public:
     Smoother(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
@@ -51,7 +67,10 @@ public:
     /// neighbour that moved. @return whether any moved.
     bool raise(double floor)
     {
-        if (restless_.empty()) restless_.assign(points_.size(), 1);
+        if (restless_.empty()) {
+            restless_.assign(points_.size(), 1);
+            least_side_ = sides_to_keep(points_, stars_, fixed_);
+        }
         std::vector<char> poor(points_.size(), 0);
         for (const Quad& quad : quads_) {
             const bool still = std::none_of(quad.begin(), quad.end(),
@@ -143,13 +162,12 @@ private:
         constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
-        double reach = kInfinity;
-        for (const Spoke& spoke : star)
-            reach = std::min(reach, (points_[index(spoke.next)] - points_[p]).norm());
+        const double reach = shortest_side(points_, star, points_[p]);
         const double before = least_sine(points_, star, points_[p]);
         std::size_t first = 0;
         const auto sine_at = [&](const Vec2& to, double floor) {
-            return least_sine_above(points_, star, to, floor, first);
+            const double sine = least_sine_above(points_, star, to, floor, first);
+            return sine > floor && shortest_side(points_, star, to) < least_side_[p] ? floor : sine;
         };
         return geometry::pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
                before + kLeastGain;
@@ -160,8 +178,9 @@ private:
     std::size_t fixed_;
     const SmoothPlaneOptions& options_;
     Stars stars_;
-    std::vector<char> awake_;    ///< points to be swept
-    std::vector<char> restless_; ///< points to be raised where quads are poor
+    std::vector<char> awake_;        ///< points to be swept
+    std::vector<char> restless_;     ///< points to be raised where quads are poor
+    std::vector<double> least_side_; ///< of each point, that raising keeps [length]
     TargetAreas areas_;
     StarLanes lanes_; ///< the star of the point at hand
 };
@@ -184,10 +203,12 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
     }
     Smoother smoother(points, quads, fixed, options);
     smoother.ask_sizes();
+    // Points that all but met part again only where sines may fall meanwhile.
+    const double floor = has_needles(points, quads, fixed) ? 0 : std::max(0.0, least);
     for (int i = 0; i < options.sweeps; ++i) {
         check_cancelled(context);
         const double overstep = i == 0 || i + 1 == options.sweeps ? 1 : kOverstep;
-        if (smoother.sweep(std::max(0.0, least), overstep) == 0) break;
+        if (smoother.sweep(floor, overstep) == 0) break;
     }
     for (int i = 0; i < options.repairs; ++i) {
         check_cancelled(context);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,31 @@ private:
     std::vector<Index> start_;
     std::vector<Spoke> spokes_;
 };
+
+/// The shortest side at a point, were it at `x`.
+inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
+{
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Spoke& spoke : star) {
+        squared = std::min({squared, (points[index(spoke.next)] - x).squaredNorm(),
+                            (points[index(spoke.before)] - x).squaredNorm()});
+    }
+    return std::sqrt(squared);
+}
+
+/// Points that are raised to a better sine keep this share of the shortest side that there was at them when
+/// it began. Sines say nothing about lengths: a needle's are those of a square, and without a limit a side
+/// between two points went to a millionth of its neighbours. A choice.
+inline constexpr double kShortestKept = 0.25;
+
+/// The shortest side that each point must keep, by `kShortestKept`; 0 of the first `fixed` and of loose ones.
+inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Stars& stars, std::size_t fixed)
+{
+    std::vector<double> least(points.size(), 0);
+    for (std::size_t p = fixed; p < points.size(); ++p)
+        if (!stars[p].empty()) least[p] = kShortestKept * shortest_side(points, stars[p], points[p]);
+    return least;
+}
 
 /// Least sine of the corners that change when a point moves to `x`, at most 1.
 inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
