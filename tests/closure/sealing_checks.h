@@ -5,6 +5,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/readings.h>
 #include <lacuna/core/error.h>
 #include <lacuna/matching/match.h>
 
@@ -25,6 +26,20 @@ inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseO
     const bool ends = !volume.faces(topology::Role::source).empty() &&
                       !volume.faces(topology::Role::target).empty();
     return closure::close(volume, ends ? matching::match(volume, match) : matching::Match{}, options);
+}
+
+/// What a reading encloses once it is closed, by the roles it names.
+inline double closed_volume(closure::Reading reading)
+{
+    if (!reading.closure) {
+        matching::Match match;
+        if (!reading.volume.faces(topology::Role::source).empty() &&
+            !reading.volume.faces(topology::Role::target).empty())
+            match = matching::match(reading.volume);
+        closure::close(reading.volume, match);
+    }
+    CHECK(closure::is_watertight(reading.volume));
+    return closure::enclosed_volume(reading.volume);
 }
 
 /// Watertight, told without the kernel's own check: every facet side is met by one other, run the other

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "closure/sealing_checks.h"
 #include "support/cancelling.h"
 #include "support/refusal.h"
 #include "support/volumes.h"
@@ -15,22 +16,10 @@
 
 using namespace lacuna;
 using namespace lacuna::topology;
+using test::closed_volume;
 using test::without;
 
 namespace {
-
-/// What a reading encloses once it is closed, by the roles it names.
-double closed_volume(closure::Reading reading)
-{
-    if (!reading.closure) {
-        matching::Match match;
-        if (!reading.volume.faces(Role::source).empty() && !reading.volume.faces(Role::target).empty())
-            match = matching::match(reading.volume);
-        closure::close(reading.volume, match);
-    }
-    CHECK(closure::is_watertight(reading.volume));
-    return closure::enclosed_volume(reading.volume);
-}
 
 /// A bore of two widths: two square tubes on each other and the ledge between them, both ends missing.
 healing::FacetSoup stepped_bore()

@@ -44,7 +44,7 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.flat_filled = true;
+    found.filled = "sealed by flat faces within its free loops";
     return found;
 }
 
@@ -77,15 +77,16 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         });
         found = voids(model, {seals, end}, kMostSealed, false, context);
     }
-    if (!found.empty() && has_membranes(found.front().sealed)) {
+    if (!found.empty() && leaves_open(found.front().sealed)) {
         // What it encloses is a guess; where the rims say how void faces go it is none.
-        auto settled = settled_void(model, role_candidates(model, faces, far, context), context);
+        auto settled = settled_void(model, faces, role_candidates(model, faces, far, context), context);
         if (settled) {
             found.clear();
             found.push_back(std::move(*settled));
         }
     }
     if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
+    take_moved(model, faces, move_ends(model, faces, context), found);
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
@@ -112,7 +113,15 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                                " as source, target and walls of one sweep was found; name the roles: "
                                "open_volume{ source = …, target = …, walls = … }");
     }
-    if (number == 0 && readings.size() == 1) return std::move(readings.front());
+    if (number == 0 && readings.size() == 1) {
+        if (readings.front().guess.empty()) return std::move(readings.front());
+        throw InvalidInput("topology.shape_open",
+                           readings.front().guess +
+                               "; give that face, name the roles, or take a membrane for it, which "
+                               "encloses " +
+                               plain(readings.front().enclosed) +
+                               ", by open_volume{ faces = …, reading = 1 }");
+    }
     const auto place = static_cast<std::size_t>(number);
     if (number >= 1 && place <= readings.size()) return std::move(readings[place - 1]);
     std::string text;

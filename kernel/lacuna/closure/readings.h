@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lacuna::closure {
@@ -37,6 +38,7 @@ struct Reading {
     /// Set where `volume` is open and was sealed as it is to be read: that need not be done again.
     std::optional<SealedVolume> sealed;
     double enclosed = 0;  ///< [model length³]
+    std::string guess;    ///< what of its shape nothing given tells, in words; empty where all is told
     std::size_t ways = 1; ///< how many readings of the faces enclose it
     /// Null where there is no other way, and where the ends were given as such.
     std::shared_ptr<const OtherSweeps> others;
@@ -76,9 +78,10 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
                                    const RunContext& context = {});
 
 /// The one void that some faces are, or the one that is asked for by its number.
-/// @param number  from 1, as the message counts them; 0: there must be one only.
+/// @param number  from 1, as the message counts them; 0: there must be one only, whose shape is no guess.
 /// @throw InvalidInput "topology.no_roles", "topology.roles_ambiguous" (lists what each would enclose),
-///        "topology.no_such_reading". Cancelled.
+///        "topology.shape_open" (names the faces round what is missing), "topology.no_such_reading".
+///        Cancelled.
 Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
                      const RunContext& context = {});
 

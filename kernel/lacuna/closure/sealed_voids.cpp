@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/sealed_voids.h>
 
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace lacuna::closure {
@@ -18,7 +20,7 @@ using namespace topology;
 namespace {
 
 /// And as many are tried where one closes with a membrane. For the time: bent faces take long to close.
-constexpr std::size_t kMostSettled = 3;
+constexpr std::size_t kMostSettled = 4;
 /// Volumes that differ by less than this share of the larger are as large: what chords leave out of round
 /// faces, and more.
 constexpr double kSameVolume = 5e-3;
@@ -119,6 +121,24 @@ void keep_likely(std::vector<Void>& found)
     });
 }
 
+/// The faces round each free loop that is not flat and leaves open how its inside bends.
+std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, const std::vector<FaceId>& faces)
+{
+    OpenVolume open;
+    open.model = extract(model, faces);
+    orient_consistently(open.model);
+    open.role.assign(faces.size(), Role::wall);
+    const auto uses = edge_uses(open.model);
+    std::vector<std::vector<FaceId>> round;
+    for (const Rim& rim : free_loops(open)) {
+        if (is_flat(open.model, rim) || !four_corners(open.model, {rim.uses}).empty()) continue;
+        round.emplace_back();
+        for (const EdgeUse& use : rim.uses)
+            round.back().push_back(faces[uses[use.edge.index()].front().face.index()]);
+    }
+    return round;
+}
+
 } // namespace
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
@@ -143,6 +163,45 @@ bool has_membranes(const Sealed& sealed)
     return !membranes(sealed.volume.model, sealed.closure.void_faces).empty();
 }
 
+bool leaves_open(const Sealed& sealed)
+{
+    const Model& model = sealed.volume.model;
+    const bool bent_end = std::ranges::any_of(sealed.closure.void_faces, [&](FaceId face) {
+        if (sealed.volume.role[face.index()] == Role::wall) return false;
+        return std::ranges::any_of(model[face].loops,
+                                   [&](const Loop& loop) { return !is_flat(model, {loop.uses}); });
+    });
+    return bent_end || has_membranes(sealed);
+}
+
+std::vector<FaceId> as_named(const Roles& roles)
+{
+    std::vector<FaceId> faces = roles.source;
+    faces.insert(faces.end(), roles.target.begin(), roles.target.end());
+    faces.insert(faces.end(), roles.walls.begin(), roles.walls.end());
+    return faces;
+}
+
+std::string guess_of(const Model& model, const Void& found)
+{
+    const Model& own = found.sealed.volume.model;
+    const std::vector<FaceId> given = as_named(found.first.roles);
+    const auto uses = edge_uses(own);
+    for (const FaceId face : membranes(own, found.sealed.closure.void_faces)) {
+        std::set<int> round;
+        for (const Loop& loop : own[face].loops)
+            for (const EdgeUse& use : loop.uses)
+                for (const FaceUse& by : uses[use.edge.index()])
+                    if (by.face.index() < given.size()) round.insert(model[given[by.face.index()]].tag);
+        std::string tags;
+        for (const int tag : round) tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
+        return "nothing given tells how the face missing beside " +
+               std::string(round.size() == 1 ? "face " : "the faces ") + tags +
+               " bends: its rim lies in no plane";
+    }
+    return {};
+}
+
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
                         bool settled, const RunContext& context)
 {
@@ -165,7 +224,7 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
                                  [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
         if (same == found.end())
             same = found.insert(found.end(),
-                                Void{cost_of(candidate, *now), candidate, std::move(*now), {}, false});
+                                Void{cost_of(candidate, *now), candidate, std::move(*now), {}, false, {}});
         same->ways.push_back(candidate);
 
         same->fills_flat_loops = same->fills_flat_loops || flat;
@@ -174,16 +233,48 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
     return found;
 }
 
-std::optional<Void> settled_void(const Model& model, std::vector<RoleCandidate> candidates,
-                                 const RunContext& context)
+std::optional<Void> settled_void(const Model& model, const std::vector<FaceId>& faces,
+                                 std::vector<RoleCandidate> candidates, const RunContext& context)
 {
+    const std::vector<std::vector<FaceId>> open = faces_round_bent_loops(model, faces);
     std::erase_if(candidates, [&](const RoleCandidate& candidate) {
-        return connected_parts(model, candidate.roles.source).size() > 1 ||
+        const auto touches = [&](const std::vector<FaceId>& end) {
+            return std::ranges::all_of(open, [&](const std::vector<FaceId>& round) {
+                return std::ranges::any_of(
+                    end, [&](FaceId face) { return std::ranges::find(round, face) != round.end(); });
+            });
+        };
+        return !touches(candidate.roles.source) || !touches(candidate.roles.target) ||
+               connected_parts(model, candidate.roles.source).size() > 1 ||
                connected_parts(model, candidate.roles.target).size() > 1;
     });
     std::vector<Void> found = voids(model, candidates, kMostSettled, true, context);
     if (found.size() != 1 || has_steps(found.front().sealed.volume, context)) return std::nullopt;
     return std::move(found.front());
+}
+
+void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<MovedEnd> moved,
+                std::vector<Void>& found)
+{
+    std::vector<Void> ends;
+    for (MovedEnd& one : moved) {
+        Void now;
+        now.sealed.volume = std::move(one.volume);
+        now.sealed.closure = std::move(one.closure);
+        now.sealed.enclosed = one.enclosed;
+        now.filled = "sealed with the shape of " + name_of(model, one.from) + " at the other end";
+        now.first.roles.walls = faces; // as its volume numbers them
+        const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
+        if (std::ranges::none_of(ends, is_same)) ends.push_back(std::move(now));
+    }
+    if (ends.empty()) return;
+    const auto is_moved = [&](const Void& v) {
+        return std::ranges::any_of(ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
+    };
+    if (std::ranges::any_of(found, is_moved))
+        std::erase_if(found, [&](const Void& v) { return !is_moved(v); });
+    else
+        found = std::move(ends);
 }
 
 void add_filled(std::vector<Void>& found, Void filled)
@@ -195,7 +286,7 @@ void add_filled(std::vector<Void>& found, Void filled)
     } else if (filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
         known->first = std::move(filled.first);
         known->sealed = std::move(filled.sealed);
-        known->flat_filled = true;
+        known->filled = std::move(filled.filled);
     }
     keep_likely(found);
 }

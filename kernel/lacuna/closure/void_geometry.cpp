@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/void_geometry.h>
 
+#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/minimal_area.h>
@@ -199,13 +200,15 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
     return on_it ? std::optional(result) : std::nullopt;
 }
 
-VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell, const RunContext& context)
+/// @param on  the quadratic height the rim lies on, if any
+VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell,
+                                 const std::optional<QuadraticHeight>& on, const RunContext& context)
 {
     const Outline& outline = newell.outline;
     const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, {}, context);
     std::vector<double> heights(flat.points.size(), 0);
     if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size()) {
-        const QuadraticHeight bent = quadratic_through(model, newell).value_or(QuadraticHeight{});
+        const QuadraticHeight bent = on.value_or(QuadraticHeight{});
         std::vector<double> left = rim_heights(model, newell);
         for (std::size_t i = 0; i < left.size(); ++i) left[i] -= bent.at(outline.flat[i]);
         heights = harmonic_heights(flat, left, context);
@@ -417,6 +420,22 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     return result;
 }
 
+/// A bent face between four corners, where straight lines lead over it or its rim lies on no quadratic
+/// height.
+std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
+                                                const NewellOutline& newell, const RunContext& context)
+{
+    if (loops.size() != 1) return std::nullopt;
+    const auto sides = four_corners(model, loops.front());
+    if (sides.empty()) return std::nullopt;
+    if (!is_ruled(model, sides) && quadratic_through(model, newell)) return std::nullopt;
+    try {
+        return fill_transfinite(model, sides, nullptr, context);
+    } catch (const InvalidInput&) {
+        return std::nullopt; // it folds
+    }
+}
+
 std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops,
                               const geometry::LoopCrossing& crossing)
 {
@@ -528,8 +547,11 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                                       name_of(model, sides.front().front().edge) +
                                                       ", folds where its sides lead: " + error.what());
         }
+    } else if (auto patch = flat ? std::nullopt : fill_between_corners(model, loops, newell, context)) {
+        result = std::move(*patch);
     } else if (!crossing) {
-        result = fill_on_newell_plane(model, newell, context);
+        const auto bent = flat ? std::nullopt : quadratic_through(model, newell);
+        result = fill_on_newell_plane(model, newell, bent, context);
     } else {
         result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name,
                                       context);

@@ -81,6 +81,14 @@ void take_open(const Model& model, RoleCandidate roles, Reading& reading, const 
     reading.roles = std::move(roles);
 }
 
+/// The way to sweep a sealed volume that its roles are.
+RoleCandidate way_of(const OpenVolume& volume)
+{
+    RoleCandidate way;
+    way.roles = {volume.faces(Role::source), volume.faces(Role::target), volume.faces(Role::wall)};
+    return way;
+}
+
 /// Whether a reading of the given faces has these ends, whichever is the source.
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
@@ -172,21 +180,21 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
+    reading.guess = guess_of(model, found);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     const RoleCandidate& first = found.first;
-    std::vector<FaceId> as_named = first.roles.source; // in the order open_volume() takes them
-    as_named.insert(as_named.end(), first.roles.target.begin(), first.roles.target.end());
-    as_named.insert(as_named.end(), first.roles.walls.begin(), first.roles.walls.end());
+    const std::vector<FaceId> names = as_named(first.roles);
     std::vector<RoleCandidate> sweeps;
     // Two ends alone were given as such.
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
+    if (sweeps.empty() && !found.filled.empty()) sweeps.push_back(way_of(found.sealed.volume));
     if (sweeps.empty()) {
         take_open(model, first, reading, context);
         reading.sealed = std::move(found.sealed);
         return reading;
     }
     const auto ends_of = [&](const RoleCandidate& way) {
-        return Ends{given_part(way.roles.source, as_named), given_part(way.roles.target, as_named)};
+        return Ends{given_part(way.roles.source, names), given_part(way.roles.target, names)};
     };
     RoleCandidate best = take_best(sweeps, ends_of, found.ways);
     auto [source, target] = ends_of(best);
@@ -204,14 +212,14 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
         reading.others = std::make_shared<const OtherSweeps>(
             OtherSweeps{found.sealed.volume, found.sealed.closure, std::move(sweeps)});
     if (same != found.ways.end()) {
-        const bool as_sealed = same == found.ways.begin() && !found.flat_filled &&
+        const bool as_sealed = same == found.ways.begin() && found.filled.empty() &&
                                !found.sealed.closure.void_faces.empty();
         take_open(model, *same, reading, context);
         if (as_sealed) reading.sealed = std::move(found.sealed);
         reading.roles.irregular = irregular;
     } else if (found.sealed.closure.void_faces.empty()) {
         for (std::vector<FaceId>* list : {&best.roles.source, &best.roles.target, &best.roles.walls})
-            *list = given_part(*list, as_named).faces;
+            *list = given_part(*list, names).faces;
         take_open(model, std::move(best), reading, context);
     } else {
         reading.volume = std::move(found.sealed.volume);
@@ -219,11 +227,12 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
         set_ends(reading.volume, best.roles);
         reading.roles = std::move(best);
         reading.roles.roles = {source.faces, target.faces,
-                               given_part(reading.roles.roles.walls, as_named).faces};
+                               given_part(reading.roles.roles.walls, names).faces};
         reading.classification = class_as_given(model, reading.roles.roles);
         reading.roles.value = reading.classification.value;
-        const std::string how = found.flat_filled ? "sealed by flat faces within its free loops"
-                                                  : "sealed as " + in_words(model, first.roles, first.value);
+        const std::string how = !found.filled.empty()
+                                    ? found.filled
+                                    : "sealed as " + in_words(model, first.roles, first.value);
         reading.roles.reasons.push_back(how + ", and swept between faces that closing made");
     }
     if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));

@@ -125,6 +125,23 @@ Vec3 SweptPatch::operator()(double s, double t) const
     return chord + ((1 - t) * b_size + t * e_size) * (frame(t) * deviation);
 }
 
+double SweptPatch::unlike() const
+{
+    const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
+    const auto deviation = [](const SideCurve& side, const Eigen::Matrix3d& frame, double s) {
+        const Vec3 chord = (1 - s) * side.points.front() + s * side.points.back();
+        return Vec3(frame.transpose() * (side.at(s) - chord) / side.arc.back());
+    };
+    double most = 0;
+    for (int i = 1; i < kFrames; ++i) {
+        const double s = static_cast<double>(i) / kFrames;
+        most = std::max(most, (deviation(bottom_, turns_ ? first_ : none, s) -
+                               deviation(top_, turns_ ? last_ : none, s))
+                                  .norm());
+    }
+    return most;
+}
+
 std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3> right,
                              std::span<const Vec3> top, std::span<const Vec3> left)
 {

@@ -36,6 +36,10 @@ public:
     /// seam: a plain Coons patch then.
     [[nodiscard]] bool turns() const { return turns_; }
 
+    /// How far the bottom's deviations from its chord are off the top's, in the frames at either end and over
+    /// their lengths: 0 where the patch is the bottom moved, turned and scaled.
+    [[nodiscard]] double unlike() const;
+
 private:
     struct SideCurve {
         std::vector<Vec3> points;

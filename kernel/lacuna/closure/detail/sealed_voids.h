@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/readings.h>
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lacuna::closure {
@@ -21,7 +23,7 @@ struct Void {
     Sealed sealed;                             ///< as that seals it
     std::vector<topology::RoleCandidate> ways; ///< the likeliest first
     bool fills_flat_loops = false;             ///< all that is missing
-    bool flat_filled = false;                  ///< sealed by flat faces within the free loops, by no roles
+    std::string filled;                        ///< how it was sealed where that was by no roles, in words
 };
 
 /// Some faces sealed by their roles; nothing where that cannot be done.
@@ -32,6 +34,16 @@ std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& 
 /// Whether a void face leaves open how its inside bends.
 bool has_membranes(const Sealed& sealed);
 
+/// Whether what is missing may bend otherwise: a void face leaves open how its inside does, or an end that
+/// lies in no plane was closed without anything that says how it bends.
+bool leaves_open(const Sealed& sealed);
+
+/// The faces of the model in the order that a volume with these roles has them.
+std::vector<FaceId> as_named(const topology::Roles& roles);
+
+/// What of a void's shape nothing given tells, in words; empty where all is told.
+std::string guess_of(const topology::Model& model, const Void& found);
+
 /// Readings of the given faces, sealed and sorted by what they enclose.
 /// @param most     as many are sealed
 /// @param settled  leave out those that close with a membrane, and count those that do not seal too
@@ -39,9 +51,15 @@ std::vector<Void> voids(const topology::Model& model, const std::vector<topology
                         std::size_t most, bool settled, const RunContext& context);
 
 /// The one void that readings without steps enclose, however unlikely, closed without a membrane; what of
-/// several is meant, nobody knows.
-std::optional<Void> settled_void(const topology::Model& model,
+/// several is meant, nobody knows. Only where both ends reach the rim of what is missing do they say how that
+/// bends.
+std::optional<Void> settled_void(const topology::Model& model, const std::vector<FaceId>& faces,
                                  std::vector<topology::RoleCandidate> candidates, const RunContext& context);
+
+/// Take the voids that a given end tells when it is moved to the other: where readings found one of these
+/// that stays, else the moved ones do.
+void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<MovedEnd> moved,
+                std::vector<Void>& found);
 
 /// Add a void that flat faces close, unless it is one of those known: then that is closed by the fewer faces.
 /// Only those about as likely as the likeliest stay.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// The four sides of a loop that turns sharply at four of its vertices, in walking order; empty where it
+/// turns at more or fewer.
+///
+/// Of the two ways to pair them the one is taken by which a patch that is moved along the second and the
+/// fourth side brings the first nearest to the third: round an axis those two are arcs about it.
+std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
+                                                         const topology::Loop& loop);
+
+/// Whether two sides that face each other are straight, so that straight lines between the other two make
+/// the patch.
+bool is_ruled(const topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& sides);
+
+} // namespace lacuna::closure

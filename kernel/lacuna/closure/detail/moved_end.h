@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+#include <lacuna/core/run_context.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// A volume with one end given, the other missing and walls missing too, sealed.
+struct MovedEnd {
+    topology::OpenVolume volume; ///< the given faces in their order, then those made; with roles
+    Closure closure;
+    FaceId from;         ///< the end that was moved, of the faces asked for
+    double enclosed = 0; ///< [model length³]
+};
+
+/// Seal some faces that lack an end and walls beside it as the given end tells.
+///
+/// Where walls stand, their tops say where the rim of the missing end is. A rotation, a scale and a shift are
+/// fitted from the given end's rim to those tops; where one moves every wall's foot onto its top, it moves
+/// the rest of the rim as well, round holes without walls too. What is missing then has the given end's
+/// shape, and walls are closed between the two ends.
+/// @return  one for each flat face that can be such an end: all other faces are walls that hang together with
+///          it, and walls beside it are missing.
+/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<FaceId>& faces,
+                                const RunContext& context);
+
+} // namespace lacuna::closure

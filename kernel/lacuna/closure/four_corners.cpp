@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/four_corners.h>
+
+#include <lacuna/geometry/swept_patch.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Where a rim turns by more than this it has a corner, as faces that do are two patches [degrees].
+/// A choice, not a measurement.
+constexpr double kCorner = 30;
+
+std::vector<Vec3> points_along(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    std::vector<Vec3> points{model.at(model[use_from(model, uses.front())].point)};
+    for (const EdgeUse& use : uses) {
+        const std::vector<Index> chain = use_points(model, use);
+        for (std::size_t i = 1; i < chain.size(); ++i) points.push_back(model.at(chain[i]));
+    }
+    return points;
+}
+
+/// Unit direction in which a chain of points starts, as if they lay on an arc.
+Vec3 start_of(const std::vector<Vec3>& points)
+{
+    const Vec3 first = (points[1] - points[0]).stableNormalized();
+    if (points.size() < 3) return first;
+    return (1.5 * first - 0.5 * (points[2] - points[1]).stableNormalized()).stableNormalized();
+}
+
+/// Whether a loop turns sharply where one use goes over into the next.
+bool turns(const Model& model, EdgeUse before, EdgeUse after)
+{
+    std::vector<Vec3> back = points_along(model, {before});
+    std::reverse(back.begin(), back.end());
+    const Vec3 arrives = -start_of(back), leaves = start_of(points_along(model, {after}));
+    return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
+}
+
+/// How unlike the first and the third side are for a patch moved along the others.
+double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
+{
+    std::array<std::vector<Vec3>, 4> side;
+    for (std::size_t i = 0; i < 4; ++i) side[i] = points_along(model, sides[i]);
+    for (const std::size_t i : {2, 3}) std::reverse(side[i].begin(), side[i].end());
+    return geometry::SweptPatch(side[0], side[1], side[2], side[3]).unlike();
+}
+
+bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
+{
+    const std::vector<Vec3> points = points_along(model, side);
+    const Vec3 chord = points.back() - points.front();
+    const Vec3 along = chord.stableNormalized();
+    return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+        return (p - points.front()).cross(along).norm() <= std::max(model.tolerance, 1e-6 * chord.norm());
+    });
+}
+
+} // namespace
+
+std::vector<std::vector<EdgeUse>> four_corners(const Model& model, const Loop& loop)
+{
+    const std::size_t uses = loop.uses.size();
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < uses; ++i)
+        if (turns(model, loop.uses[(i + uses - 1) % uses], loop.uses[i])) corners.push_back(i);
+    if (corners.size() != 4) return {};
+    std::vector<std::vector<EdgeUse>> sides(4);
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t i = corners[c]; i != corners[(c + 1) % 4]; i = (i + 1) % uses)
+            sides[c].push_back(loop.uses[i]);
+    }
+    std::vector<std::vector<EdgeUse>> turned = sides;
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+    return unlike(model, turned) < unlike(model, sides) ? turned : sides;
+}
+
+bool is_ruled(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
+{
+    return (is_straight(model, sides[0]) && is_straight(model, sides[2])) ||
+           (is_straight(model, sides[1]) && is_straight(model, sides[3]));
+}
+
+} // namespace lacuna::closure

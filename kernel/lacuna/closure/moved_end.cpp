@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/moved_end.h>
+
+#include <lacuna/closure/detail/climber.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/face_plane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A moved foot of a wall may be off the wall's top by this share of the end's width: what facets cut off
+/// round sides, and more. A choice, not a measurement.
+constexpr double kOnTop = 0.01;
+/// Points spread less than this share of their width to one side of a line are on it. A choice.
+constexpr double kOnLine = 0.01;
+/// Places asked for along each wall's foot. A choice.
+constexpr int kSamples = 8;
+
+/// Part of an end's rim between two places where walls lead up, or without walls.
+struct Stretch {
+    std::vector<EdgeUse> foot; ///< as the end uses it
+    std::vector<EdgeUse> top;  ///< as the walls use it, from above the foot's start; empty: no wall here
+};
+
+std::vector<Vec3> chain_of(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    std::vector<Vec3> chain{model.at(model[use_from(model, uses.front())].point)};
+    for (const EdgeUse& use : uses) {
+        const std::vector<Vec3> more = places(model, use);
+        chain.insert(chain.end(), more.begin() + 1, more.end());
+    }
+    return chain;
+}
+
+std::vector<Vec3> even_places(const std::vector<Vec3>& chain)
+{
+    const std::vector<double> arc = geometry::arc_lengths(chain);
+    std::vector<Vec3> result;
+    for (int i = 0; i <= kSamples; ++i)
+        result.push_back(geometry::point_at(chain, arc, arc.back() * i / kSamples));
+    return result;
+}
+
+double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
+{
+    double least = (p - chain.front()).norm();
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const Vec3 along = chain[i + 1] - chain[i];
+        const double f = std::clamp((p - chain[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (p - chain[i] - f * along).norm());
+    }
+    return least;
+}
+
+Vec3 area_of(const std::vector<Vec3>& loop)
+{
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i)
+        area += (loop[i] - loop.front()).cross(loop[i + 1] - loop.front()) / 2;
+    return area;
+}
+
+/// Whether walls beside a face are there and others missing, and all other faces hang together with it.
+bool can_be_end(const OpenVolume& open, FaceId end, const std::vector<std::vector<FaceUse>>& uses)
+{
+    bool walled = false, bare = false;
+    for (const Loop& loop : open.model[end].loops)
+        for (const EdgeUse& use : loop.uses) (uses[use.edge.index()].size() == 1 ? bare : walled) = true;
+    if (!walled || !bare) return false;
+    std::set<FaceId> beside;
+    for (const Loop& loop : open.model[end].loops)
+        for (const EdgeUse& use : loop.uses)
+            for (const FaceUse& by : uses[use.edge.index()]) beside.insert(by.face);
+    const auto parts = connected_parts(open.model, open.faces(Role::wall));
+    return std::ranges::all_of(parts, [&](const std::vector<FaceId>& part) {
+        return std::ranges::any_of(part, [&](FaceId face) { return beside.contains(face); });
+    });
+}
+
+/// A given end, and what is known of the one it is to be moved to.
+class EndMover {
+public:
+    /// @pre  the volume's model is oriented, and the end is its only face that is no wall
+    /// @param uses  of the model's edges
+    EndMover(OpenVolume volume, FaceId end, std::vector<std::vector<FaceUse>> uses)
+        : volume_(std::move(volume)), end_(end), climber_(volume_), uses_(std::move(uses))
+    {
+    }
+    EndMover(const EndMover&) = delete; // the climber refers to the volume
+    EndMover& operator=(const EndMover&) = delete;
+
+    [[nodiscard]] bool can_move()
+    {
+        const Model& model = volume_.model;
+        for (const Rim& rim : rims(model, {end_}))
+            for (const EdgeUse& use : rim.uses) on_end_.insert(use_from(model, use));
+        for (const Rim& rim : rims(model, volume_.faces(Role::wall)))
+            if (!index_rim(rim)) return false;
+        for (const Rim& rim : rims(model, {end_}))
+            if (!add_rim(rim)) return false;
+        return accounts_for_all() && fit();
+    }
+
+    /// Give the volume the moved end.
+    void move(const RunContext& context)
+    {
+        std::vector<Loop> loops;
+        for (const std::vector<Stretch>& rim : rims_) {
+            Loop& loop = loops.emplace_back();
+            for (auto stretch = rim.rbegin(); stretch != rim.rend(); ++stretch) {
+                if (stretch->top.empty()) {
+                    for (auto use = stretch->foot.rbegin(); use != stretch->foot.rend(); ++use)
+                        loop.uses.push_back(moved(*use));
+                    continue;
+                }
+                for (auto use = stretch->top.rbegin(); use != stretch->top.rend(); ++use)
+                    loop.uses.push_back({use->edge, !use->reversed});
+            }
+        }
+        VoidFilling filling = fill(volume_, loops, nullptr, "the moved end", context);
+        made_ = add_void_face(volume_, std::move(filling), Role::target);
+    }
+
+    [[nodiscard]] OpenVolume& volume() { return volume_; }
+    [[nodiscard]] FaceId made() const { return made_; }
+    [[nodiscard]] const std::vector<EdgeId>& made_edges() const { return made_edges_; }
+
+private:
+    [[nodiscard]] bool is_free(EdgeId edge) const { return uses_[edge.index()].size() == 1; }
+
+    /// Note where each free use of the walls goes on. False where two leave one vertex.
+    bool index_rim(const Rim& rim)
+    {
+        const Model& model = volume_.model;
+        const bool free = std::ranges::all_of(rim.uses, [&](const EdgeUse& u) { return is_free(u.edge); });
+        for (const EdgeUse& use : rim.uses) {
+            if (!is_free(use.edge)) continue;
+            if (!leaving_.emplace(use_from(model, use), use).second) return false;
+            ++free_count_;
+        }
+        if (free) free_rims_.push_back(rim);
+        return true;
+    }
+
+    /// The vertex above one of the end's, where walls' edges lead up from it: where a free edge is met.
+    [[nodiscard]] std::optional<VertexId> above(VertexId foot) const
+    {
+        const std::vector<EdgeUse> way = climber_.climb(foot);
+        if (way.empty()) return std::nullopt;
+        return use_to(volume_.model, way.back());
+    }
+
+    /// The walls' free uses from one vertex on to another, past no vertex of the end.
+    [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
+    {
+        std::vector<EdgeUse> top;
+        for (VertexId at = from; top.empty() || at != to;) {
+            const auto next = leaving_.find(at);
+            if (next == leaving_.end() || top.size() > leaving_.size()) return {};
+            top.push_back(next->second);
+            at = use_to(volume_.model, next->second);
+            if (on_end_.contains(at)) return {};
+        }
+        return top;
+    }
+
+    bool add_rim(const Rim& rim)
+    {
+        const Model& model = volume_.model;
+        const std::size_t n = rim.uses.size();
+        const auto bare = [&](std::size_t i) { return is_free(rim.uses[i % n].edge); };
+        std::vector<std::optional<VertexId>> top(n);
+        std::size_t start = n;
+        bool any_walled = false;
+        for (std::size_t i = 0; i < n; ++i) {
+            any_walled = any_walled || !bare(i);
+            if (bare(i) && bare(i + n - 1)) continue;
+            const VertexId at = use_from(model, rim.uses[i]);
+            top[i] = above(at);
+            if (bare(i) != bare(i + n - 1) && !top[i]) return false;
+            if (!top[i]) continue;
+            if (on_end_.contains(*top[i]) || !leaving_.contains(*top[i])) return false;
+            above_.emplace(at, *top[i]);
+            start = std::min(start, i);
+        }
+        std::vector<Stretch>& stretches = rims_.emplace_back();
+        if (!any_walled) {
+            stretches.push_back({rim.uses, {}});
+            return true;
+        }
+        if (start == n) return add_tube(rim);
+        for (std::size_t i = start; i < start + n;) {
+            Stretch stretch;
+            const std::size_t first = i;
+            do stretch.foot.push_back(rim.uses[i++ % n]);
+            while (i < start + n && !top[i % n]);
+            if (!bare(first)) {
+                stretch.top = top_between(*top[first % n], *top[i % n]);
+                if (stretch.top.empty()) return false;
+                add_samples(stretch);
+            }
+            stretches.push_back(std::move(stretch));
+        }
+        return true;
+    }
+
+    /// Walls that go all round without an edge that leads up: their other rim is free.
+    bool add_tube(const Rim& rim)
+    {
+        const Model& model = volume_.model;
+        if (free_rims_.size() != 1) return false; // which of several it is cannot be told
+        const std::vector<Vec3> low = chain_of(model, rim.uses), high = chain_of(model, free_rims_[0].uses);
+        rims_.back().push_back({rim.uses, free_rims_[0].uses});
+        const Vec3 from = area_of(low), to = area_of(high);
+        const Vec3 mean_low = geometry::mean_point(even_places(low));
+        const Vec3 mean_high = geometry::mean_point(even_places(high));
+        const double scale = std::sqrt(to.norm() / from.norm());
+        for (const double along : {-1.0, 0.0, 1.0}) {
+            from_.push_back(mean_low + along * std::sqrt(from.norm()) * from.stableNormalized());
+            to_.push_back(mean_high + along * scale * std::sqrt(from.norm()) * to.stableNormalized());
+        }
+        return true;
+    }
+
+    void add_samples(const Stretch& stretch)
+    {
+        const std::vector<Vec3> low = even_places(chain_of(volume_.model, stretch.foot)),
+                                high = even_places(chain_of(volume_.model, stretch.top));
+        from_.insert(from_.end(), low.begin(), low.end());
+        to_.insert(to_.end(), high.begin(), high.end());
+    }
+
+    /// Whether every free edge is at the end's rim, at the top of a wall or beside one.
+    [[nodiscard]] bool accounts_for_all() const
+    {
+        std::set<EdgeId> known;
+        for (const std::vector<Stretch>& rim : rims_)
+            for (const Stretch& stretch : rim)
+                for (const EdgeUse& use : stretch.top) known.insert(use.edge);
+        for (const auto& [foot, top] : above_)
+            for (const EdgeUse& use : climber_.climb(foot))
+                if (is_free(use.edge)) known.insert(use.edge);
+        return known.size() == free_count_;
+    }
+
+    /// Find what moves the end, and whether it brings every foot onto its top.
+    bool fit()
+    {
+        if (from_.empty()) return false;
+        double width = 0;
+        for (const Vec3& p : from_) width = std::max(width, (p - from_.front()).norm());
+        const auto fits = [&] {
+            for (const std::vector<Stretch>& rim : rims_) {
+                for (const Stretch& stretch : rim) {
+                    if (stretch.top.empty()) continue;
+                    const std::vector<Vec3> top = chain_of(volume_.model, stretch.top);
+                    for (const Vec3& p : even_places(chain_of(volume_.model, stretch.foot)))
+                        if (off_chain(motion_(p), top) > kOnTop * width) return false;
+                }
+            }
+            for (const auto& [foot, top] : above_) {
+                const Vec3 p = motion_(volume_.model.at(volume_.model[foot].point));
+                if ((p - volume_.model.at(volume_.model[top].point)).norm() > kOnTop * width) return false;
+            }
+            return true;
+        };
+        motion_ = {};
+        motion_.translation = geometry::mean_point(to_) - geometry::mean_point(from_);
+        if (on_line(width)) return false;
+        if (fits()) return true;
+        motion_ = geometry::fit_rigid(from_, to_, false);
+        if (fits()) return true;
+        motion_ = geometry::fit_rigid(from_, to_, true);
+        return fits();
+    }
+
+    /// Whether the feet of all walls are on one line, about which the end could be turned as well.
+    [[nodiscard]] bool on_line(double width) const
+    {
+        Vec3 along = Vec3::Zero();
+        for (const Vec3& p : from_)
+            if ((p - from_.front()).norm() > along.norm()) along = p - from_.front();
+        return std::ranges::all_of(from_, [&](const Vec3& p) {
+            return (p - from_.front()).cross(along.stableNormalized()).norm() <= kOnLine * width;
+        });
+    }
+
+    VertexId moved(VertexId foot)
+    {
+        const auto known = above_.find(foot);
+        if (known != above_.end()) return known->second;
+        Model& model = volume_.model;
+        model.points.push_back(motion_(model.at(model[foot].point)));
+        const VertexId made = add_void_vertex(model, static_cast<Index>(model.points.size()) - 1);
+        above_.emplace(foot, made);
+        return made;
+    }
+
+    /// The moved edge, as the moved end uses it.
+    EdgeUse moved(EdgeUse foot)
+    {
+        const VertexId from = moved(use_from(volume_.model, foot)), to = moved(use_to(volume_.model, foot));
+        Model& model = volume_.model;
+        const std::vector<Vec3> low = places(model, foot);
+        const std::vector<double> arc = geometry::arc_lengths(low);
+        const Vec3 off_from = model.at(model[from].point) - motion_(low.front());
+        const Vec3 off_to = model.at(model[to].point) - motion_(low.back());
+        std::vector<Index> points{model[from].point};
+        for (std::size_t i = 1; i + 1 < low.size(); ++i) {
+            const double f = arc[i] / arc.back();
+            points.push_back(static_cast<Index>(model.points.size()));
+            model.points.push_back(motion_(low[i]) + (1 - f) * off_from + f * off_to);
+        }
+        points.push_back(model[to].point);
+        made_edges_.push_back(add_void_edge(model, from, to, std::move(points)));
+        return {made_edges_.back(), true};
+    }
+
+    OpenVolume volume_;
+    FaceId end_, made_;
+    Climber climber_;
+    std::vector<std::vector<FaceUse>> uses_;
+    std::set<VertexId> on_end_;
+    std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by where they start
+    std::vector<Rim> free_rims_;          ///< of walls
+    std::size_t free_count_ = 0;          ///< free edges of walls
+    std::map<VertexId, VertexId> above_;  ///< of vertices of the end those of the moved one
+    std::vector<std::vector<Stretch>> rims_;
+    std::vector<Vec3> from_, to_; ///< places on feet and on tops
+    geometry::RigidFit motion_;
+    std::vector<EdgeId> made_edges_;
+};
+
+std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
+                                 const std::vector<std::vector<FaceUse>>& uses, const RunContext& context)
+{
+    EndMover mover(open, end, uses);
+    if (!mover.can_move()) return std::nullopt;
+    try {
+        mover.move(context);
+        MovedEnd result{std::move(mover.volume()), {}, end, 0};
+        const matching::Match match = matching::match(result.volume, {}, context);
+        result.closure = close(result.volume, match, {.hints = false}, context);
+        result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
+        result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
+                                         mover.made_edges().end());
+        result.enclosed = enclosed_volume(result.volume);
+        return result;
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    } catch (const NotClosed&) {
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces,
+                                const RunContext& context)
+{
+    OpenVolume open;
+    open.model = extract(model, faces);
+    orient_consistently(open.model);
+    const auto uses = edge_uses(open.model);
+    std::vector<MovedEnd> found;
+    for (const FaceId end : all_faces(open.model)) {
+        check_cancelled(context);
+        const auto on_rim = [&](const Loop& loop) {
+            return std::ranges::any_of(
+                loop.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        };
+        if (std::ranges::none_of(open.model[end].loops, on_rim) || !plane_of(open.model, end)) continue;
+        open.role.assign(faces.size(), Role::wall);
+        open.role[end.index()] = Role::source;
+        if (!can_be_end(open, end, uses)) continue;
+        auto moved = move_end(open, end, uses, context);
+        if (!moved) continue;
+        moved->from = faces[end.index()];
+        found.push_back(std::move(*moved));
+    }
+    return found;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "closure/sealing_checks.h"
+#include "support/refusal.h"
+#include "support/volumes.h"
+
+#include <lacuna/closure/readings.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+using namespace lacuna;
+using namespace lacuna::topology;
+
+namespace {
+
+/// Outlines by name: with corners that point outward and inward, and with a round side.
+std::vector<std::vector<Vec2>> outlines()
+{
+    std::vector<Vec2> pentagon, keyway{{1, 1}, {-1, 1}};
+    for (int k = 0; k < 5; ++k) pentagon.emplace_back(std::cos(1.2566 * k), std::sin(1.2566 * k));
+    for (int k = 0; k <= 12; ++k)
+        keyway.emplace_back(std::cos(3.14159265 * (1 + k / 12.0)), std::sin(3.14159265 * (1 + k / 12.0)));
+    return {pentagon,
+            keyway,
+            {{-1, -1}, {1, -1}, {1, -0.4}, {-0.4, -0.4}, {-0.4, 1}, {-1, 1}},
+            {{-0.3, -1}, {0.3, -1}, {0.3, 0.4}, {1, 0.4}, {1, 1}, {-1, 1}, {-1, 0.4}, {-0.3, 0.4}},
+            {{-1, -1}, {1, -1}, {1, 1}, {0.5, 1}, {0.5, -0.4}, {-0.5, -0.4}, {-0.5, 1}, {-1, 1}}};
+}
+
+/// Parts left out: the target, and walls of the outer loop by their side, or all walls of the holes.
+std::function<bool(const test::Part&)> without_end(std::set<int> sides, bool holes)
+{
+    return [sides = std::move(sides), holes](const test::Part& part) {
+        if (part.role != Role::wall) return part.role == Role::target;
+        return part.loop == 0 ? sides.contains(part.side) : holes;
+    };
+}
+
+} // namespace
+
+TEST_CASE("where an end and walls beside it are missing the other end tells their shape")
+{
+    for (const std::vector<Vec2>& outline : outlines()) {
+        const int sides = static_cast<int>(outline.size());
+        for (const double bend : {0.0, 70.0}) {
+            for (const double taper : {1.0, 0.7}) {
+                for (int first = 0; first < sides; ++first) {
+                    for (int count = 1; count <= 3 && count < sides - 1; ++count) {
+                        std::set<int> missing;
+                        for (int k = 0; k < count; ++k) missing.insert((first + k) % sides);
+                        const auto prism = test::prism({.height = 4,
+                                                        .outline = outline,
+                                                        .levels = bend > 0 ? 24 : 1,
+                                                        .taper = taper,
+                                                        .bend = bend,
+                                                        .drop = without_end(missing, false)});
+                        CAPTURE(sides);
+                        CAPTURE(bend);
+                        CAPTURE(taper);
+                        CAPTURE(first);
+                        CAPTURE(count);
+                        const auto reading = closure::find_reading(prism.model, all_faces(prism.model));
+                        CHECK(reading.enclosed == doctest::Approx(prism.facet_volume).epsilon(0.01));
+                        CHECK(test::closed_volume(reading) ==
+                              doctest::Approx(prism.facet_volume).epsilon(0.01));
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a bore without its wall goes through where the end it would lead to is missing with an outer wall")
+{
+    for (const int sides : {4, 6}) {
+        for (const int hole_sides : {0, 4}) {
+            for (const double taper : {1.0, 0.8}) {
+                for (int wall = 0; wall < sides; ++wall) {
+                    const auto prism = test::prism({.sides = sides,
+                                                    .holes = 1,
+                                                    .hole_sides = hole_sides,
+                                                    .taper = taper,
+                                                    .drop = without_end({wall}, true)});
+                    CAPTURE(sides);
+                    CAPTURE(hole_sides);
+                    CAPTURE(taper);
+                    CAPTURE(wall);
+                    const auto reading = closure::find_reading(prism.model, all_faces(prism.model));
+                    CHECK(test::closed_volume(reading) == doctest::Approx(prism.facet_volume).epsilon(0.01));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("walls of a bent channel that are missing side by side bend as both its ends say")
+{
+    for (const std::vector<Vec2>& outline : outlines()) {
+        const int sides = static_cast<int>(outline.size());
+        if (sides > 8) continue;
+        for (const double bend : {40.0, 60.0}) {
+            for (int first = 0; first < sides; ++first) {
+                std::set<int> missing{first, (first + 1) % sides};
+                const auto bar = test::prism(
+                    {.height = 5,
+                     .outline = outline,
+                     .levels = 24,
+                     .bend = bend,
+                     .drop = test::without(false, false, false, {missing.begin(), missing.end()})});
+                CAPTURE(sides);
+                CAPTURE(bend);
+                CAPTURE(first);
+                const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
+                CHECK(test::closed_volume(reading) == doctest::Approx(bar.facet_volume).epsilon(0.01));
+            }
+        }
+    }
+}
+
+TEST_CASE("what a rim leaves open is refused, and taken where it is asked for by its number")
+{
+    for (const int sides : {3, 4, 5, 6, 0}) {
+        const auto prism = test::prism(
+            {.sides = sides, .target = test::End::saddle, .drop = test::without(false, true, false)});
+        CAPTURE(sides);
+        const std::vector<FaceId> faces = all_faces(prism.model);
+        const auto readings = closure::find_readings(prism.model, faces);
+        REQUIRE(readings.size() == 1);
+        const std::string code = test::refusal([&] { closure::find_reading(prism.model, faces); });
+        CHECK((code == "topology.shape_open") == !readings.front().guess.empty());
+        CHECK(test::closed_volume(closure::find_reading(prism.model, faces, 1)) ==
+              doctest::Approx(prism.facet_volume).epsilon(0.2));
+    }
+}
