@@ -150,13 +150,26 @@ private:
         constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
-        double reach = kInfinity;
-        for (const Spoke& spoke : star)
-            reach = std::min(reach, (points_[index(spoke.next)] - points_[p]).norm());
+        // Right angles alone would draw points together: a shortest side is kept of this share of the mean.
+        // A choice, not a measurement.
+        constexpr double kShort = 0.25;
+        double reach = kInfinity, sum = 0;
+        for (const Spoke& spoke : star) {
+            const double length = (points_[index(spoke.next)] - points_[p]).norm();
+            reach = std::min(reach, length);
+            sum += length;
+        }
+        const double shortest = std::min(reach, kShort * sum / static_cast<double>(star.size()));
+        const auto is_short = [&](const Vec2& to) {
+            return std::any_of(star.begin(), star.end(), [&](const Spoke& spoke) {
+                return (points_[index(spoke.next)] - to).squaredNorm() < shortest * shortest;
+            });
+        };
         const double before = least_sine(points_, star, points_[p]);
         std::size_t first = 0;
         const auto sine_at = [&](const Vec2& to, double floor) {
-            return least_sine_above(points_, star, to, floor, first);
+            const double sine = least_sine_above(points_, star, to, floor, first);
+            return sine > floor && is_short(to) ? -kInfinity : sine;
         };
         return pattern_search(points_[p], before, {reach, kFirst, kLast, kLeastGain}, sine_at) >
                before + kLeastGain;
