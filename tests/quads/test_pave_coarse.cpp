@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/plane_domains.h"
 
+#include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/odd_region.h>
@@ -8,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -30,6 +32,21 @@ void add_round(PlanarRegion& region, const Vec2& centre, double radius, int node
         loop.push_back(static_cast<Index>(region.points.size()));
         region.points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
+}
+
+/// The shortest side of a mesh over the mean one.
+double shortest_side(const PlanarQuads& mesh)
+{
+    double least = 1e300, sum = 0;
+    for (const Quad& quad : mesh.quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double length =
+                (mesh.points[index(quad[k])] - mesh.points[index(quad[(k + 1) % 4])]).norm();
+            least = std::min(least, length);
+            sum += length / 4;
+        }
+    }
+    return least * static_cast<double>(mesh.quads.size()) / sum;
 }
 
 /// A disc with holes, whose nodes lie `size` apart; the holes have even numbers of nodes.
@@ -115,6 +132,42 @@ TEST_CASE("quads cut in four keep all boundary nodes, and are four for a quad an
             CHECK(find_fault(fine, region) == "");
             for (std::size_t p = 0; p < region.points.size(); ++p) CHECK(fine.points[p] == region.points[p]);
         }
+    }
+}
+
+TEST_CASE("sides divided and closed again leave a triangle each, and every boundary node")
+{
+    for (const int outer : {120, 121}) {
+        const PlanarRegion region = disc_with_holes(outer, {37, 36, 35});
+        std::vector<RegionSide> sides{{1, 3}, {3, 20}};
+        if (outer % 2 != 0) sides.push_back({0, 50});
+        CAPTURE(outer);
+        const PlanarQuads mesh = fill_divided_region(region, sides, paved);
+        for (std::size_t p = 0; p < region.points.size(); ++p) CHECK(mesh.points[p] == region.points[p]);
+        CHECK(std::count_if(mesh.quads.begin(), mesh.quads.end(), mesh::is_triangle) ==
+              static_cast<std::ptrdiff_t>(sides.size()));
+        const std::size_t first = mesh.quads.size() - sides.size();
+        for (std::size_t q = 0; q < first; ++q) {
+            CHECK_FALSE(mesh::is_triangle(mesh.quads[q]));
+            CHECK(scaled_jacobian(mesh.points, mesh.quads[q]) > 0);
+        }
+    }
+}
+
+TEST_CASE("quads of a coarse mesh of a coarser one are good, whatever the numbers of sides of its loops")
+{
+    for (const std::vector<int>& holes :
+         {std::vector<int>{}, {100}, {102}, {98, 106, 102}, {110, 110, 112, 108, 110}}) {
+        CAPTURE(holes.size());
+        const PlanarRegion region = disc_with_holes(720, holes);
+        const PlanarQuads mesh = paved(region);
+        CHECK(find_fault(mesh, region) == "");
+        CHECK(mesh.how.find("cut in four, each quad cut in four") != std::string::npos);
+        const PlaneQuality quality = measure_plane(mesh, region);
+        CHECK(quality.min_scaled_jacobian > 0.65);
+        CHECK(quality.mean_scaled_jacobian > 0.97);
+        CHECK(quality.size_share() > 0.95);
+        CHECK(shortest_side(mesh) > 0.2);
     }
 }
 

@@ -184,6 +184,15 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
     for (const double width : {0.0, 1e-12, 0.9e-9 * diagonal})
         CHECK(code_of(slit(width)) == "quality.coincident_nodes");
     for (const double width : {1.1e-9 * diagonal, 1e-7, 1e-3}) CHECK(code_of(slit(width)).empty());
+    // Levels between which there is no room along a line are searched all at once.
+    for (const double width : {0.0, 1e-3}) {
+        auto bent = slit(width);
+        for (Vec3& p : bent.nodes) {
+            const double angle = 3 * p.z(), radius = 2 + p.y();
+            p = {p.x(), radius * std::cos(angle), radius * std::sin(angle)};
+        }
+        CHECK(code_of(bent) == (width > 0 ? "" : "quality.coincident_nodes"));
+    }
     const auto listed = slit(0);
     CHECK(code_of(quality::prove_cells(listed.nodes, all_hexes(listed))) == "quality.coincident_nodes");
 }

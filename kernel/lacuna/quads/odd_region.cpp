@@ -23,14 +23,14 @@ constexpr std::size_t kMostSides = 4;
 constexpr double kGoodEnough = 0.5;
 /// Quads of a row that may become the triangle. A choice, not a measurement.
 constexpr std::size_t kMostSteps = 8;
-/// Rings of neighbours round what was closed whose nodes move, and rounds of moving them: choices, not
-/// measurements.
+/// Rings of neighbours round what was closed whose nodes move, and rounds of moving them; few where the mesh
+/// is smoothed later. Choices, not measurements.
 constexpr int kRings = 3;
-constexpr int kRounds = 30;
+constexpr int kRounds = 30, kFewRounds = 3;
 
 /// A side of the region's loops, in the order they are worth dividing.
 struct Side {
-    std::size_t loop, place;
+    RegionSide side;
     double length; ///< over the size there
 };
 
@@ -43,7 +43,7 @@ std::vector<Side> sides_by_length(const PlanarRegion& region)
             const Vec2& a = region.points[index(loop[i])];
             const Vec2& b = region.points[index(loop[(i + 1) % loop.size()])];
             const double size = region.size ? region.size((a + b) / 2) : 1;
-            sides.push_back({l, i, (b - a).norm() / size});
+            sides.push_back({{l, i}, (b - a).norm() / size});
         }
     }
     std::stable_sort(sides.begin(), sides.end(),
@@ -105,11 +105,11 @@ public:
         cells_.assign(cells.begin(), cells.end());
     }
 
-    void run()
+    void run(int rounds)
     {
         // A node stays where it is as long as nothing round it moves.
         std::vector<char> awake(points_.size(), 1);
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < rounds; ++round) {
             bool moved = false;
             for (const Index n : free_) {
                 if (awake[index(n)] == 0) continue;
@@ -209,7 +209,8 @@ struct Window {
     Index middle;                    ///< the node that was added; those before it are the region's
 };
 
-/// @param middle  the node that was added; those before it are the region's.
+/// @param divided  its nodes from `middle` on, but for that one, are the boundary's no longer.
+/// @param middle   the node that was added; those before it are the region's.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
     // As far as rows go, the rings round them, and the cells of their nodes.
@@ -239,7 +240,8 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     std::sort(window.quads.begin(), window.quads.end());
     std::vector<char> on_rim(mesh.points.size(), 0);
     for (const std::vector<Index>& loop : divided.loops)
-        for (const Index n : loop) on_rim[index(n)] = 1;
+        for (const Index n : loop)
+            if (n <= middle) on_rim[index(n)] = 1;
     for (const Index n : window.nodes) {
         number[index(n)] = static_cast<Index>(window.mesh.points.size());
         window.mesh.points.push_back(mesh.points[index(n)]);
@@ -275,7 +277,8 @@ std::vector<Row> rows_from(const Window& window)
             const Index a = end_of(side, 0), b = end_of(side, 1);
             // Two nodes of the boundary stay two, but for the one that was added.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
-            if ((step > 0 && both) || !touched.insert(a).second || !touched.insert(b).second) break;
+            if (mesh::is_triangle(quads[index(side / 4)]) || (step > 0 && both)) break;
+            if (!touched.insert(a).second || !touched.insert(b).second) break;
             row.closed.push_back({a, b});
             row.last = side / 4;
             rows.push_back(row);
@@ -289,7 +292,7 @@ std::vector<Row> rows_from(const Window& window)
 /// Close a row; nothing where another cell loses a corner too.
 /// @param middle  the node that was added; those before it are the region's.
 std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
-                            Index middle)
+                            Index middle, int rounds)
 {
     std::vector<Vec2> points = mesh.points;
     std::vector<Index> to(points.size());
@@ -323,15 +326,16 @@ std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on
             if (std::find(corners.begin(), end, own) == end) corners[count++] = own;
         }
         const bool is_last = static_cast<Index>(q) == row.last;
-        if (count != (is_last ? 3 : 4)) return std::nullopt;
+        if (count != mesh::corner_count(mesh.quads[q]) - (is_last ? 1 : 0)) return std::nullopt;
+        if (count == 3) corners[3] = corners[2];
         if (is_last)
-            triangle = Quad{corners[0], corners[1], corners[2], corners[2]};
+            triangle = corners;
         else
             result.mesh.quads.push_back(corners);
     }
     result.mesh.quads.push_back(*triangle);
     result.mesh.how = mesh.how;
-    Smoother(result, index(middle)).run();
+    Smoother(result, index(middle)).run(rounds);
     return result;
 }
 
@@ -348,7 +352,7 @@ Row in_mesh(Row row, const Window& window)
 /// The best way of closing a row of a mesh of the divided region; nothing where there is none.
 /// @param than  what it must be better than, where given.
 std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
-                                 const std::optional<Closed>& than, const RunContext& context)
+                                 const std::optional<Closed>& than, int rounds, const RunContext& context)
 {
     const Window window = window_at(mesh, divided, middle);
     std::optional<Closed> best;
@@ -356,7 +360,7 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     const std::vector<Row> rows = rows_from(window);
     for (const Row& next : rows) {
         check_cancelled(context);
-        std::optional<Closed> closed = close(window.mesh, window.on_rim, next, window.middle);
+        std::optional<Closed> closed = close(window.mesh, window.on_rim, next, window.middle, rounds);
         if (!closed || (than && !closed->better_than(*than)) || (best && !closed->better_than(*best)))
             continue;
         best = std::move(closed);
@@ -365,7 +369,50 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     if (!best) return std::nullopt;
     std::vector<char> on_rim(mesh.points.size(), 0);
     for (std::size_t n = 0; n < window.nodes.size(); ++n) on_rim[index(window.nodes[n])] = window.on_rim[n];
-    return close(mesh, on_rim, in_mesh(*row, window), middle);
+    return close(mesh, on_rim, in_mesh(*row, window), middle, rounds);
+}
+
+/// The region with sides divided, in their order; the nodes in their middles are its last points.
+PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> sides)
+{
+    PlanarRegion divided = region;
+    std::vector<std::pair<RegionSide, Index>> added;
+    for (const RegionSide& side : sides) {
+        const std::vector<Index>& loop = region.loops[side.loop];
+        const Vec2 &a = region.points[index(loop[side.place])],
+                   &b = region.points[index(loop[(side.place + 1) % loop.size()])];
+        added.emplace_back(side, static_cast<Index>(divided.points.size()));
+        divided.points.push_back((a + b) / 2);
+    }
+    // From the last place to the first, so that places stay what they were.
+    std::sort(added.begin(), added.end(),
+              [](const auto& a, const auto& b) { return a.first.place > b.first.place; });
+    for (const auto& [side, middle] : added) {
+        std::vector<Index>& loop = divided.loops[side.loop];
+        loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(side.place) + 1, middle);
+    }
+    return divided;
+}
+
+void tell_triangles(PlanarQuads& mesh, std::size_t count)
+{
+    mesh.how += (mesh.how.empty() ? "" : ", ") +
+                (count == 1 ? std::string("one triangle") : std::to_string(count) + " triangles");
+}
+
+[[noreturn]] void refuse_rows(std::size_t sides)
+{
+    throw NotSweepable("surface.odd_region", "a region with " + std::to_string(sides) +
+                                                 " boundary sides was to be filled with quads and few "
+                                                 "triangles, and no row of quads leads inward from its "
+                                                 "longest sides");
+}
+
+std::size_t sides_of(const PlanarRegion& region)
+{
+    std::size_t count = 0;
+    for (const std::vector<Index>& loop : region.loops) count += loop.size();
+    return count;
 }
 
 } // namespace
@@ -373,31 +420,36 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
 PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& mesher,
                             const RunContext& context)
 {
-    std::size_t count = 0;
-    for (const std::vector<Index>& loop : region.loops) count += loop.size();
-    if (count % 2 == 0) return mesher(region, context);
+    if (sides_of(region) % 2 == 0) return mesher(region, context);
     std::optional<Closed> best;
     const std::vector<Side> sides = sides_by_length(region);
     const auto middle = static_cast<Index>(region.points.size());
     for (std::size_t s = 0; s < std::min(sides.size(), kMostSides); ++s) {
-        PlanarRegion divided = region;
-        std::vector<Index>& loop = divided.loops[sides[s].loop];
-        const Index a = loop[sides[s].place], b = loop[(sides[s].place + 1) % loop.size()];
-        divided.points.push_back((region.points[index(a)] + region.points[index(b)]) / 2);
-        loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(sides[s].place) + 1, middle);
+        const PlanarRegion divided = divide(region, std::span(&sides[s].side, 1));
         const PlanarQuads filled = mesher(divided, context);
-        if (std::optional<Closed> closed = close_best(filled, divided, middle, best, context))
+        if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))
             best = std::move(closed);
         if (best && best->worst >= kGoodEnough) break;
     }
-    if (!best) {
-        throw NotSweepable("surface.odd_region",
-                           "a region with " + std::to_string(count) +
-                               " boundary sides was to be filled with quads and one triangle, and no row of "
-                               "quads leads inward from its longest sides");
-    }
-    best->mesh.how += (best->mesh.how.empty() ? "" : ", ") + std::string("one triangle");
+    if (!best) refuse_rows(sides_of(region));
+    tell_triangles(best->mesh, 1);
     return std::move(best->mesh);
+}
+
+PlanarQuads fill_divided_region(const PlanarRegion& region, std::span<const RegionSide> sides,
+                                const PlanarQuadMesher& mesher, const RunContext& context)
+{
+    const PlanarRegion divided = divide(region, sides);
+    PlanarQuads mesh = mesher(divided, context);
+    // The node added last first: those before it keep their numbers.
+    for (std::size_t s = sides.size(); s-- > 0;) {
+        const auto middle = static_cast<Index>(region.points.size() + s);
+        std::optional<Closed> closed = close_best(mesh, divided, middle, std::nullopt, kFewRounds, context);
+        if (!closed) refuse_rows(sides_of(region));
+        mesh = std::move(closed->mesh);
+    }
+    if (!sides.empty()) tell_triangles(mesh, sides.size());
+    return mesh;
 }
 
 } // namespace lacuna::quads

@@ -4,6 +4,9 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/region.h>
 
+#include <cstddef>
+#include <span>
+
 namespace lacuna::quads {
 
 /// Fill a region whose boundary may have an odd number of sides: then with quads and one triangle, which is
@@ -20,5 +23,19 @@ namespace lacuna::quads {
 /// @note   Deterministic. A region with an even number of sides is handed to `mesher` as it is.
 PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& mesher,
                             const RunContext& context = {});
+
+/// A side of a region's boundary: of one of its loops, from the node at a place of it to the next.
+struct RegionSide {
+    std::size_t loop, place;
+};
+
+/// Fill a region with some of its sides divided in two, each of which is then closed as `fill_odd_region()`
+/// does: with as many triangles, the last of the quads. No other sides are tried, and nodes near by are
+/// moved little, for a mesh that is smoothed later.
+/// @pre    no side twice; what `mesher` wants of the divided region.
+/// @throw NotSweepable  what `mesher` throws; "surface.odd_region": no row leads inward from a side.
+/// @note   Deterministic.
+PlanarQuads fill_divided_region(const PlanarRegion& region, std::span<const RegionSide> sides,
+                                const PlanarQuadMesher& mesher, const RunContext& context = {});
 
 } // namespace lacuna::quads

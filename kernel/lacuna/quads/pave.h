@@ -55,7 +55,8 @@ struct Paved {
 ///
 /// More than 20,000 are made of a quarter as many, over every other boundary node, each cut in four. That
 /// takes every loop to have an even number of nodes and to turn by 20° at most at those left out; where half
-/// of all is an odd number, a triangle is cut in three.
+/// of all is an odd number, a triangle is cut in three. 8,000 and more of the coarse ones are made in the
+/// same way; for that up to eight sides may be divided, and become a triangle each.
 ///
 /// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
 /// the best by measure is kept. Below about 1500 they are made three times without rows, by weightings of

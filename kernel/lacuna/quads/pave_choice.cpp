@@ -111,22 +111,6 @@ std::uint64_t name_of(const PlanarQuads& mesh)
     return name;
 }
 
-/// About how many quads a region gets: its area over that of a square on a mean boundary side.
-double quads_within(const PlanarRegion& region)
-{
-    double area = 0, length = 0, sides = 0;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = region.points[index(loop[i])],
-                       &b = region.points[index(loop[(i + 1) % loop.size()])];
-            area += cross(a, b) / 2;
-            length += (b - a).norm();
-            ++sides;
-        }
-    }
-    return area * sides * sides / (length * length);
-}
-
 /// An attempt that is not finished.
 struct Begun {
     std::size_t irregular; ///< nodes

@@ -4,7 +4,11 @@
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/pave_attempt.h>
+#include <lacuna/quads/detail/pave_choice.h>
+#include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/smooth_plane.h>
 
@@ -92,6 +96,126 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
     return result;
 }
 
+namespace {
+
+/// Regions of so many quads are made coarse once more. A choice, not a measurement.
+constexpr double kManyStill = 8000;
+/// Sides that may be divided for it. Each leaves a triangle, with a few irregular nodes. A choice.
+constexpr std::size_t kMostDivided = 8;
+/// A worst quad that a coarse mesh is kept with. A choice, not a measurement.
+constexpr double kFair = 0.5;
+
+/// The sides to divide for even numbers of them from corner to corner, and round loops without corners: the
+/// longest of each. Nothing where they are too many.
+std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& region)
+{
+    std::vector<RegionSide> sides;
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const std::vector<Index>& loop = region.loops[l];
+        const std::size_t n = loop.size();
+        const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
+        std::vector<std::size_t> corners;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+            if (std::abs(angle - std::numbers::pi) > kTurns) corners.push_back(i);
+        }
+        if (corners.empty()) corners.push_back(0);
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            const std::size_t from = corners[c],
+                              to = c + 1 < corners.size() ? corners[c + 1] : corners.front() + n;
+            if ((to - from) % 2 == 0) continue;
+            std::size_t longest = from;
+            for (std::size_t i = from; i < to; ++i) {
+                if ((at(i + 1) - at(i)).norm() > (at(longest + 1) - at(longest)).norm()) longest = i;
+            }
+            sides.push_back({l, longest % n});
+            if (sides.size() > kMostDivided) return std::nullopt;
+        }
+    }
+    return sides;
+}
+
+/// The longest side of a region with an odd number of them.
+std::optional<RegionSide> side_to_divide(const PlanarRegion& region)
+{
+    std::size_t sides = 0;
+    std::optional<RegionSide> longest;
+    double most = 0;
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const std::vector<Index>& loop = region.loops[l];
+        for (std::size_t i = 0; i < loop.size(); ++i, ++sides) {
+            const Vec2 &a = region.points[index(loop[i])],
+                       &b = region.points[index(loop[(i + 1) % loop.size()])];
+            const double length = (b - a).norm() / (region.size ? region.size((a + b) / 2) : 1);
+            if (length <= most) continue;
+            most = length;
+            longest = RegionSide{l, i};
+        }
+    }
+    return sides % 2 == 0 ? std::nullopt : longest;
+}
+
+/// Pave a coarse region in one way, and in all others only where that is poor.
+PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, PaveReport& report,
+                      const RunContext& context)
+{
+    check(region);
+    const AttemptSetting setting{region, options, size_with_boundary(region), flat_below(region)};
+    Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
+    finish_attempt(attempt, setting, true, context);
+    if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {
+        report = std::move(attempt.report);
+        return std::move(attempt.mesh);
+    }
+    auto [mesh, other] = pave(region, options, context);
+    report = std::move(other);
+    return std::move(mesh);
+}
+
+double least_jacobian(const PlanarQuads& mesh)
+{
+    double least = 1;
+    for (const Quad& quad : mesh.quads) {
+        if (!mesh::is_triangle(quad)) least = std::min(least, scaled_jacobian(mesh.points, quad));
+    }
+    return least;
+}
+
+/// Quads and few triangles in a coarse region: made of those of a coarser one where they are many still.
+PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, PaveReport& report,
+                        const RunContext& context)
+{
+    const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
+    const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
+        std::optional<Paved> made = pave_in_four(divided, options, size_with_boundary(divided), its_context);
+        if (!made) throw NotSweepable("surface.pave", "no quads of a coarser region");
+        report = std::move(made->report);
+        return std::move(made->mesh);
+    };
+    if (sides) {
+        try {
+            PlanarQuads mesh = fill_divided_region(region, *sides, in_four, context);
+            if (least_jacobian(mesh) > kFair) return mesh;
+        } catch (const NotSweepable&) {
+            // paved as it is
+        }
+    }
+    const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
+        return pave_once(even, options, report, its_context);
+    };
+    if (const auto side = side_to_divide(region)) {
+        try {
+            PlanarQuads mesh = fill_divided_region(region, std::span(&*side, 1), once, context);
+            if (least_jacobian(mesh) > kFair) return mesh;
+        } catch (const NotSweepable&) {
+            // another side may do
+        }
+    }
+    return fill_odd_region(region, once, context);
+}
+
+} // namespace
+
 std::optional<Paved> pave_in_four(const PlanarRegion& region, const PaveOptions& options,
                                   const std::function<double(const Vec2&)>& size, const RunContext& context)
 {
@@ -101,13 +225,8 @@ std::optional<Paved> pave_in_four(const PlanarRegion& region, const PaveOptions&
     PaveOptions inside = options;
     inside.grids = false;
     Paved made;
-    const auto mesher = [&](const PlanarRegion& own, const RunContext& its_context) {
-        auto [mesh, report] = pave(own, inside, its_context);
-        made.report = std::move(report);
-        return std::move(mesh);
-    };
     try {
-        made.mesh = cut_in_four(region, *coarse, fill_odd_region(coarse->region, mesher, context));
+        made.mesh = cut_in_four(region, *coarse, fill_coarse(coarse->region, inside, made.report, context));
     } catch (const InvalidInput&) {
         return std::nullopt; // loops that the nodes left out kept apart
     } catch (const NotSweepable&) {

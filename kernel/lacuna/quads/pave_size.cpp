@@ -140,6 +140,21 @@ std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region
     };
 }
 
+double quads_within(const PlanarRegion& region)
+{
+    double area = 0, length = 0, sides = 0;
+    for (const auto& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 &a = region.points[index(loop[i])],
+                       &b = region.points[index(loop[(i + 1) % loop.size()])];
+            area += cross(a, b) / 2;
+            length += (b - a).norm();
+            ++sides;
+        }
+    }
+    return area * sides * sides / (length * length);
+}
+
 bool has_quads_asked(const PlanarQuads& mesh, const std::function<double(const Vec2&)>& size)
 {
     constexpr double kOff = 0.25;

@@ -35,7 +35,7 @@ struct SmoothedPlane {
 /// 2. Every point in turn takes Newton steps on the convex energy of its corners, (|a|² + |b|²) / 2 det and,
 ///    with a size h, (det/h² + h²/det) / 2. No step may fold a quad.
 /// 3. The points of the worst quads are moved, one after the other, to where the least sine around them is
-///    largest.
+///    largest, as long as no side becomes much shorter than those around it.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled
 /// @note  Deterministic. O(points) a sweep.

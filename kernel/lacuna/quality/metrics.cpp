@@ -224,6 +224,20 @@ struct PickedCells {
     }
 };
 
+/// Cells of a swept mesh that follow each other in a layer.
+struct CellsInRow {
+    SweptCells all;
+    std::size_t first, layer, count;
+
+    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(first + column); }
+    [[nodiscard]] std::size_t columns() const { return count; }
+    [[nodiscard]] std::size_t layers() const { return 1; }
+    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t above) const
+    {
+        return all.corners(first + column, layer + above);
+    }
+};
+
 template <class Cells>
 std::vector<double> values_of(const Cells& cells, Metric metric, const RunContext& context)
 {
@@ -283,7 +297,17 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 
 void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> cells, double* out)
 {
-    put_scaled_jacobians(PickedCells{SweptCells{mesh}, cells}, 0, cells.size(), out);
+    const SweptCells all{mesh};
+    const bool in_row = std::adjacent_find(cells.begin(), cells.end(), [](std::uint32_t a, std::uint32_t b) {
+                            return b != a + 1;
+                        }) == cells.end();
+    if (!in_row) return put_scaled_jacobians(PickedCells{all, cells}, 0, cells.size(), out);
+    for (std::size_t done = 0; done < cells.size();) {
+        const std::size_t first = cells[done] % all.columns(), layer = cells[done] / all.columns();
+        const std::size_t count = std::min(cells.size() - done, all.columns() - first);
+        put_scaled_jacobians(CellsInRow{all, first, layer, count}, 0, count, out + done);
+        done += count;
+    }
 }
 
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,

@@ -57,16 +57,26 @@ Projector::~Projector() = default;
 std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext& context) const
 {
     std::vector<geometry::FacetTree::Hit> hits(points.size());
-    const auto distance2_to = [&](Index facet, const Vec3& p) {
+    const auto hit_on = [&](Index facet, const Vec3& p) {
         const Face& face = (*model_)[face_of_[index(facet)]];
         const Triangle& t = face.triangles[index(triangle_of_[index(facet)])];
         const std::array<Vec3, 3> corners{model_->at(t[0]), model_->at(t[1]), model_->at(t[2])};
-        return geometry::closest_on_triangle(p, corners).distance2;
+        geometry::FacetTree::Hit hit = geometry::closest_on_triangle(p, corners);
+        hit.triangle = facet;
+        return hit;
     };
+    // So near, but for rounding, a point is on a facet: inside it, no other facet need be asked.
+    constexpr double kInside = 1e-6;
+    const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
         // The facet nearest to one point is near the next: none that is further need be looked at.
         for (std::size_t i = begin; i < end; ++i) {
-            if (i > begin) hits[i] = tree_.closest(points[i], distance2_to(hits[i - 1].triangle, points[i]));
+            if (i > begin) {
+                hits[i] = hit_on(hits[i - 1].triangle, points[i]);
+                const bool inside = hits[i].barycentric.minCoeff() > kInside;
+                if (inside && hits[i].distance2 <= rounding * rounding) continue;
+                hits[i] = tree_.closest(points[i], hits[i].distance2);
+            }
             if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // or that distance was rounded
         }
     });

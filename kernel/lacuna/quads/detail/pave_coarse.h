@@ -27,7 +27,7 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region);
 /// @param coarse  quads and triangles (`mesh::is_triangle()`), the coarse region's points first.
 PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, const PlanarQuads& coarse);
 
-/// Pave the coarse region, cut its cells in four and smooth the quads.
+/// Pave the coarse region, or one coarser still, cut its cells in four and smooth the quads.
 /// @param size  of the region, with its boundary's.
 /// @return nothing where there is no coarse region, or it cannot be filled.
 /// @throw Cancelled

@@ -23,6 +23,9 @@ std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region
 /// rings are laid out with and all meshes judged by.
 inline constexpr double kRingGrading = 0.3, kRingAlike = 1.75;
 
+/// About how many quads a region gets: its area over that of a square on a mean boundary side.
+double quads_within(const PlanarRegion& region);
+
 /// Whether a mesh has as many quads as asked for, a quarter more or less: what is promised.
 bool has_quads_asked(const PlanarQuads& mesh, const std::function<double(const Vec2&)>& size);
 
