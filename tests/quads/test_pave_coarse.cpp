@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace lacuna;
@@ -156,10 +157,14 @@ TEST_CASE("sides divided and closed again leave a triangle each, and every bound
 
 TEST_CASE("quads of a coarse mesh of a coarser one are good, whatever the numbers of sides of its loops")
 {
-    for (const std::vector<int>& holes :
-         {std::vector<int>{}, {100}, {102}, {98, 106, 102}, {110, 110, 112, 108, 110}}) {
+    using Case = std::pair<int, std::vector<int>>;
+    for (const auto& [outer, holes] :
+         {Case{720, {}}, Case{720, {100}}, Case{720, {102}}, Case{720, {98, 106, 102}},
+          Case{720, {110, 110, 112, 108, 110}}, Case{700, {66, 70, 74, 78, 82}},
+          Case{700, {90, 94, 98, 102, 106}}, Case{740, {74, 78, 82, 86, 90}}}) {
+        CAPTURE(outer);
         CAPTURE(holes.size());
-        const PlanarRegion region = disc_with_holes(720, holes);
+        const PlanarRegion region = disc_with_holes(outer, holes);
         const PlanarQuads mesh = paved(region);
         CHECK(find_fault(mesh, region) == "");
         CHECK(mesh.how.find("cut in four, each quad cut in four") != std::string::npos);
@@ -167,6 +172,7 @@ TEST_CASE("quads of a coarse mesh of a coarser one are good, whatever the number
         CHECK(quality.min_scaled_jacobian > 0.65);
         CHECK(quality.mean_scaled_jacobian > 0.97);
         CHECK(quality.size_share() > 0.95);
+        // Right angles alone drew points together where a triangle was cut in three beside a hole.
         CHECK(shortest_side(mesh) > 0.2);
     }
 }

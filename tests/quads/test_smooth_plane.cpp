@@ -156,6 +156,30 @@ TEST_CASE("the same comes out every time")
     }
 }
 
+TEST_CASE("many points come out the same on any number of threads, and as good as few")
+{
+    for (const double most : {0.2, 0.35}) {
+        CAPTURE(most);
+        PlaneGrid shaken = test::plane_grid(180, 140);
+        test::shake(shaken, most, 5);
+        PlaneGrid few = test::plane_grid(40, 30);
+        test::shake(few, most, 5);
+        const quads::SmoothedPlane of_few = smooth(few);
+        std::vector<Vec2> first;
+        for (const int threads : {1, 2, 3, 7}) {
+            PlaneGrid grid = shaken;
+            RunContext context;
+            context.threads = threads;
+            const quads::SmoothedPlane done = quads::smooth_plane(grid.mesh.points, grid.mesh.quads,
+                                                                  grid.region.points.size(), {}, context);
+            CHECK(quads::find_fault(grid.mesh, grid.region) == "");
+            CHECK(done.min_after >= of_few.min_after - 0.05);
+            if (first.empty()) first = grid.mesh.points;
+            CHECK(grid.mesh.points == first);
+        }
+    }
+}
+
 TEST_CASE("smoothing stops when it is told to")
 {
     PlaneGrid grid = test::plane_grid(9, 9);

@@ -2,6 +2,7 @@
 #include <lacuna/matching/guides.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
 #include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
@@ -303,7 +304,7 @@ std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < n; ++k) {
         double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += off(i, k).squaredNorm();
+        for (std::size_t i = 0; i < n && sum < least; ++i) sum += off(i, k).squaredNorm();
         if (sum < least) {
             least = sum;
             best = k;
@@ -486,12 +487,20 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
             for (std::size_t i = 0; i + 1 < points.size(); ++i) on_line[side(points[i], points[i + 1])] = l;
         }
     }
-    std::vector<PartSections> parts;
-    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        parts.push_back(sections_of(volume, part, result.heights, up, on_line, count, context));
-        result.closed = result.closed || parts.back().closed;
-        if (!parts.back().closed && !parts.back().points.empty())
-            add_to_loops(volume, part, parts.back(), result.loops);
+    const std::vector<std::vector<FaceId>> walls = connected_parts(model, volume.faces(Role::wall));
+    std::vector<PartSections> parts(walls.size());
+    // Exact surfaces are asked by one thread at a time.
+    RunContext threads = context;
+    if (std::ranges::any_of(volume.faces(Role::wall), [&](FaceId f) { return model[f].surface != nullptr; }))
+        threads.threads = 1;
+    parallel_for(threads, walls.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            parts[p] = sections_of(volume, walls[p], result.heights, up, on_line, count, context);
+    });
+    for (std::size_t p = 0; p < walls.size(); ++p) {
+        result.closed = result.closed || parts[p].closed;
+        if (!parts[p].closed && !parts[p].points.empty())
+            add_to_loops(volume, walls[p], parts[p], result.loops);
     }
     if (!parts.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
     for (const PartSections& part : parts) {

@@ -2,6 +2,7 @@
 #include <lacuna/quads/odd_region.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/parallel.h>
 #include <lacuna/mesh/incidence.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/measure_plane.h>
@@ -355,18 +356,20 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
                                  const std::optional<Closed>& than, int rounds, const RunContext& context)
 {
     const Window window = window_at(mesh, divided, middle);
-    std::optional<Closed> best;
-    const Row* row = nullptr;
     const std::vector<Row> rows = rows_from(window);
-    for (const Row& next : rows) {
-        check_cancelled(context);
-        std::optional<Closed> closed = close(window.mesh, window.on_rim, next, window.middle, rounds);
-        if (!closed || (than && !closed->better_than(*than)) || (best && !closed->better_than(*best)))
-            continue;
-        best = std::move(closed);
-        row = &next;
+    std::vector<std::optional<Closed>> found(rows.size());
+    parallel_for(context, rows.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r)
+            found[r] = close(window.mesh, window.on_rim, rows[r], window.middle, rounds);
+    });
+    const Closed* best = than ? &*than : nullptr;
+    const Row* row = nullptr;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (!found[r] || (best != nullptr && !found[r]->better_than(*best))) continue;
+        best = &*found[r];
+        row = &rows[r];
     }
-    if (!best) return std::nullopt;
+    if (row == nullptr) return std::nullopt;
     std::vector<char> on_rim(mesh.points.size(), 0);
     for (std::size_t n = 0; n < window.nodes.size(); ++n) on_rim[index(window.nodes[n])] = window.on_rim[n];
     return close(mesh, on_rim, in_mesh(*row, window), middle, rounds);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/smooth_plane.h>
 
+#include <lacuna/core/parallel.h>
 #include <lacuna/geometry/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
 #include <lacuna/quads/detail/untangle_plane.h>
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace lacuna::quads {
 
@@ -37,6 +40,10 @@ bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std:
     return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
 }
 
+/// So many points are swept in blocks of so many: numbers near each other are near each other in most meshes.
+/// Choices, not measurements.
+constexpr std::size_t kMany = 20'000, kBlock = 4096;
+
 class Smoother {
 public:
     Smoother(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
@@ -50,17 +57,24 @@ public:
     {
         const std::size_t first = std::min(std::max(fixed, options.still), points.size());
         std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(first), awake_.end(), 1);
+        if (points.size() >= kMany) part_in_blocks();
     }
 
-    /// One step for every point that is awake, with the widest vectors the machine has; they change no bit.
+    /// One step for every point that is awake. Of many points those inside blocks are moved first, block
+    /// beside block, which no number of threads changes; then those between blocks.
     /// @return how many moved by more than next to nothing.
-    std::size_t sweep(double floor, double overstep)
+    std::size_t sweep(double floor, double overstep, const RunContext& context)
     {
-#if defined(__GNUC__) && defined(__x86_64__)
-        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-        if (avx2) return sweep_avx2(floor, overstep);
-#endif
-        return sweep_points(floor, overstep);
+        if (inside_.empty()) return sweep_range({fixed_, points_.size(), 0, floor, overstep});
+        std::vector<std::size_t> moved((points_.size() - fixed_ + kBlock - 1) / kBlock, 0);
+        parallel_for(context, moved.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t b = begin; b < end; ++b) {
+                const std::size_t first = fixed_ + b * kBlock;
+                moved[b] = sweep_range({first, std::min(first + kBlock, points_.size()), 1, floor, overstep});
+            }
+        });
+        return std::accumulate(moved.begin(), moved.end(),
+                               sweep_range({fixed_, points_.size(), 0, floor, overstep}));
     }
 
     /// Move the points of poor quads to where the least sine around is largest; later only those with a
@@ -100,17 +114,52 @@ public:
     }
 
 private:
-    LACUNA_LANES_INLINE std::size_t sweep_points(double floor, double overstep)
+    /// Points that are swept, and how.
+    struct Range {
+        std::size_t first, last;
+        char inside; ///< 1: those inside a block; 0: the others, or all where there are no blocks
+        double floor, overstep;
+    };
+
+    /// Find the points whose neighbours are all in their own block of points, or fixed.
+    void part_in_blocks()
     {
-        std::size_t moved = 0;
-        StarEnergy here;
+        inside_.assign(points_.size(), 0);
         for (std::size_t p = fixed_; p < points_.size(); ++p) {
-            if (awake_[p] == 0) continue;
+            const std::size_t block = (p - fixed_) / kBlock;
+            const auto is_near = [&](Index other) {
+                return index(other) < fixed_ || (index(other) - fixed_) / kBlock == block;
+            };
+            const auto star = stars_[p];
+            inside_[p] = std::all_of(star.begin(), star.end(), [&](const Spoke& spoke) {
+                return is_near(spoke.next) && is_near(spoke.across) && is_near(spoke.before);
+            });
+        }
+    }
+
+    /// With the widest vectors the machine has; they change no bit.
+    std::size_t sweep_range(const Range& range)
+    {
+#if defined(__GNUC__) && defined(__x86_64__)
+        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+        if (avx2) return sweep_avx2(range);
+#endif
+        return sweep_points(range);
+    }
+
+    LACUNA_LANES_INLINE std::size_t sweep_points(const Range& range)
+    {
+        const double floor = range.floor, overstep = range.overstep;
+        std::size_t moved = 0;
+        StarLanes lanes; // the star of the point at hand
+        StarEnergy here;
+        for (std::size_t p = range.first; p < range.last; ++p) {
+            if (awake_[p] == 0 || (!inside_.empty() && inside_[p] != range.inside)) continue;
             awake_[p] = 0;
             const auto star = stars_[p];
             if (star.empty()) continue;
-            lanes_.set(points_, star, p, areas_);
-            if (!lanes_.differentiate(points_[p], areas_.weight, here)) continue;
+            lanes.set(points_, star, p, areas_);
+            if (!lanes.differentiate(points_[p], areas_.weight, here)) continue;
             const double det = here.xx * here.yy - here.xy * here.xy;
             if (!(det > 0)) continue;
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
@@ -121,10 +170,10 @@ private:
             for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
-                double energy = lanes_.energy(to, areas_.weight, least);
+                double energy = lanes.energy(to, areas_.weight, least);
                 if (energy > here.value && least > 0) { // where the sine is less already, it may stay so
                     const double sine = least_sine(points_, star, points_[p]);
-                    if (sine < floor) energy = lanes_.energy(to, areas_.weight, sine * sine);
+                    if (sine < floor) energy = lanes.energy(to, areas_.weight, sine * sine);
                 }
                 if (energy > here.value) continue;
                 points_[p] = to;
@@ -139,19 +188,16 @@ private:
     }
 
 #if defined(__GNUC__) && defined(__x86_64__)
-    [[gnu::target("avx2")]] std::size_t sweep_avx2(double floor, double overstep)
-    {
-        return sweep_points(floor, overstep);
-    }
+    [[gnu::target("avx2")]] std::size_t sweep_avx2(const Range& range) { return sweep_points(range); }
 #endif
 
-    /// Mark a point and its neighbours.
+    /// Mark a point and its neighbours that are not fixed.
     void wake(std::size_t p, std::vector<char>& marks) const
     {
         marks[p] = 1;
         for (const Spoke& spoke : stars_[p]) {
-            marks[index(spoke.next)] = 1;
-            marks[index(spoke.across)] = 1;
+            for (const Index other : {spoke.next, spoke.across})
+                if (index(other) >= fixed_) marks[index(other)] = 1;
         }
     }
 
@@ -180,9 +226,9 @@ private:
     Stars stars_;
     std::vector<char> awake_;        ///< points to be swept
     std::vector<char> restless_;     ///< points to be raised where quads are poor
+    std::vector<char> inside_;       ///< of its block; empty where there are no blocks
     std::vector<double> least_side_; ///< of each point, that raising keeps [length]
     TargetAreas areas_;
-    StarLanes lanes_; ///< the star of the point at hand
 };
 
 } // namespace
@@ -208,7 +254,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
     for (int i = 0; i < options.sweeps; ++i) {
         check_cancelled(context);
         const double overstep = i == 0 || i + 1 == options.sweeps ? 1 : kOverstep;
-        if (smoother.sweep(floor, overstep) == 0) break;
+        if (smoother.sweep(floor, overstep, context) == 0) break;
     }
     for (int i = 0; i < options.repairs; ++i) {
         check_cancelled(context);

@@ -24,7 +24,7 @@ inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
 
 /// Two points within `tolerance` of each other, the same pair for any thread count. O(points).
 /// @param level  points lie in levels of so many, one after the other; 0: in none. Levels between which there
-///               is room along a line are looked at one by one, which takes a quarter of the time.
+///               is room along a line are looked at one by one, in less than half the time.
 /// @pre  bounds holds every point.
 std::optional<std::array<Index, 2>> find_coincident(std::span<const Vec3> points, std::size_t level,
                                                     double tolerance, const Eigen::AlignedBox3d& bounds,
