@@ -136,6 +136,12 @@ public:
 
     [[nodiscard]] OpenVolume& volume() { return volume_; }
     [[nodiscard]] FaceId made() const { return made_; }
+    [[nodiscard]] bool has_bare_rim() const
+    {
+        return std::ranges::any_of(rims_, [](const std::vector<Stretch>& rim) {
+            return std::ranges::all_of(rim, [](const Stretch& stretch) { return stretch.top.empty(); });
+        });
+    }
     [[nodiscard]] const std::vector<EdgeId>& made_edges() const { return made_edges_; }
 
 private:
@@ -358,6 +364,11 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());
         result.enclosed = enclosed_volume(result.volume);
+        if (mover.has_bare_rim())
+            result.closure.notes.push_back(
+                "a hole of " + name_of(open.model, end) +
+                " has no walls and is taken to go through to the missing end; give "
+                "its bottom where it is blind");
         return result;
     } catch (const InvalidInput&) {
         return std::nullopt;

@@ -30,6 +30,12 @@ constexpr double kSameSkin = 0.02;
 /// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
 /// likelier. A choice, not a measurement.
 constexpr double kBentVoid = 0.5;
+/// A membrane leaves the shape in doubt where more than this share of what is enclosed lies beside its plane.
+/// A choice: tops that bend by a few hundredths of the height stay below it.
+constexpr double kDoubt = 0.05;
+/// Faces whose mean normal is shorter than this are bent: an arc of 72° and more. A choice, not a
+/// measurement.
+constexpr double kFlatEnd = 0.94;
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
 /// several loops.
@@ -139,6 +145,45 @@ std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, cons
     return round;
 }
 
+/// What lies between a void face and the plane through its middle [model length³].
+double beside_plane(const Model& model, FaceId face)
+{
+    const Vec3 middle = face_centroid(model, face);
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    double sum = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+        sum += std::abs(((a + b + c) / 3 - middle).dot(normal) * (b - a).cross(c - a).dot(normal)) / 2;
+    }
+    return sum;
+}
+
+/// Says that void edges lead from one bent face to another, as if these were the ends of a sweep; empty where
+/// they do not.
+std::string bent_ends(const Model& model, const Void& found)
+{
+    const Roles& roles = found.first.roles;
+    if (!found.filled.empty() || found.sealed.closure.void_edges.empty()) return {};
+    const auto is_bent = [&](const std::vector<FaceId>& end) {
+        Vec3 sum = Vec3::Zero();
+        double area = 0;
+        for (const FaceId face : end) {
+            sum += face_area_vector(found.sealed.volume.model, face);
+            area += face_area(found.sealed.volume.model, face);
+        }
+        return area > 0 && sum.norm() < kFlatEnd * area;
+    };
+    const bool bends = std::ranges::any_of(found.sealed.closure.void_faces,
+                                           [&](FaceId face) { return is_bent({face}); });
+    if (!bends) return {};
+    if (!is_bent(found.sealed.volume.faces(Role::source)) ||
+        !is_bent(found.sealed.volume.faces(Role::target)) || roles.source.empty() || roles.target.empty())
+        return {};
+    return "what is missing between " + name_of(model, roles.source.front()) + " and " +
+           name_of(model, roles.target.front()) +
+           " was closed as a way from one to the other, but both are bent, as ends of a sweep seldom are";
+}
+
 } // namespace
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
@@ -184,10 +229,12 @@ std::vector<FaceId> as_named(const Roles& roles)
 
 std::string guess_of(const Model& model, const Void& found)
 {
+    if (auto bent = bent_ends(model, found); !bent.empty()) return bent;
     const Model& own = found.sealed.volume.model;
     const std::vector<FaceId> given = as_named(found.first.roles);
     const auto uses = edge_uses(own);
     for (const FaceId face : membranes(own, found.sealed.closure.void_faces)) {
+        if (beside_plane(own, face) < kDoubt * found.sealed.enclosed) continue;
         std::set<int> round;
         for (const Loop& loop : own[face].loops)
             for (const EdgeUse& use : loop.uses)
