@@ -98,7 +98,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     }
     if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
     if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
-    take_moved(model, faces, move_ends(model, faces, context), found);
+    take_moved(model, faces, found, context);
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));

@@ -33,9 +33,6 @@ constexpr double kBentVoid = 0.5;
 /// A membrane leaves the shape in doubt where more than this share of what is enclosed lies beside its plane.
 /// A choice: tops that bend by a few hundredths of the height stay below it.
 constexpr double kDoubt = 0.05;
-/// Faces whose mean normal is shorter than this are bent: an arc of 72° and more. A choice, not a
-/// measurement.
-constexpr double kFlatEnd = 0.94;
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
 /// several loops.
@@ -158,32 +155,6 @@ double beside_plane(const Model& model, FaceId face)
     return sum;
 }
 
-/// Says that void edges lead from one bent face to another, as if these were the ends of a sweep; empty where
-/// they do not.
-std::string bent_ends(const Model& model, const Void& found)
-{
-    const Roles& roles = found.first.roles;
-    if (!found.filled.empty() || found.sealed.closure.void_edges.empty()) return {};
-    const auto is_bent = [&](const std::vector<FaceId>& end) {
-        Vec3 sum = Vec3::Zero();
-        double area = 0;
-        for (const FaceId face : end) {
-            sum += face_area_vector(found.sealed.volume.model, face);
-            area += face_area(found.sealed.volume.model, face);
-        }
-        return area > 0 && sum.norm() < kFlatEnd * area;
-    };
-    const bool bends = std::ranges::any_of(found.sealed.closure.void_faces,
-                                           [&](FaceId face) { return is_bent({face}); });
-    if (!bends) return {};
-    if (!is_bent(found.sealed.volume.faces(Role::source)) ||
-        !is_bent(found.sealed.volume.faces(Role::target)) || roles.source.empty() || roles.target.empty())
-        return {};
-    return "what is missing between " + name_of(model, roles.source.front()) + " and " +
-           name_of(model, roles.target.front()) +
-           " was closed as a way from one to the other, but both are bent, as ends of a sweep seldom are";
-}
-
 } // namespace
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
@@ -229,7 +200,6 @@ std::vector<FaceId> as_named(const Roles& roles)
 
 std::string guess_of(const Model& model, const Void& found)
 {
-    if (auto bent = bent_ends(model, found); !bent.empty()) return bent;
     const Model& own = found.sealed.volume.model;
     const std::vector<FaceId> given = as_named(found.first.roles);
     const auto uses = edge_uses(own);
@@ -300,9 +270,17 @@ std::optional<Void> settled_void(const Model& model, const std::vector<FaceId>& 
     return std::move(found.front());
 }
 
-void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<MovedEnd> moved,
-                std::vector<Void>& found)
+void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
+                const RunContext& context)
 {
+    const auto known = [&](const std::vector<Vec3>& places) {
+        if (found.size() != 1) return false;
+        const geometry::FacetTree made = void_facets(found.front().sealed);
+        const double near = kSameSkin * std::cbrt(found.front().sealed.enclosed) / 4;
+        return std::ranges::all_of(places,
+                                   [&](const Vec3& p) { return made.closest(p, near * near).triangle >= 0; });
+    };
+    std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
     for (MovedEnd& one : moved) {
         Void now;
