@@ -134,8 +134,32 @@ public:
         made_ = add_void_face(volume_, std::move(filling), Role::target);
     }
 
+    /// Places on the rim of the missing end and half way up the missing walls.
+    [[nodiscard]] std::vector<Vec3> missing_places() const
+    {
+        std::vector<Vec3> result;
+        for (const std::vector<Stretch>& rim : rims_) {
+            for (const Stretch& stretch : rim) {
+                if (!stretch.top.empty()) continue;
+                for (const EdgeUse& use : stretch.foot) {
+                    for (const Vec3& p : even_places(places(volume_.model, use))) {
+                        result.push_back(motion_(p));
+                        result.push_back((p + motion_(p)) / 2);
+                    }
+                }
+            }
+        }
+        return result;
+    }
+
     [[nodiscard]] OpenVolume& volume() { return volume_; }
     [[nodiscard]] FaceId made() const { return made_; }
+    [[nodiscard]] bool has_bare_rim() const
+    {
+        return std::ranges::any_of(rims_, [](const std::vector<Stretch>& rim) {
+            return std::ranges::all_of(rim, [](const Stretch& stretch) { return stretch.top.empty(); });
+        });
+    }
     [[nodiscard]] const std::vector<EdgeId>& made_edges() const { return made_edges_; }
 
 private:
@@ -344,11 +368,17 @@ private:
     std::vector<EdgeId> made_edges_;
 };
 
+using Known = std::function<bool(const std::vector<Vec3>&)>;
+
+/// @param stop  out: set where what is missing is known
 std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
-                                 const std::vector<std::vector<FaceUse>>& uses, const RunContext& context)
+                                 const std::vector<std::vector<FaceUse>>& uses, const Known& known,
+                                 bool& stop, const RunContext& context)
 {
     EndMover mover(open, end, uses);
     if (!mover.can_move()) return std::nullopt;
+    stop = known(mover.missing_places());
+    if (stop) return std::nullopt;
     try {
         mover.move(context);
         MovedEnd result{std::move(mover.volume()), {}, end, 0};
@@ -358,6 +388,11 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());
         result.enclosed = enclosed_volume(result.volume);
+        if (mover.has_bare_rim())
+            result.closure.notes.push_back(
+                "a hole of " + name_of(open.model, end) +
+                " has no walls and is taken to go through to the missing end; give "
+                "its bottom where it is blind");
         return result;
     } catch (const InvalidInput&) {
         return std::nullopt;
@@ -368,7 +403,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
 
 } // namespace
 
-std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces,
+std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces, const Known& known,
                                 const RunContext& context)
 {
     OpenVolume open;
@@ -386,7 +421,9 @@ std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& f
         open.role.assign(faces.size(), Role::wall);
         open.role[end.index()] = Role::source;
         if (!can_be_end(open, end, uses)) continue;
-        auto moved = move_end(open, end, uses, context);
+        bool stop = false;
+        auto moved = move_end(open, end, uses, known, stop, context);
+        if (stop) return {};
         if (!moved) continue;
         moved->from = faces[end.index()];
         found.push_back(std::move(*moved));

@@ -48,6 +48,16 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     return found;
 }
 
+/// Whether all that closed a reading is flat.
+bool closes_flat(const Reading& reading)
+{
+    const Model& model = reading.volume.model;
+    return std::ranges::all_of(reading.closure->void_faces, [&](FaceId face) {
+        return std::ranges::all_of(model[face].loops,
+                                   [&](const Loop& loop) { return is_flat(model, {loop.uses}); });
+    });
+}
+
 } // namespace
 
 OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
@@ -60,7 +70,8 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    if (auto floor = read_floor(model, faces, context)) return {std::move(*floor)};
+    auto floor = read_floor(model, faces, context);
+    if (floor && closes_flat(*floor)) return {std::move(*floor)};
     const RoleOptions near;
     std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), kMostSealed, false,
                                     context);
@@ -85,8 +96,9 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
             found.push_back(std::move(*settled));
         }
     }
+    if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
     if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
-    take_moved(model, faces, move_ends(model, faces, context), found);
+    take_moved(model, faces, found, context);
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
@@ -117,7 +129,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
         if (readings.front().guess.empty()) return std::move(readings.front());
         throw InvalidInput("topology.shape_open",
                            readings.front().guess +
-                               "; give that face, name the roles, or take a membrane for it, which "
+                               "; give the missing face, name the roles, or take what was assumed, which "
                                "encloses " +
                                plain(readings.front().enclosed) +
                                ", by open_volume{ faces = …, reading = 1 }");

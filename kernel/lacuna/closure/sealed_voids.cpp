@@ -30,6 +30,9 @@ constexpr double kSameSkin = 0.02;
 /// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
 /// likelier. A choice, not a measurement.
 constexpr double kBentVoid = 0.5;
+/// A membrane leaves the shape in doubt where more than this share of what is enclosed lies beside its plane.
+/// A choice: tops that bend by a few hundredths of the height stay below it.
+constexpr double kDoubt = 0.05;
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
 /// several loops.
@@ -139,6 +142,19 @@ std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, cons
     return round;
 }
 
+/// What lies between a void face and the plane through its middle [model length³].
+double beside_plane(const Model& model, FaceId face)
+{
+    const Vec3 middle = face_centroid(model, face);
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    double sum = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+        sum += std::abs(((a + b + c) / 3 - middle).dot(normal) * (b - a).cross(c - a).dot(normal)) / 2;
+    }
+    return sum;
+}
+
 } // namespace
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
@@ -188,6 +204,7 @@ std::string guess_of(const Model& model, const Void& found)
     const std::vector<FaceId> given = as_named(found.first.roles);
     const auto uses = edge_uses(own);
     for (const FaceId face : membranes(own, found.sealed.closure.void_faces)) {
+        if (beside_plane(own, face) < kDoubt * found.sealed.enclosed) continue;
         std::set<int> round;
         for (const Loop& loop : own[face].loops)
             for (const EdgeUse& use : loop.uses)
@@ -253,9 +270,17 @@ std::optional<Void> settled_void(const Model& model, const std::vector<FaceId>& 
     return std::move(found.front());
 }
 
-void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<MovedEnd> moved,
-                std::vector<Void>& found)
+void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
+                const RunContext& context)
 {
+    const auto known = [&](const std::vector<Vec3>& places) {
+        if (found.size() != 1) return false;
+        const geometry::FacetTree made = void_facets(found.front().sealed);
+        const double near = kSameSkin * std::cbrt(found.front().sealed.enclosed) / 4;
+        return std::ranges::all_of(places,
+                                   [&](const Vec3& p) { return made.closest(p, near * near).triangle >= 0; });
+    };
+    std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
     for (MovedEnd& one : moved) {
         Void now;

@@ -4,6 +4,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
 
+#include <functional>
 #include <vector>
 
 namespace lacuna::closure {
@@ -22,10 +23,13 @@ struct MovedEnd {
 /// fitted from the given end's rim to those tops; where one moves every wall's foot onto its top, it moves
 /// the rest of the rim as well, round holes without walls too. What is missing then has the given end's
 /// shape, and walls are closed between the two ends.
+/// @param known  whether places on the missing end's rim and half way up the missing walls lie on what was
+///               made already; where one end's do, nothing is sealed
 /// @return  one for each flat face that can be such an end: all other faces are walls that hang together with
 ///          it, and walls beside it are missing.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<FaceId>& faces,
+                                const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
 
 } // namespace lacuna::closure

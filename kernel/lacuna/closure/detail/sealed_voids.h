@@ -56,10 +56,10 @@ std::vector<Void> voids(const topology::Model& model, const std::vector<topology
 std::optional<Void> settled_void(const topology::Model& model, const std::vector<FaceId>& faces,
                                  std::vector<topology::RoleCandidate> candidates, const RunContext& context);
 
-/// Take the voids that a given end tells when it is moved to the other: where readings found one of these
-/// that stays, else the moved ones do.
-void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<MovedEnd> moved,
-                std::vector<Void>& found);
+/// Take the voids that a given end tells when it is moved to where the other is missing: where readings found
+/// one of these that stays, else the moved ones do.
+void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
+                const RunContext& context);
 
 /// Add a void that flat faces close, unless it is one of those known: then that is closed by the fewer faces.
 /// Only those about as likely as the likeliest stay.
