@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "support/dice.h"
+#include "support/measure_sources.h"
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
@@ -274,4 +276,32 @@ TEST_CASE("edges that mirror each other get as many sides, whatever the size")
             }
         }
     }
+}
+
+TEST_CASE("sources of three sides get as many quads as asked, within a quarter, whatever the size")
+{
+    test::Dice dice(37);
+    int near = 0, all = 0;
+    for (int n = 0; n < 60; ++n) {
+        // Neither a corner nor a side much smaller than the others.
+        const Vec2 top(dice.between(0.3, 0.7), dice.between(0.7, 1.1));
+        const topology::OpenVolume volume = test::sealed({.outline = {{0, 0}, {1, 0}, top}});
+        const auto links = surface::linking_surfaces(volume);
+        const double quads = dice.log_between(30, 1000), size = std::sqrt(top.y() / 2 / quads);
+        CAPTURE(n);
+        CAPTURE(quads);
+        const Seeds seeds = surface::seed_source(volume, links, even(size), QuadStyle::automatic);
+        const surface::SourceMesh mesh = surface::mesh_source(
+            volume, links, seeds, {even(size), {}},
+            [](const quads::PlanarRegion& region, const RunContext& context) {
+                return quads::pave(region, {}, context).mesh;
+            });
+        const test::UnionQuality q = test::measure_union(mesh, size);
+        CHECK(q.bad_sides == 0);
+        CHECK(q.min_scaled_jacobian > 0.6);
+        near += std::abs(static_cast<double>(q.quads) / quads - 1) <= 0.25 ? 1 : 0;
+        ++all;
+    }
+    CHECK(near >= 0.95 * all);
+    MESSAGE(near << " of " << all);
 }

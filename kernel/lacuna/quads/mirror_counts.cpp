@@ -168,7 +168,7 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
 
 } // namespace
 
-std::optional<std::vector<int>> mirror_counts(const CountTask& task)
+std::optional<MirrorCounts> mirror_counts(const CountTask& task)
 {
     const Halved halved = halve_crossed(task);
     std::vector<Symmetry> symmetries;
@@ -193,7 +193,9 @@ std::optional<std::vector<int>> mirror_counts(const CountTask& task)
         }
         if (best) break;
     }
-    return best ? best : first;
+    if (best) return MirrorCounts{std::move(*best), true};
+    if (first) return MirrorCounts{std::move(*first), false};
+    return std::nullopt;
 }
 
 std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few)

@@ -43,6 +43,9 @@ struct BoundarySegment {
 /// wanted are rounded. Of fewer than 200 quads a grid is then made with each of the cheapest four numbers,
 /// and the best by measure is taken.
 ///
+/// A region of three or five sides that no grid fills gets numbers for three or five of them round one node,
+/// of which it would have too many quads or too few with the numbers wanted.
+///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
 /// Holes then get one column more or less where that puts their middle where it lies in the outer loop's

@@ -10,10 +10,15 @@
 
 namespace lacuna::quads {
 
+/// Numbers of sides for all images of a part.
+struct MirrorCounts {
+    std::vector<int> sides;
+    bool is_grid = false; ///< one fills the part; else they are those wanted, rounded
+};
+
 /// Numbers of sides for the part of a symmetric region between mirror axes, and so for all of its images.
-/// @return those with which a grid fills the part or, where there are none, the numbers wanted, rounded;
-///         nothing where no axis may be cut along.
-std::optional<std::vector<int>> mirror_counts(const CountTask& task);
+/// @return nothing where no axis may be cut along.
+std::optional<MirrorCounts> mirror_counts(const CountTask& task);
 
 /// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does; where
 /// there are none, those of the size with an even number round the part.
