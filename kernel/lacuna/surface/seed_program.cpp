@@ -45,19 +45,6 @@ struct Program {
     double asked = 0;                    ///< quads of those faces
 };
 
-/// Quads that the sides wanted round a face ask for.
-double quads_asked(const Model& model, const Seeds& seeds, FaceId face)
-{
-    double length = 0, sides = 0;
-    for (const EdgeId edge : edges_of(model, face)) {
-        for (const SeedPiece& piece : seeds.pieces.at(edge)) {
-            length += piece.length;
-            sides += piece.fixed ? piece.count : piece.sides;
-        }
-    }
-    return face_area(model, face) * (sides / length) * (sides / length);
-}
-
 void add_piece(SeedPiece& piece, Program& program)
 {
     const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
