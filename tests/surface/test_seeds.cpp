@@ -305,3 +305,31 @@ TEST_CASE("sources of three sides get as many quads as asked, within a quarter, 
     CHECK(near >= 0.95 * all);
     MESSAGE(near << " of " << all);
 }
+
+TEST_CASE("sides between corners are even where quads are made of a quarter as many, and only there")
+{
+    int odd_of_few = 0;
+    for (const int corners : {6, 7, 9, 11}) {
+        std::vector<Vec2> outline;
+        for (int i = 0; i < corners; ++i) {
+            const double angle = 2 * std::acos(-1.0) * i / corners, radius = 1 + 0.05 * (i % 3);
+            outline.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+        }
+        const topology::OpenVolume volume = test::sealed({.outline = outline});
+        const auto links = surface::linking_surfaces(volume);
+        const double area = face_area(volume.model, volume.faces(Role::source).front());
+        for (const double quads : {5000.0, 5500.0, 25000.0, 26000.0, 41000.0, 99000.0}) {
+            CAPTURE(outline.size());
+            CAPTURE(quads);
+            const Seeds seeds = surface::seed_source(volume, links, even(std::sqrt(area / quads)),
+                                                     QuadStyle::automatic);
+            check_seeds(volume, seeds);
+            for (const auto& [edge, pieces] : seeds.pieces) {
+                const int odd = seeds.count(edge) % 2;
+                if (quads > 20'000) CHECK(odd == 0);
+                if (quads < 20'000) odd_of_few += odd;
+            }
+        }
+    }
+    CHECK(odd_of_few > 0);
+}

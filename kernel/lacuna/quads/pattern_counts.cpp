@@ -2,19 +2,26 @@
 #include <lacuna/quads/pattern_counts.h>
 
 #include <lacuna/quads/detail/mirror_counts.h>
+#include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/detail/ring_counts.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/detail/star_counts.h>
 #include <lacuna/quads/detail/straight_counts.h>
 
+#include <cmath>
+#include <numbers>
+#include <optional>
+
 namespace lacuna::quads {
 
-std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
-                                               std::span<const BoundarySegment> segments)
+namespace {
+
+std::optional<std::vector<int>> counts_for(const CountTask& task)
 {
-    const CountTask task(region, segment, segments);
+    const PlanarRegion& region = task.region;
     auto ring = ring_counts(task);
-    if (ring && are_alike(*ring, mirrored_segments(region, segment))) return ring;
+    if (ring && are_alike(*ring, mirrored_segments(region, task.segment))) return ring;
     auto mirrored = mirror_counts(task);
     if (mirrored && mirrored->is_grid) return std::move(mirrored->sides);
     if (auto star = star_counts(task)) return star;
@@ -23,6 +30,56 @@ std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::
     auto counts = straight_counts(task);
     if (!counts) return std::nullopt;
     return std::move(counts->sides);
+}
+
+/// Whether every other node of each loop may be left out, so that all corners stay.
+bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
+{
+    for (const std::vector<Index>& loop : task.region.loops) {
+        const std::size_t n = loop.size();
+        const auto at = [&](std::size_t i) -> const Vec2& { return task.region.points[index(loop[i % n])]; };
+        int nodes = 0; // up to here
+        std::optional<int> first;
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t own = task.segment_of(loop[i]);
+            if (i > 0 && own == task.segment_of(loop[i - 1])) continue;
+            const double angle = paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
+            if (std::abs(angle - std::numbers::pi) > paving::kTurnsLeftOut) {
+                if ((nodes - first.value_or(nodes)) % 2 != 0) return false;
+                first = nodes;
+            }
+            nodes += counts[own];
+        }
+        if (nodes % 2 != 0) return false;
+    }
+    return true;
+}
+
+/// Twice the numbers of a region half as fine. @return nothing where some are given or short
+std::optional<std::vector<int>> even_counts(const CountTask& task)
+{
+    std::vector<BoundarySegment> segments(task.segments.begin(), task.segments.end());
+    for (BoundarySegment& own : segments) {
+        if (own.fixed || own.wanted < kFewestEven) return std::nullopt;
+        own = {own.wanted / 2, (own.least + 1) / 2};
+    }
+    auto counts = counts_for(CountTask(task.region, task.segment, segments));
+    if (!counts) return std::nullopt;
+    for (int& count : *counts) count *= 2;
+    return counts;
+}
+
+} // namespace
+
+std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
+                                               std::span<const BoundarySegment> segments)
+{
+    const CountTask task(region, segment, segments);
+    auto counts = counts_for(task);
+    if (counts && quads_asked(task) > kManyQuads && !can_be_halved(task, *counts)) {
+        if (auto even = even_counts(task)) return even;
+    }
+    return counts;
 }
 
 } // namespace lacuna::quads

@@ -16,6 +16,11 @@ struct BoundarySegment {
     bool fixed = false; ///< its number of sides is given
 };
 
+/// More quads than this are made of a quarter as many (`pave()`).
+inline constexpr double kManyQuads = 20'000;
+/// The fewest sides of a segment that an even number is close to. A choice, not a measurement.
+inline constexpr double kFewestEven = 8;
+
 /// Numbers of sides with which `fill_patterns()` fills a region by one grid (interval assignment).
 ///
 /// The whole numbers n of least Σ (n − wanted)² / n for which every loop closes in the grid: as many sides
@@ -45,6 +50,9 @@ struct BoundarySegment {
 ///
 /// A region of three or five sides that no grid fills gets numbers for three or five of them round one node,
 /// of which it would have too many quads or too few with the numbers wanted.
+///
+/// Of more than `kManyQuads` quads every other node can be left out between corners: where it could not be,
+/// segments get twice the numbers of a region half as fine, unless some are given or short.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.

@@ -19,17 +19,13 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// A node where the loop turns more stays: 20°, so that round holes keep nine nodes at least. A choice, not a
-/// measurement.
-constexpr double kTurns = std::numbers::pi / 9;
-
 /// Whether the loop is all but straight at every other node, from place `first` on.
 bool can_leave_out(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t first)
 {
     for (std::size_t i = first, n = loop.size(); i < n; i += 2) {
         const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
         const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-        if (std::abs(angle - std::numbers::pi) > kTurns) return false;
+        if (std::abs(angle - std::numbers::pi) > kTurnsLeftOut) return false;
     }
     return true;
 }

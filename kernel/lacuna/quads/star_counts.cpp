@@ -13,8 +13,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Costs of numbers that may not be, and of such with which there are not as many quads as promised, a quarter
-/// more or less: more than sides cost in the range that is promised for them.
+/// Costs of numbers that may not be, and of such with which there are not as many quads as promised, a
+/// quarter more or less: more than sides cost in the range that is promised for them.
 constexpr double kNever = std::numeric_limits<double>::infinity(), kOff = 1e6;
 
 /// The segments between the corners of a patch; none where a side is not one segment or bends.

@@ -2,9 +2,11 @@
 #include <lacuna/surface/detail/even_sides.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/quads/pattern_counts.h>
 #include <lacuna/surface/detail/sides_asked.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -125,6 +127,23 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
 }
 
 } // namespace
+
+void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled,
+                   Seeds& seeds)
+{
+    const auto is_many = [&](FaceId face) {
+        return is_free(grids, seeds, face) && quads_asked(task.model, seeds, face) > quads::kManyQuads;
+    };
+    for (const auto& [edge, faces] : task.users) {
+        if (settled.contains(edge) || !std::all_of(faces.begin(), faces.end(), is_many)) continue;
+        for (SeedPiece& piece : seeds.pieces.at(edge)) {
+            if (piece.fixed || !piece.low.empty() || !piece.high.empty() || piece.sides < quads::kFewestEven)
+                continue;
+            piece.count = std::max(2 * ((piece.least + 1) / 2),
+                                   2 * static_cast<int>(std::lround(piece.sides / 2)));
+        }
+    }
+}
 
 void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike, Seeds& seeds)
 {

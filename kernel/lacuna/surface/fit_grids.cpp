@@ -75,9 +75,11 @@ void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::se
 
 } // namespace
 
-void fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled, Seeds& seeds)
+std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
+                           Seeds& seeds)
 {
     for (const FaceId face : most_loops_first(task)) fit_grid(task, grids, face, settled, seeds);
+    return settled;
 }
 
 } // namespace lacuna::surface

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace lacuna::surface {
@@ -31,12 +32,17 @@ constexpr double kEvenCore = 1;
 /// 80 and 86 quads for 30 and 12 asked by rows, 45 and 39 without; at 120 the rows are better in all.
 constexpr double kQuadsForRows = 20;
 
+/// A grid of a face, by the variables along its sides, those one way and those the other.
+using FaceGrid = std::array<std::vector<std::size_t>, 2>;
+
 /// Numbers of sides to be solved for, and the pieces they are of.
 struct Program {
     IntervalProgram intervals;
     std::vector<SeedPiece*> pieces;
     std::vector<std::size_t> piece_variable;
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
+    std::vector<FaceGrid> grids;         ///< that fill faces together
+    double asked = 0;                    ///< quads of those faces
 };
 
 void add_piece(SeedPiece& piece, Program& program)
@@ -86,6 +92,10 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
             }
             intervals.equations.push_back(std::move(equation));
         }
+        if (mapped == grids.mapped.end()) continue;
+        program.grids.push_back(
+            {variables_of(seeds, pairs[0][0], program), variables_of(seeds, pairs[1][0], program)});
+        program.asked += quads_asked(task.model, seeds, face);
     }
 }
 
@@ -130,6 +140,8 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
         const std::array<std::size_t, 3> grid{fresh(), fresh(), fresh()};
         for (std::size_t s = 0; s < 3; ++s)
             intervals.equations.push_back({own[s], {grid[s], grid[(s + 1) % 3]}});
+        for (std::size_t s = 0; s < 3; ++s) program.grids.push_back({{{grid[s]}, {grid[(s + 1) % 3]}}});
+        program.asked += quads_asked(task.model, seeds, face);
         if (bulge) {
             const std::size_t rows = grid[(bulge->side + 2) % 3];
             const double core = wish_rows(*bulge, 1, own[bulge->side], rows, intervals);
@@ -144,6 +156,8 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
         const std::size_t core = fresh(), rows = fresh();
         intervals.equations.push_back({round, {core, core, core, core}});
         intervals.equations.push_back({other, {core, core, rows, rows}});
+        program.grids.push_back({{{core, core}, {core, rows, rows}}});
+        program.asked += quads_asked(task.model, seeds, face);
         intervals.wishes.push_back({{core}, wish_rows(*bulge, 2, round, rows, intervals), kEvenCore});
         return true;
     } else if (side.size() == 2) {
@@ -224,7 +238,9 @@ IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const In
 
 /// Whether numbers of sides with which the lines of grids are straight cost little more than others: an L
 /// of 400 quads gets 24, 12 and 12 sides where 23, 12 and 11 would cost least.
-bool is_worth_it(const Program& program, const std::vector<int>& straight, const std::vector<int>& counts)
+/// @param share  of the sides wanted that the program asks for
+bool is_worth_it(const Program& program, double share, const std::vector<int>& straight,
+                 const std::vector<int>& counts)
 {
     constexpr double kCost = 2, kQuads = 0.15; // of the cost, and the share of quads: choices
     if (std::ranges::find(straight, 0) != straight.end()) return false;
@@ -232,11 +248,76 @@ bool is_worth_it(const Program& program, const std::vector<int>& straight, const
     for (std::size_t p = 0; p < program.pieces.size(); ++p) {
         if (program.pieces[p]->fixed) continue;
         sides += straight[program.piece_variable[p]];
-        wanted += program.pieces[p]->sides;
+        wanted += share * program.pieces[p]->sides;
     }
     return std::abs(sides * sides / (wanted * wanted) - 1) <= kQuads &&
            cost_of_intervals(program.intervals, straight) <=
                kCost * cost_of_intervals(program.intervals, counts);
+}
+
+/// Numbers of sides of least cost: alike on edges that are, and straight where that costs little.
+/// @param share  of the sides wanted; 0 of those where there are none.
+std::vector<int> solve(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds, Program program,
+                       double share)
+{
+    for (IntervalWish& wish : program.intervals.wishes)
+        wish.wanted = std::max(share * wish.wanted, kLeastWish);
+    const IntervalProgram intervals = with_alike(program, alike);
+    std::vector<int> counts = solve_intervals(intervals);
+    std::vector<int> straight = solve_intervals(with_straight(task, seeds, intervals, program));
+    if (is_worth_it(program, share, straight, counts)) counts = std::move(straight);
+    if (std::ranges::find(counts, 0) != counts.end()) {
+        const std::vector<int> unlike = solve_intervals(program.intervals);
+        for (std::size_t v = 0; v < counts.size(); ++v) {
+            if (counts[v] == 0) counts[v] = unlike[v];
+        }
+    }
+    return counts;
+}
+
+/// Quads of all grids; 0 where some have no numbers of sides.
+double quads_of(const Program& program, const std::vector<int>& counts)
+{
+    double quads = 0;
+    for (const FaceGrid& grid : program.grids) {
+        double product = 1;
+        for (const std::vector<std::size_t>& side : grid) {
+            double sum = 0;
+            for (const std::size_t v : side) {
+                if (counts[v] == 0) return 0;
+                sum += counts[v];
+            }
+            product *= sum;
+        }
+        quads += product;
+    }
+    return quads;
+}
+
+/// Numbers of sides of least cost or, where these make too many quads or too few, of another share of those
+/// wanted: three grids round a node have more quads than their face's sides say.
+std::vector<int> solve_for_quads(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds,
+                                 const Program& program)
+{
+    // As many quads as asked, a quarter more or less, is what is promised. What they are worth beside that,
+    // and how often shares are put right, are choices.
+    constexpr double kNear = 0.1, kMostOff = 0.25, kQuads = 0.25;
+    constexpr int kTries = 4;
+    std::vector<int> best = solve(task, alike, seeds, program, 1), counts = best;
+    const auto rank = [&](const std::vector<int>& of) {
+        const double off = quads_of(program, of) - program.asked;
+        return std::pair(std::abs(off) > kMostOff * program.asked,
+                         cost_of_intervals(program.intervals, of) + kQuads * off * off / program.asked);
+    };
+    double share = 1;
+    for (int i = 0; i < kTries; ++i) {
+        const double quads = quads_of(program, counts);
+        if (quads == 0 || std::abs(quads - program.asked) <= kNear * program.asked) break;
+        share *= std::sqrt(program.asked / quads);
+        counts = solve(task, alike, seeds, program, share);
+        if (quads_of(program, counts) > 0 && rank(counts) < rank(best)) best = counts;
+    }
+    return best;
 }
 
 } // namespace
@@ -248,16 +329,7 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     add_mapped(task, grids, seeds, all);
     const Program mapped = all;
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
-    const IntervalProgram intervals = with_alike(all, alike);
-    std::vector<int> counts = solve_intervals(intervals);
-    std::vector<int> straight = solve_intervals(with_straight(task, seeds, intervals, all));
-    if (is_worth_it(all, straight, counts)) counts = std::move(straight);
-    if (std::ranges::find(counts, 0) != counts.end()) {
-        const std::vector<int> unlike = solve_intervals(all.intervals);
-        for (std::size_t v = 0; v < counts.size(); ++v) {
-            if (counts[v] == 0) counts[v] = unlike[v];
-        }
-    }
+    const std::vector<int> counts = solve_for_quads(task, alike, seeds, all);
     std::vector<int> fewer; // where free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];

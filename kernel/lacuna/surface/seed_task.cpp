@@ -50,6 +50,18 @@ int sides_of(const Model& model, const Seeds& seeds, FaceId face)
     return total(seeds, edges_of(model, face));
 }
 
+double quads_asked(const Model& model, const Seeds& seeds, FaceId face)
+{
+    double length = 0, sides = 0;
+    for (const EdgeId edge : edges_of(model, face)) {
+        for (const SeedPiece& piece : seeds.pieces.at(edge)) {
+            length += piece.length;
+            sides += piece.fixed ? piece.count : piece.sides;
+        }
+    }
+    return face_area(model, face) * (sides / length) * (sides / length);
+}
+
 bool is_fixed(const Seeds& seeds, EdgeId edge)
 {
     const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);

@@ -5,10 +5,15 @@
 #include <lacuna/quads/pave.h>
 
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 namespace lacuna::quads::paving {
+
+/// A node where the loop turns more stays: 20°, so that round holes keep nine nodes at least. A choice, not a
+/// measurement.
+inline constexpr double kTurnsLeftOut = std::numbers::pi / 9;
 
 /// A region with every other node of its loops.
 struct CoarseRegion {

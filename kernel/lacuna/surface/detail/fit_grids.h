@@ -12,6 +12,8 @@ namespace lacuna::surface {
 /// other, before those that take what is settled: a ring about a disc before the disc. Edges of mapped faces
 /// keep theirs.
 /// @param settled  edges that keep theirs as well.
-void fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled, Seeds& seeds);
+/// @return  those, and the edges that have numbers of a grid now.
+std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
+                           Seeds& seeds);
 
 } // namespace lacuna::surface

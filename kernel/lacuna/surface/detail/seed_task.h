@@ -36,6 +36,9 @@ int total(const Seeds& seeds, const std::vector<EdgeId>& edges);
 /// Sides on the loops of a face.
 int sides_of(const topology::Model& model, const Seeds& seeds, FaceId face);
 
+/// Quads that the sides wanted round a face ask for.
+double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face);
+
 /// Whether an edge has no piece whose number of sides may change.
 bool is_fixed(const Seeds& seeds, EdgeId edge);
 
