@@ -71,7 +71,8 @@ public:
           wedges_(wedges),
           per_turn_(sizing.curvature > 0 ? sizing.curvature : kFewestPerTurn),
           gap_(sizing.gap),
-          counts_across_(sizing.counts_across)
+          counts_across_(sizing.counts_across),
+          shared_(demands.kept)
     {
         for (const LinkingSurface& link : links) add_rim(link);
         for (const FaceId face : volume.faces(Role::source)) {
@@ -203,7 +204,8 @@ private:
                     " triangles; quads = \"keep\" needs quads all over: wedges = true keeps triangles too, "
                     "and quads = \"auto\" makes quads");
         }
-        return whole && (style_ == QuadStyle::kept || style_ == QuadStyle::automatic);
+        return whole &&
+               (style_ == QuadStyle::kept || style_ == QuadStyle::automatic || shared_.contains(face));
     }
 
     /// The pieces of an edge get the nodes it came with.
@@ -1092,6 +1094,7 @@ private:
     int per_turn_; ///< sides for a full turn
     int gap_;      ///< quads across a narrow place
     bool counts_across_;
+    const std::set<FaceId>& shared_; ///< whose quads stay whatever the style
     Seeds seeds_;
     std::map<FaceId, std::vector<std::vector<EdgeId>>> alike_; ///< what faces' symmetries map on each other
     std::map<FaceId, std::vector<SidePair>> opposite_;         ///< of mapped and submapped faces
@@ -1107,10 +1110,10 @@ private:
 
 Seeds seed_source(const OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
                   QuadStyle style, const ShapeSizing& sizing, const std::map<EdgeId, double>& lengths,
-                  bool wedges, const EdgeDemands& demands)
+                  bool wedges, const EdgeDemands& demands, const RunContext& context)
 {
     Seeds seeds = Seeder(volume, links, size, style, sizing, lengths, wedges, demands).run();
-    square_mapped_lines(seeds, volume, links);
+    square_mapped_lines(seeds, volume, links, context);
     return seeds;
 }
 
