@@ -112,7 +112,7 @@
 ---@field threads? integer default: all cores
 
 ---@class lacuna.SweepToOptions: lacuna.SweepOptions
----@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[], partitions?: integer|"processes", ghosts?: integer } how the file is written; default as mesh:write
+---@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[], partitions?: integer|"processes", ghosts?: integer, interfaces?: boolean, gmsh_options?: boolean } how the file is written; default as mesh:write
 
 ---@class lacuna.WriteOptions
 ---@field version? 4.1|2.2

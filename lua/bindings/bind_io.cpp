@@ -197,6 +197,8 @@ const Option<WriteArguments> kWriteOptions[] = {
 const Option<WriteArguments> kLayeredOptions[] = {
     {"version", read_version},       {"binary", read_binary}, {"quality", read_quality},
     {"partitions", read_partitions}, {"ghosts", read_ghosts},
+    {"interfaces", boolean<&WriteArguments::interfaces>},
+    {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
 };
 
 /// The decks that models were read from as one; `merged` holds it where there are several.
@@ -342,12 +344,6 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
                        "write: the ending of " + path + " says no format; meshes are written as" + known);
 }
 
-/// The file beside a .msh, where it is asked for.
-void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments)
-{
-    if (arguments.gmsh_options) io::write_msh_options(output_path(lent, mesh.text() + ".opt"));
-}
-
 /// The fields asked for of the cells of a mesh; decks have none.
 void add_fields(const mesh::HexMesh& mesh, const Format& format, WriteArguments& arguments,
                 const RunContext& context)
@@ -380,9 +376,7 @@ int write(lua_State* L)
         const mesh::HexMesh& mesh = state.swept.mesh;
         const Format& format = format_of(path.text(), arguments);
         count_parts(arguments, path, lent.crew);
-        if (arguments.interfaces)
-            throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
-                                                  "leave it out");
+        refuse_interfaces(arguments);
         for (const Box<ModelState>& model : arguments.with) refresh(*model);
         arguments.deck.material = state.material;
         report_progress(context, "writing " + path.text());
@@ -636,7 +630,20 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 
 bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path)
 {
-    return team::is_layered_of_parts(io::ending_of(path.text())) && !arguments.partitions_given;
+    return team::is_layered_of_parts(io::ending_of(path.text())) && !arguments.partitions_given &&
+           !arguments.interfaces;
+}
+
+void refuse_interfaces(const WriteArguments& arguments)
+{
+    if (arguments.interfaces)
+        throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
+                                              "leave it out");
+}
+
+void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments)
+{
+    if (arguments.gmsh_options) io::write_msh_options(output_path(lent, mesh.text() + ".opt"));
 }
 
 void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,

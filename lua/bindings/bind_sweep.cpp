@@ -144,7 +144,9 @@ bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments,
     auto& swept = temporary<sweep::Swept>(L);
     auto& seconds = temporary<StageSeconds>(L);
     bool done = false;
+    const Host& lent = host(L);
     guard(L, [&] {
+        refuse_interfaces(file);
         const Busy busy(state, "sweep_to");
         StageClock clock(context);
         done = sweep_or_turn(state, ways, context, [&]() -> std::vector<std::string>& {
@@ -164,6 +166,7 @@ bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments,
                 "sweep_to: the whole mesh was held in memory, since its nodes are more than "
                 "placed layers: moved to improve cells, of order 2 or of boundary layers");
         write_layered(swept, state.material, path, file, crew, context);
+        write_options_beside(lent, path, file);
         seconds = clock.seconds();
     });
     if (!done) return false;

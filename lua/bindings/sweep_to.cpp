@@ -58,6 +58,7 @@ void write_swept_parts(lua_State* L, const io::OutputPath& path, WriteArguments&
     }
     told.streamed = held == 0;
     told.processes = told.streamed && crew != nullptr ? crew->size : 1;
+    const Host& lent = host(L);
     guard(L, [&] {
         if (held > 0)
             state.swept.report.push_back(
@@ -65,6 +66,7 @@ void write_swept_parts(lua_State* L, const io::OutputPath& path, WriteArguments&
                 " parts were held in memory, since their nodes are more than placed layers, or the file is "
                 "not written so");
         write_pieces(state, path, file, crew, context);
+        write_options_beside(lent, path, file);
     });
     lua_getfield(L, mesh, "report");
     set_told(L, told);

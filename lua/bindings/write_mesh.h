@@ -5,6 +5,7 @@
 // these.
 
 #include "bindings/classes.h"
+#include "bindings/lacuna_lua.h"
 
 #include <lacuna/io/whole_file.h>
 
@@ -19,6 +20,12 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 
 /// Whether the mesh of an assembly is written so, whose parts then need not hold their nodes.
 bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path);
+
+/// Refuse the option `interfaces`, which the mesh of one volume has not.
+void refuse_interfaces(const WriteArguments& arguments);
+
+/// The file beside a .msh, where it is asked for.
+void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments);
 
 /// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
 /// @param material  the volume's, which decks name.

@@ -192,6 +192,19 @@ for member = 1, params.members do
     check.that(tostring(found):find "%[[%a_]+%.[%a_]+%]", "refused by name: " .. tostring(found))
   end
 end
+-- Who names a way of meshing gets it where no other arm has made the quads; faces between arms stay shared.
+for _, radius in ipairs { 0.4, 0.7 } do
+  for _, size in ipairs { 0.25, 0.4 } do
+    for _, corners in ipairs { 16, 24 } do
+      local branches = { { at = 2, side = 2, radius = radius, length = 2, role = "target" } }
+      branches[1].corners = corners
+      local found = open(duct(4, branches), branches):sweep { size = size, quads = "paved" }
+      local exact = volume(4, branches)
+      check.equal(found:quality().certified, true)
+      check.that(math.abs(found.fidelity.volume - exact) < 0.02 * exact, "paved: volume")
+    end
+  end
+end
 print(("%d meshed in %d arms, %d refused; %d of %d that turn from branch to branch meshed"):format(meshed,
   arms, refused, turned, turning))
 check.that(refused <= 0.1 * params.members)

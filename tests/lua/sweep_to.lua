@@ -97,6 +97,7 @@ local part_formats = {
   { "msh" }, { "msh", { binary = false } }, { "msh", { version = 2.2 } },
   { "msh", { version = 2.2, binary = false } }, { "vtu" }, { "vtk" }, { "vtk", { binary = false } },
   { "inp" }, { "bdf" }, { "unv" }, { "exo", nil, "held" }, { "msh", { partitions = 2 }, "held" },
+  { "msh", { interfaces = true }, "held" },
 }
 
 -- Sweep several volumes both ways; all is streamed but where the format has it held, or `held` says so.
@@ -181,6 +182,9 @@ do
   same_parts("a stair", stair, { size = 0.25 })
   local own = stair():sweep_to(path("pieces.pvtu"), { size = 0.25, write = { partitions = 2 } })
   check.that(own.hexes > 0 and #bytes("pieces_1.vtu") > 0)
+  stair():sweep_to(path("shown.msh"), { size = 0.25, write = { gmsh_options = true } })
+  open("prism", drop())():sweep_to(path("one.msh"), { layers = 4, write = { gmsh_options = true } })
+  check.that(bytes("shown.msh.opt") == bytes("one.msh.opt") and #bytes("one.msh.opt") > 0, "options beside")
 end
 
 -- --- what is refused is refused before anything is made, and leaves no file
@@ -196,6 +200,8 @@ refused("no.pvtu", { layers = 4, write = { partitions = 0 } }, "partitions")
 refused("no.msh", { layers = 4, write = { partitions = 2, version = 2.2 } }, "4.1")
 refused("no.msh", { layers = 4, write = { ghosts = 1 } }, "ghosts", "partitions")
 refused("no.vtu", { layers = 4, write = { partitions = 2 } }, "partitions")
+refused("no.vtu", { layers = 4, write = { gmsh_options = true } }, "gmsh_options")
+refused("no.msh", { layers = 4, write = { interfaces = true } }, "interfaces", "one volume")
 refused("no.inp", { layers = 4, write = { quality = "shape" } }, "quality")
 refused("no.msh", { layers = 4, write = { with = 1 } }, "write", "with")
 refused("no.msh", { layers = 4, write = 3 }, "write", "a table of options")

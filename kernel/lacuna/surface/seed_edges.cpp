@@ -94,7 +94,7 @@ void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 }
 
 /// Whether a face came with quads that are to be its mesh.
-bool keeps(const SeedTask& task, FaceId face)
+bool keeps(const SeedTask& task, FaceId face, const std::set<FaceId>& kept)
 {
     const Face& f = task.model[face];
     const bool whole = has_cells_to_keep(f, task.wedges);
@@ -107,7 +107,8 @@ bool keeps(const SeedTask& task, FaceId face)
                 " triangles; quads = \"keep\" needs quads all over: wedges = true keeps triangles too, "
                 "and quads = \"auto\" makes quads");
     }
-    return whole && (task.style == QuadStyle::kept || task.style == QuadStyle::automatic);
+    return whole &&
+           (task.style == QuadStyle::kept || task.style == QuadStyle::automatic || kept.contains(face));
 }
 
 /// The pieces of an edge get the nodes it came with.
@@ -188,13 +189,13 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
 } // namespace
 
 Seeds ask_edges(const SeedTask& task, std::span<const LinkingSurface> links,
-                const std::map<EdgeId, double>& lengths)
+                const std::map<EdgeId, double>& lengths, const std::set<FaceId>& kept)
 {
     const Model& model = task.model;
     Seeds seeds;
     for (const LinkingSurface& link : links) add_rim(model, link, seeds);
     for (const FaceId face : task.faces) {
-        if (keeps(task, face))
+        if (keeps(task, face, kept))
             seeds.kept.insert(face);
         else
             note_mixed(task, face, seeds);

@@ -15,10 +15,11 @@ namespace lacuna::surface {
 
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                   const SizeField& size, QuadStyle style, const ShapeSizing& sizing,
-                  const std::map<EdgeId, double>& lengths, bool wedges, const EdgeDemands& demands)
+                  const std::map<EdgeId, double>& lengths, bool wedges, const EdgeDemands& demands,
+                  const RunContext& context)
 {
     const SeedTask task(volume, links, size, style, sizing, wedges);
-    Seeds seeds = ask_edges(task, links, lengths);
+    Seeds seeds = ask_edges(task, links, lengths, demands.kept);
     end_rows(seeds, volume.model, demands.rows);
     set_sides(seeds, volume.model, demands.sides);
     const AlikeEdges alike = ask_alike(seeds, volume.model, task.faces);
@@ -32,7 +33,7 @@ Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSur
         balance(task, grids, seeds);
     }
     finish_even(task, grids, seeds);
-    square_mapped_lines(seeds, volume, links);
+    square_mapped_lines(seeds, volume, links, context);
     return seeds;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/shape_size.h>
@@ -65,10 +66,11 @@ struct SidesAsked {
     std::string name; ///< who asks, for messages
 };
 
-/// What a person asks of the source's edges besides a size.
+/// What is asked of the source's edges and faces besides a size.
 struct EdgeDemands {
     RimRows rows;
     std::vector<SidesAsked> sides;
+    std::set<FaceId> kept; ///< faces whose quads stay whatever the style, for a neighbour has them too
 };
 
 /// Numbers of sides on every edge of the source faces, made to agree (interval assignment): equal on opposite
@@ -132,6 +134,6 @@ struct Seeds {
 Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                   const SizeField& size, QuadStyle style, const ShapeSizing& sizing = {},
                   const std::map<EdgeId, double>& lengths = {}, bool wedges = false,
-                  const EdgeDemands& demands = {});
+                  const EdgeDemands& demands = {}, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -79,8 +79,9 @@ struct Rung {
 
 class LineSquarer {
 public:
-    LineSquarer(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links)
-        : seeds_(seeds), volume_(volume), model_(volume.model), links_(links)
+    LineSquarer(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links,
+                const RunContext& context)
+        : seeds_(seeds), volume_(volume), model_(volume.model), links_(links), context_(context)
     {
         for (const LinkingSurface& link : links) {
             for (const EdgeUse& use : link.source.uses()) rim_.insert(use.edge);
@@ -100,6 +101,7 @@ public:
         bool above = false; // whether sections above the source were asked for
         for (const auto& [set, part] : parts) {
             const auto& [lines, rungs] = part;
+            check_cancelled(context_);
             if (worst_cosine(rungs, 1) < kWorthIt) continue;
             const bool swept = std::any_of(rungs.begin(), rungs.end(),
                                            [&](std::size_t r) { return rungs_[r].on_rims; });
@@ -149,7 +151,7 @@ private:
             heights.push_back(static_cast<double>(k) / (kSections - 1));
         std::vector<WallMesh> walls;
         try {
-            walls = mesh_walls(volume_, links_, nodes, heights);
+            walls = mesh_walls(volume_, links_, nodes, heights, {}, context_);
         } catch (const NotSweepable&) {
             return false; // more edges to follow than sections
         }
@@ -397,6 +399,7 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     std::span<const LinkingSurface> links_;
+    const RunContext& context_;
     std::set<EdgeId> rim_;
     std::vector<Line> lines_;
     std::vector<Rung> rungs_;
@@ -405,9 +408,10 @@ private:
 
 } // namespace
 
-void square_mapped_lines(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links)
+void square_mapped_lines(Seeds& seeds, const OpenVolume& volume, std::span<const LinkingSurface> links,
+                         const RunContext& context)
 {
-    if (!seeds.corners.empty()) LineSquarer(seeds, volume, links).run();
+    if (!seeds.corners.empty()) LineSquarer(seeds, volume, links, context).run();
 }
 
 } // namespace lacuna::surface

@@ -454,6 +454,9 @@ private:
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
             give_edge_nodes(volume, plan_.nodes[m]);
+            // Rows along walls run on across a shared face: both sides make them there.
+            if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
+                for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
             for (const auto& [own, other, from] : handed) {
                 hand_on(result_.parts[other], from, volume, own);
                 // Where the face is void, what the neighbour has there is the shape.

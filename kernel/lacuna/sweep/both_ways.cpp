@@ -26,11 +26,12 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
 {
     if (options.quads == Quads::keep) return true;
     const std::vector<FaceId> source = volume.faces(Role::source);
-    return options.quads == Quads::automatic && options.rows == 0 &&
-           std::any_of(source.begin(), source.end(), [&](FaceId face) {
-               const Face& f = volume.model[face];
-               return !f.given_quads.empty() || has_cells_to_keep(f, options.wedges);
-           });
+    const bool any = options.quads == Quads::automatic && options.rows == 0;
+    return std::any_of(source.begin(), source.end(), [&](FaceId face) {
+        const Face& f = volume.model[face];
+        return (any || options.beside.handed.contains(face)) &&
+               (!f.given_quads.empty() || has_cells_to_keep(f, options.wedges));
+    });
 }
 
 /// What one way came to: a mesh, or the error it ended with.

@@ -73,6 +73,8 @@ struct Beside {
     const topology::OpenVolume* shape = nullptr;
     /// Faces between this volume and others, which are skin of neither; see `FidelityOptions`.
     std::set<FaceId> between{};
+    /// Faces whose quads a neighbour made: they stay, whatever way of meshing is named.
+    std::set<FaceId> handed{};
 };
 
 /// What becomes of a volume that cannot be meshed with hexahedra alone.

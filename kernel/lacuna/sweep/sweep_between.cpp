@@ -266,14 +266,16 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                 by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
                                          options.size ? least_layers : std::max(least_layers, kDefaultGap));
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
-                                 surface::find_intervals(split, links, options.intervals).sides};
+                                 surface::find_intervals(split, links, options.intervals).sides,
+                                 options.beside.handed};
     refuse_kept_source(split, demands.rows, options);
     for (std::string& note : given.notes) result.report.push_back("given: " + note);
     report_progress(context, "quads of the source");
     check_cancelled(context);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
-        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands);
+        imprint ? surface::image_lengths(*imprint) : std::map<EdgeId, double>{}, options.wedges, demands,
+        context);
     for (const std::string& note : seeds.notes) result.report.push_back("given: " + note);
     result.defaults = sizes_in_words(volume, split, sizes, seeds, options,
                                      {static_cast<int>(heights.size()) - 1, by_rows, by_bends});

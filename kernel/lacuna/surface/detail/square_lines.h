@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/topology/open_volume.h>
@@ -26,6 +27,6 @@ namespace lacuna::surface {
 /// @post  counts are unchanged; what is symmetric stays so, to rounding.
 /// @note  Deterministic. O(nodes on the sides), and one mesh of the walls where some lines are oblique.
 void square_mapped_lines(Seeds& seeds, const topology::OpenVolume& volume,
-                         std::span<const LinkingSurface> links);
+                         std::span<const LinkingSurface> links, const RunContext& context);
 
 } // namespace lacuna::surface
