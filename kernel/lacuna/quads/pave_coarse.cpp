@@ -113,7 +113,7 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
         std::vector<std::size_t> corners;
         for (std::size_t i = 0; i < n; ++i) {
             const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            if (std::abs(angle - std::numbers::pi) > kTurns) corners.push_back(i);
+            if (std::abs(angle - std::numbers::pi) > kTurnsLeftOut) corners.push_back(i);
         }
         if (corners.empty()) corners.push_back(0);
         for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -168,7 +168,7 @@ PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, Pa
     return std::move(mesh);
 }
 
-double least_jacobian(const PlanarQuads& mesh)
+double least_without_triangles(const PlanarQuads& mesh)
 {
     double least = 1;
     for (const Quad& quad : mesh.quads) {
@@ -191,7 +191,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, 
     if (sides) {
         try {
             PlanarQuads mesh = fill_divided_region(region, *sides, in_four, context);
-            if (least_jacobian(mesh) > kFair) return mesh;
+            if (least_without_triangles(mesh) > kFair) return mesh;
         } catch (const NotSweepable&) {
             // paved as it is
         }
@@ -202,7 +202,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, 
     if (const auto side = side_to_divide(region)) {
         try {
             PlanarQuads mesh = fill_divided_region(region, std::span(&*side, 1), once, context);
-            if (least_jacobian(mesh) > kFair) return mesh;
+            if (least_without_triangles(mesh) > kFair) return mesh;
         } catch (const NotSweepable&) {
             // another side may do
         }
