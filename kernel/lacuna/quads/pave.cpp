@@ -9,6 +9,7 @@
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/square_rows.h>
+#include <lacuna/quads/pattern_counts.h>
 #include <lacuna/quads/symmetry.h>
 
 #include <sstream>
@@ -164,7 +165,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
-    if (options.smooth && best.mesh.quads.size() <= kMostSymmetric) {
+    if (options.smooth && static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
         square_rows(best.mesh, region);
         symmetrise(best.mesh, region);
     }

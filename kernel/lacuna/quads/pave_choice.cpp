@@ -8,6 +8,7 @@
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/face_pattern.h>
 #include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/pattern_counts.h>
 #include <lacuna/quads/smooth_plane.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/quads/symmetry.h>
@@ -286,8 +287,8 @@ void AttemptChooser::try_grids()
         consider(std::move(grids[0]));
         return;
     }
-    const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kMostSymmetric ? part_of_region()
-                                                                                          : std::nullopt;
+    const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kManyQuads ? part_of_region()
+                                                                                      : std::nullopt;
     // Grids of discs, or about the only hole, in the middle, have more symmetries by themselves.
     const bool whole_first = part && (part->has_centre ? region_.loops.size() == 1 && part->is_some
                                                        : region_.loops.size() == 2);
@@ -327,7 +328,7 @@ void AttemptChooser::try_grids()
 
 bool AttemptChooser::try_coarse()
 {
-    if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kMostSymmetric) return false;
+    if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kManyQuads) return false;
     std::optional<Paved> paved = pave_in_four(region_, options_, setting_.size, context_);
     if (!paved) return false;
     Attempt attempt{std::move(paved->mesh), std::move(paved->report)};

@@ -12,10 +12,6 @@
 
 namespace lacuna::quads::paving {
 
-/// More quads take long, and nobody looks at them one by one: no symmetry is kept, and those of a region of
-/// half the nodes are cut in four. A choice, not a measurement.
-inline constexpr std::size_t kMostSymmetric = 20'000;
-
 /// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
 ///
 /// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
