@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -73,21 +74,29 @@ Vec3 area_of(const std::vector<Vec3>& loop)
     return area;
 }
 
-/// Whether walls beside a face are there and others missing, and all other faces hang together with it.
-bool can_be_end(const OpenVolume& open, FaceId end, const std::vector<std::vector<FaceUse>>& uses)
+/// The flat faces beside which walls stand and others are missing, those with most faces beside them first.
+std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vector<FaceUse>>& uses)
 {
-    bool walled = false, bare = false;
-    for (const Loop& loop : open.model[end].loops)
-        for (const EdgeUse& use : loop.uses) (uses[use.edge.index()].size() == 1 ? bare : walled) = true;
-    if (!walled || !bare) return false;
-    std::set<FaceId> beside;
-    for (const Loop& loop : open.model[end].loops)
-        for (const EdgeUse& use : loop.uses)
-            for (const FaceUse& by : uses[use.edge.index()]) beside.insert(by.face);
-    const auto parts = connected_parts(open.model, open.faces(Role::wall));
-    return std::ranges::all_of(parts, [&](const std::vector<FaceId>& part) {
-        return std::ranges::any_of(part, [&](FaceId face) { return beside.contains(face); });
-    });
+    constexpr std::size_t kMost = 16; // for the time: each costs a copy of the faces
+    std::vector<std::pair<std::size_t, FaceId>> found;
+    for (const FaceId face : all_faces(model)) {
+        bool bare = false;
+        std::set<FaceId> beside;
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                const std::vector<FaceUse>& users = uses[use.edge.index()];
+                bare = bare || users.size() == 1;
+                for (const FaceUse& by : users)
+                    if (by.face != face) beside.insert(by.face);
+            }
+        }
+        if (bare && !beside.empty() && plane_of(model, face)) found.emplace_back(beside.size(), face);
+    }
+    std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, FaceId>::first);
+    std::vector<FaceId> ends;
+    for (std::size_t i = 0; i < std::min(kMost, found.size()); ++i) ends.push_back(found[i].second);
+    std::ranges::sort(ends);
+    return ends;
 }
 
 /// A given end, and what is known of the one it is to be moved to.
@@ -299,7 +308,7 @@ private:
                 const Vec3 p = motion_(volume_.model.at(volume_.model[foot].point));
                 if ((p - volume_.model.at(volume_.model[top].point)).norm() > kOnTop * width) return false;
             }
-            return true;
+            return moves_all(width);
         };
         motion_ = {};
         motion_.translation = geometry::mean_point(to_) - geometry::mean_point(from_);
@@ -307,8 +316,41 @@ private:
         if (fits()) return true;
         motion_ = geometry::fit_rigid(from_, to_, false);
         if (fits()) return true;
+        if (!tells_scale()) return false;
         motion_ = geometry::fit_rigid(from_, to_, true);
         return fits();
+    }
+
+    /// Whether no part of the rim without walls stays where it is: nothing would lie between the ends there.
+    [[nodiscard]] bool moves_all(double width) const
+    {
+        for (const std::vector<Stretch>& rim : rims_) {
+            for (const Stretch& stretch : rim) {
+                if (!stretch.top.empty()) continue;
+                for (const Vec3& p : even_places(chain_of(volume_.model, stretch.foot)))
+                    if ((motion_(p) - p).norm() <= kOnTop * width) return false;
+            }
+        }
+        return true;
+    }
+
+    /// Whether walls stand along enough of the end's outline, its longest loop, to tell its scale.
+    [[nodiscard]] bool tells_scale() const
+    {
+        constexpr double kTold = 1.0 / 3; // a choice: two walls of five tell a taper, one of four does not
+        double longest = 0, told = 0;
+        for (const std::vector<Stretch>& rim : rims_) {
+            double walled = 0, whole = 0;
+            for (const Stretch& stretch : rim) {
+                const double length = geometry::arc_lengths(chain_of(volume_.model, stretch.foot)).back();
+                whole += length;
+                if (!stretch.top.empty()) walled += length;
+            }
+            if (whole <= longest) continue;
+            longest = whole;
+            told = walled / whole;
+        }
+        return told >= kTold;
     }
 
     /// Whether the feet of all walls are on one line, about which the end could be turned as well.
@@ -381,14 +423,15 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
     if (stop) return std::nullopt;
     try {
         mover.move(context);
-        MovedEnd result{std::move(mover.volume()), {}, end, 0};
+        MovedEnd result{std::move(mover.volume()), {}, end, 0, false};
         const matching::Match match = matching::match(result.volume, {}, context);
         result.closure = close(result.volume, match, {.hints = false}, context);
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());
         result.enclosed = enclosed_volume(result.volume);
-        if (mover.has_bare_rim())
+        result.through = mover.has_bare_rim();
+        if (result.through)
             result.closure.notes.push_back(
                 "a hole of " + name_of(open.model, end) +
                 " has no walls and is taken to go through to the missing end; give "
@@ -411,16 +454,11 @@ std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& f
     orient_consistently(open.model);
     const auto uses = edge_uses(open.model);
     std::vector<MovedEnd> found;
-    for (const FaceId end : all_faces(open.model)) {
+    if (connected_parts(open.model, all_faces(open.model)).size() != 1) return found;
+    for (const FaceId end : possible_ends(open.model, uses)) {
         check_cancelled(context);
-        const auto on_rim = [&](const Loop& loop) {
-            return std::ranges::any_of(
-                loop.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
-        };
-        if (std::ranges::none_of(open.model[end].loops, on_rim) || !plane_of(open.model, end)) continue;
         open.role.assign(faces.size(), Role::wall);
         open.role[end.index()] = Role::source;
-        if (!can_be_end(open, end, uses)) continue;
         bool stop = false;
         auto moved = move_end(open, end, uses, known, stop, context);
         if (stop) return {};

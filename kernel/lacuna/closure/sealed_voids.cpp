@@ -210,8 +210,12 @@ std::string guess_of(const Model& model, const Void& found)
             for (const EdgeUse& use : loop.uses)
                 for (const FaceUse& by : uses[use.edge.index()])
                     if (by.face.index() < given.size()) round.insert(model[given[by.face.index()]].tag);
+        constexpr std::size_t kMostNamed = 12;
         std::string tags;
-        for (const int tag : round) tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
+        for (std::size_t i = 0; const int tag : round) {
+            if (i++ < kMostNamed) tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
+        }
+        if (round.size() > kMostNamed) tags += " … (" + std::to_string(round.size()) + " in all)";
         return "nothing given tells how the face missing beside " +
                std::string(round.size() == 1 ? "face " : "the faces ") + tags +
                " bends: its rim lies in no plane";
@@ -282,6 +286,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
+    bool told = true; // all of them by what is given
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed.volume = std::move(one.volume);
@@ -290,16 +295,24 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         now.filled = "sealed with the shape of " + name_of(model, one.from) + " at the other end";
         now.first.roles.walls = faces; // as its volume numbers them
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
-        if (std::ranges::none_of(ends, is_same)) ends.push_back(std::move(now));
+        if (std::ranges::any_of(ends, is_same)) continue;
+        told = told && !one.through;
+        ends.push_back(std::move(now));
     }
     if (ends.empty()) return;
-    const auto is_moved = [&](const Void& v) {
-        return std::ranges::any_of(ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
-    };
-    if (std::ranges::any_of(found, is_moved))
-        std::erase_if(found, [&](const Void& v) { return !is_moved(v); });
-    else
+    std::vector<Void> same;
+    for (Void& v : found) {
+        const auto end = std::ranges::find_if(
+            ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
+        // A face that is not told how it bends gives way to the moved end.
+        if (end != ends.end()) same.push_back(has_membranes(v.sealed) ? *end : v);
+    }
+    if (!same.empty())
+        found = std::move(same);
+    else if (told)
         found = std::move(ends);
+    else // whether a hole without walls goes through is for the person to say
+        found.insert(found.end(), ends.begin(), ends.end());
 }
 
 void add_filled(std::vector<Void>& found, Void filled)
