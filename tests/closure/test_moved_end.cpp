@@ -164,3 +164,30 @@ TEST_CASE("what a rim leaves open is refused, and taken where it is asked for by
               doctest::Approx(prism.facet_volume).epsilon(0.2));
     }
 }
+
+TEST_CASE("a missing top whose rim lies on a ball or a cylinder is closed, for the rim tells how it bends")
+{
+    constexpr double kRadius = 2.2, kHeight = 3;
+    for (const std::vector<Vec2>& outline : outlines()) {
+        for (const bool ball : {true, false}) {
+            const auto bent = [&](const Vec3& p) {
+                const double aside = ball ? p.head<2>().squaredNorm() : p.x() * p.x();
+                const double top = kHeight - kRadius + std::sqrt(kRadius * kRadius - aside);
+                return Vec3(p.x(), p.y(), p.z() / kHeight * top);
+            };
+            const auto made = [&](std::function<bool(const test::Part&)> drop) {
+                return test::moved(
+                    test::prism({.height = kHeight, .outline = outline, .cuts = 12, .drop = std::move(drop)})
+                        .model,
+                    bent);
+            };
+            const Model whole = made(nullptr), open = made(without_end({}, false));
+            CAPTURE(outline.size());
+            CAPTURE(ball);
+            const double volume = closure::enclosed_volume(topology::open_volume(
+                whole, test::prism({.height = kHeight, .outline = outline, .cuts = 12}).roles));
+            const auto reading = closure::find_reading(open, all_faces(open));
+            CHECK(test::closed_volume(reading) == doctest::Approx(volume).epsilon(0.03));
+        }
+    }
+}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/membranes.h>
 
+#include <lacuna/closure/detail/climber.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
 
 #include <Eigen/Dense>
 
@@ -19,6 +21,9 @@ namespace {
 constexpr double kFlat = 0.02;
 /// Share of the bulge that a face may be off a quadratic height: what closing takes as lying on one.
 constexpr double kOnIt = 0.03;
+/// Share of the bulge that the inside of a face may be off the quadric that its rim lies on. A choice: what is
+/// stretched between two planes is off both by more.
+constexpr double kNearIt = 0.2;
 
 /// Corners of a face's facets as places on its plane and heights above it.
 struct Heights {
@@ -66,6 +71,48 @@ bool is_membrane(const Model& model, FaceId face)
 }
 
 } // namespace
+
+bool bends_as_rim(const Model& model, FaceId face)
+{
+    const Heights heights = heights_of(model, face);
+    const double extent = (heights.place.rowwise().maxCoeff() - heights.place.rowwise().minCoeff()).norm();
+    const double bulge = (heights.height.maxCoeff() - heights.height.minCoeff()) / 2;
+    if (!(extent > 0)) return false;
+    const Vec3 middle = face_centroid(model, face);
+    const auto powers_at = [&](const Vec3& at) {
+        const Vec3 p = (at - middle) / extent;
+        Eigen::Vector<double, 10> powers;
+        powers << 1, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
+        return powers;
+    };
+    // Rows of places on the rim, as many on edges of straight sides as on bent ones.
+    constexpr int kOnEdge = 16;
+    std::vector<Vec3> rim;
+    for (const Loop& loop : model[face].loops) {
+        for (const EdgeUse& use : loop.uses) {
+            const std::vector<Vec3> line = places(model, use);
+            const std::vector<double> arc = geometry::arc_lengths(line);
+            for (int i = 0; i < kOnEdge; ++i)
+                rim.push_back(geometry::point_at(line, arc, arc.back() * i / kOnEdge));
+        }
+    }
+    Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
+    for (const Vec3& p : rim) sum += powers_at(p) * powers_at(p).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> fit(sum);
+    const Eigen::Vector<double, 10> q = fit.eigenvectors().col(0);
+    const auto off = [&](const Vec3& at) {
+        const Vec3 p = (at - middle) / extent;
+        const Vec3 slope(q[1] + 2 * q[4] * p.x() + q[7] * p.y() + q[9] * p.z(),
+                         q[2] + 2 * q[5] * p.y() + q[7] * p.x() + q[8] * p.z(),
+                         q[3] + 2 * q[6] * p.z() + q[8] * p.y() + q[9] * p.x());
+        return std::abs(powers_at(at).dot(q)) / slope.norm() * extent; // to first order
+    };
+    const auto within = [&](double limit) { return [&, limit](const Vec3& p) { return off(p) <= limit; }; };
+    return std::ranges::all_of(rim, within(kOnIt * bulge)) &&
+           std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
+               return std::ranges::all_of(t, [&](Index p) { return off(model.at(p)) <= kNearIt * bulge; });
+           });
+}
 
 std::vector<FaceId> membranes(const Model& model, const std::vector<FaceId>& void_faces)
 {

@@ -204,7 +204,7 @@ std::string guess_of(const Model& model, const Void& found)
     const std::vector<FaceId> given = as_named(found.first.roles);
     const auto uses = edge_uses(own);
     for (const FaceId face : membranes(own, found.sealed.closure.void_faces)) {
-        if (beside_plane(own, face) < kDoubt * found.sealed.enclosed) continue;
+        if (beside_plane(own, face) < kDoubt * found.sealed.enclosed || bends_as_rim(own, face)) continue;
         std::set<int> round;
         for (const Loop& loop : own[face].loops)
             for (const EdgeUse& use : loop.uses)

@@ -12,4 +12,8 @@ namespace lacuna::closure {
 /// on one quadratic height over their plane, as the mouth of a keyway does on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 
+/// Whether a face's rim lies on one quadric (a ball, a cylinder, a cone) and its inside near it: then the rim
+/// tells how the face bends.
+bool bends_as_rim(const topology::Model& model, FaceId face);
+
 } // namespace lacuna::closure
