@@ -21,8 +21,8 @@ namespace {
 constexpr double kFlat = 0.02;
 /// Share of the bulge that a face may be off a quadratic height: what closing takes as lying on one.
 constexpr double kOnIt = 0.03;
-/// Share of the bulge that the inside of a face may be off the quadric that its rim lies on. A choice: what is
-/// stretched between two planes is off both by more.
+/// Share of the bulge that the inside of a face may be off the quadric that its rim lies on. A choice: what
+/// is stretched between two planes is off both by more.
 constexpr double kNearIt = 0.2;
 
 /// Corners of a face's facets as places on its plane and heights above it.

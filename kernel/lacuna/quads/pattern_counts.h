@@ -16,8 +16,8 @@ struct BoundarySegment {
     bool fixed = false; ///< its number of sides is given
 };
 
-/// More quads than this are made of a quarter as many, and no symmetry is kept (`pave()`): they take long, and
-/// nobody looks at them one by one. A choice, not a measurement.
+/// More quads than this are made of a quarter as many, and no symmetry is kept (`pave()`): they take long,
+/// and nobody looks at them one by one. A choice, not a measurement.
 inline constexpr double kManyQuads = 20'000;
 /// The fewest sides of a segment that an even number is close to. A choice, not a measurement.
 inline constexpr double kFewestEven = 8;
