@@ -5,6 +5,7 @@
 #include <lacuna/cad/detail/void_patch.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -28,13 +29,7 @@ constexpr std::size_t kLeadingPoints = 40;
 bool is_plane(const Model& model, const Face& face)
 {
     std::vector<std::vector<Vec3>> rims;
-    for (const Loop& loop : face.loops) {
-        std::vector<Vec3>& rim = rims.emplace_back();
-        for (const EdgeUse& use : loop.uses) {
-            const std::vector<Index> chain = use_points(model, use);
-            for (std::size_t k = 0; k + 1 < chain.size(); ++k) rim.push_back(model.at(chain[k]));
-        }
-    }
+    for (const Loop& loop : face.loops) rims.push_back(loop_places(model, loop.uses));
     const geometry::Plane plane = geometry::newell_plane(rims);
     const auto on_plane = [&](const Vec3& p) {
         return std::abs(geometry::height(plane, p)) <= model.tolerance;

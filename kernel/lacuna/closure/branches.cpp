@@ -11,6 +11,7 @@
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/section.h>
 #include <lacuna/topology/side_points.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -441,13 +442,9 @@ private:
     /// Points round a mouth, in order.
     [[nodiscard]] std::vector<Vec3> rim_places(const Mouth& mouth) const
     {
-        std::vector<Vec3> rim;
-        for (const EdgeUse& use :
-             walk_of(volume_.model, found_.faces[mouth.branch], {mouth.edges.begin(), mouth.edges.end()})) {
-            const std::vector<Index> points = use_points(volume_.model, use);
-            for (std::size_t i = 0; i + 1 < points.size(); ++i) rim.push_back(volume_.model.at(points[i]));
-        }
-        return rim;
+        const Model& model = volume_.model;
+        return loop_places(
+            model, walk_of(model, found_.faces[mouth.branch], {mouth.edges.begin(), mouth.edges.end()}));
     }
 
     /// The rim of some faces that runs along the edges named.

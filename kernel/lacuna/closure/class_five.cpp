@@ -5,6 +5,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -22,16 +23,6 @@ struct Tube {
     std::array<Rim, 2> rim;
     std::array<std::vector<Vec3>, 2> points;
 };
-
-std::vector<Vec3> points_of(const Model& model, const Rim& rim)
-{
-    std::vector<Vec3> points;
-    for (const EdgeUse& use : rim.uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) points.push_back(model.at(chain[i]));
-    }
-    return points;
-}
 
 Vec3 mean(const std::vector<Vec3>& points)
 {
@@ -61,8 +52,9 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
                                 "name the source or the target, or the walls "
                                 "that close the others");
         }
-        tubes.push_back(
-            {std::move(part), {open[0], open[1]}, {points_of(model, open[0]), points_of(model, open[1])}});
+        tubes.push_back({std::move(part),
+                         {open[0], open[1]},
+                         {loop_places(model, open[0].uses), loop_places(model, open[1].uses)}});
     }
     std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& a, const Tube& b) {
         const auto size = [](const Tube& tube) {
@@ -173,7 +165,7 @@ std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loo
         const auto is_of_loop = [&](const EdgeUse& use) {
             return std::ranges::any_of(loop.uses, [&](const EdgeUse& own) { return own.edge == use.edge; });
         };
-        const std::array<std::vector<Vec3>, 1> rim{points_of(model, {loop.uses})};
+        const std::array<std::vector<Vec3>, 1> rim{loop_places(model, loop.uses)};
         const geometry::Plane plane = geometry::newell_plane(rim);
         for (const FaceId wall : volume.faces(Role::wall)) {
             const Face& face = model[wall];

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/climber.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 
@@ -14,22 +16,6 @@ namespace {
 constexpr double kOnward = 0.7071;
 
 } // namespace
-
-Vec3 end_tangent(const std::vector<Vec3>& points)
-{
-    const std::size_t n = points.size();
-    const Vec3 last = (points[n - 1] - points[n - 2]).stableNormalized();
-    if (n < 3) return last;
-    const Vec3 before = (points[n - 2] - points[n - 3]).stableNormalized();
-    return (1.5 * last - 0.5 * before).stableNormalized();
-}
-
-std::vector<Vec3> places(const Model& model, EdgeUse use)
-{
-    std::vector<Vec3> result;
-    for (const Index p : use_points(model, use)) result.push_back(model.at(p));
-    return result;
-}
 
 Climber::Climber(const OpenVolume& volume) : model_(volume.model)
 {
@@ -60,7 +46,7 @@ std::vector<EdgeUse> Climber::climb(VertexId start) const
         if (!next || !passed.insert(use_to(model_, *next)).second) break;
         way.push_back(*next);
         at = use_to(model_, *next);
-        onward = end_tangent(places(model_, *next));
+        onward = geometry::end_tangent(use_places(model_, *next));
     }
     return way;
 }

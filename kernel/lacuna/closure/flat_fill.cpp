@@ -5,7 +5,9 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,16 +23,6 @@ constexpr double kFlatLoop = 1e-6;
 /// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but
 /// for rounding, those of the side of a bent groove are not. A choice, not a measurement.
 constexpr double kParallel = 0.02;
-
-std::vector<Vec3> points_of(const Model& model, const std::vector<EdgeUse>& uses)
-{
-    std::vector<Vec3> points;
-    for (const EdgeUse& use : uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) points.push_back(model.at(chain[i]));
-    }
-    return points;
-}
 
 /// A loop in one plane.
 struct FlatLoop {
@@ -91,14 +83,6 @@ bool overlap(const Rim& rim, const std::vector<Run>& runs)
         if (runs[r].first + runs[r].count > next) return true;
     }
     return false;
-}
-
-/// The points along some uses that go on from each other, both ends included.
-std::vector<Vec3> chain_of(const Model& model, const std::vector<EdgeUse>& uses)
-{
-    std::vector<Vec3> chain = points_of(model, uses);
-    chain.push_back(model.at(model[use_to(model, uses.back())].point));
-    return chain;
 }
 
 /// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
@@ -162,7 +146,7 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
         if (run[i] == 0 || run[i] == uses) continue;
         if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
-        const std::vector<std::vector<Vec3>> points{chain_of(model, own)};
+        const std::vector<std::vector<Vec3>> points{use_places(model, own)};
         if (turns(points.front()) < 2) continue;
         const geometry::Plane plane = geometry::newell_plane(points);
         const bool given = std::ranges::all_of(
@@ -180,7 +164,7 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
     for (std::size_t r = 0; r < ends.size(); ++r) {
         const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
         if (own.empty()) continue;
-        const std::vector<Vec3> chain = chain_of(model, own);
+        const std::vector<Vec3> chain = use_places(model, own);
         if (turns(chain) > 0) continue; // across the mouth, where an end is given
         const Vec3 along = (chain.back() - chain.front()).normalized();
         if (way && way->cross(along).norm() > kParallel) return std::nullopt;
@@ -232,7 +216,7 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<FlatLoop>& 
 {
     std::vector<Coplanar> planes;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-        const std::vector<std::vector<Vec3>> loop{points_of(model, loops[i].uses)};
+        const std::vector<std::vector<Vec3>> loop{loop_places(model, loops[i].uses)};
         const std::vector<Vec3>& points = loop.front();
         const auto own = std::find_if(planes.begin(), planes.end(), [&](const Coplanar& other) {
             return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
@@ -252,21 +236,21 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<FlatLoop>& 
 bool is_flat(const Model& model, const Rim& rim)
 {
     Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
-    std::vector<Vec3> points;
-    double length = 0;
-    for (const EdgeUse& use : rim.uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-            points.push_back(model.at(chain[i]));
-            length += (model.at(chain[i + 1]) - model.at(chain[i])).norm();
-        }
-    }
+    const std::vector<Vec3> chain = use_places(model, rim.uses);
+    const double length = geometry::length(chain);
+    const std::span<const Vec3> points = std::span(chain).first(chain.size() - 1);
     for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean);
     const Vec3 normal = area.stableNormalized();
     return std::all_of(points.begin(), points.end(),
                        [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
+}
+
+bool has_flat_loops(const Model& model, FaceId face)
+{
+    return std::ranges::all_of(model[face].loops,
+                               [&](const Loop& loop) { return is_flat(model, {loop.uses}); });
 }
 
 std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector<FaceId>& faces,
@@ -296,7 +280,7 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
         std::vector<std::vector<Vec2>> flat;
         for (const std::size_t loop : one.loops) {
             flat.emplace_back();
-            for (const Vec3& p : points_of(volume.model, loops[loop].uses))
+            for (const Vec3& p : loop_places(volume.model, loops[loop].uses))
                 flat.back().push_back(geometry::to_plane(one.plane, p));
         }
         for (const std::vector<std::size_t>& region : regions_of(flat)) {

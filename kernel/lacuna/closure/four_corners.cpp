@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
+#include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -18,30 +20,13 @@ namespace {
 /// A choice, not a measurement.
 constexpr double kCorner = 30;
 
-std::vector<Vec3> points_along(const Model& model, const std::vector<EdgeUse>& uses)
-{
-    std::vector<Vec3> points{model.at(model[use_from(model, uses.front())].point)};
-    for (const EdgeUse& use : uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        for (std::size_t i = 1; i < chain.size(); ++i) points.push_back(model.at(chain[i]));
-    }
-    return points;
-}
-
-/// Unit direction in which a chain of points starts, as if they lay on an arc.
-Vec3 start_of(const std::vector<Vec3>& points)
-{
-    const Vec3 first = (points[1] - points[0]).stableNormalized();
-    if (points.size() < 3) return first;
-    return (1.5 * first - 0.5 * (points[2] - points[1]).stableNormalized()).stableNormalized();
-}
-
 /// Whether a loop turns sharply where one use goes over into the next.
 bool turns(const Model& model, EdgeUse before, EdgeUse after)
 {
-    std::vector<Vec3> back = points_along(model, {before});
+    std::vector<Vec3> back = use_places(model, after);
     std::reverse(back.begin(), back.end());
-    const Vec3 arrives = -start_of(back), leaves = start_of(points_along(model, {after}));
+    const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
+               leaves = -geometry::end_tangent(back);
     return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
 }
 
@@ -49,14 +34,14 @@ bool turns(const Model& model, EdgeUse before, EdgeUse after)
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
     std::array<std::vector<Vec3>, 4> side;
-    for (std::size_t i = 0; i < 4; ++i) side[i] = points_along(model, sides[i]);
+    for (std::size_t i = 0; i < 4; ++i) side[i] = use_places(model, sides[i]);
     for (const std::size_t i : {2, 3}) std::reverse(side[i].begin(), side[i].end());
     return geometry::SweptPatch(side[0], side[1], side[2], side[3]).unlike();
 }
 
 bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
 {
-    const std::vector<Vec3> points = points_along(model, side);
+    const std::vector<Vec3> points = use_places(model, side);
     const Vec3 chord = points.back() - points.front();
     const Vec3 along = chord.stableNormalized();
     return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/membranes.h>
 
-#include <lacuna/closure/detail/climber.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/use_places.h>
 
 #include <Eigen/Dense>
 
@@ -29,6 +29,14 @@ constexpr double kNearIt = 0.2;
 struct Heights {
     Eigen::Matrix2Xd place;
     Eigen::VectorXd height;
+
+    /// Of the place over the plane [model length].
+    [[nodiscard]] double extent() const
+    {
+        return (place.rowwise().maxCoeff() - place.rowwise().minCoeff()).norm();
+    }
+    /// Half of what lies between the lowest and the highest [model length].
+    [[nodiscard]] double bulge() const { return (height.maxCoeff() - height.minCoeff()) / 2; }
 };
 
 Heights heights_of(const Model& model, FaceId face)
@@ -65,8 +73,7 @@ bool is_membrane(const Model& model, FaceId face)
     if (model[face].geometry == Geometry::minimal) return true;
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
     const Heights heights = heights_of(model, face);
-    const double extent = (heights.place.rowwise().maxCoeff() - heights.place.rowwise().minCoeff()).norm();
-    const double bulge = (heights.height.maxCoeff() - heights.height.minCoeff()) / 2;
+    const double extent = heights.extent(), bulge = heights.bulge();
     return bulge > kFlat * extent && off_quadratic(heights, extent) > kOnIt * bulge;
 }
 
@@ -75,8 +82,7 @@ bool is_membrane(const Model& model, FaceId face)
 bool bends_as_rim(const Model& model, FaceId face)
 {
     const Heights heights = heights_of(model, face);
-    const double extent = (heights.place.rowwise().maxCoeff() - heights.place.rowwise().minCoeff()).norm();
-    const double bulge = (heights.height.maxCoeff() - heights.height.minCoeff()) / 2;
+    const double extent = heights.extent(), bulge = heights.bulge();
     if (!(extent > 0)) return false;
     const Vec3 middle = face_centroid(model, face);
     const auto powers_at = [&](const Vec3& at) {
@@ -85,15 +91,13 @@ bool bends_as_rim(const Model& model, FaceId face)
         powers << 1, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
         return powers;
     };
-    // Rows of places on the rim, as many on edges of straight sides as on bent ones.
+    // As many places on edges of straight sides as on bent ones.
     constexpr int kOnEdge = 16;
     std::vector<Vec3> rim;
     for (const Loop& loop : model[face].loops) {
         for (const EdgeUse& use : loop.uses) {
-            const std::vector<Vec3> line = places(model, use);
-            const std::vector<double> arc = geometry::arc_lengths(line);
-            for (int i = 0; i < kOnEdge; ++i)
-                rim.push_back(geometry::point_at(line, arc, arc.back() * i / kOnEdge));
+            const std::vector<Vec3> along = geometry::even_places(use_places(model, use), kOnEdge);
+            rim.insert(rim.end(), along.begin(), along.end() - 1);
         }
     }
     Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
@@ -107,8 +111,7 @@ bool bends_as_rim(const Model& model, FaceId face)
                          q[3] + 2 * q[6] * p.z() + q[8] * p.y() + q[9] * p.x());
         return std::abs(powers_at(at).dot(q)) / slope.norm() * extent; // to first order
     };
-    const auto within = [&](double limit) { return [&, limit](const Vec3& p) { return off(p) <= limit; }; };
-    return std::ranges::all_of(rim, within(kOnIt * bulge)) &&
+    return std::ranges::all_of(rim, [&](const Vec3& p) { return off(p) <= kOnIt * bulge; }) &&
            std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
                return std::ranges::all_of(t, [&](Index p) { return off(model.at(p)) <= kNearIt * bulge; });
            });

@@ -5,16 +5,20 @@
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/segment.h>
 #include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 namespace lacuna::closure {
 
@@ -36,42 +40,12 @@ struct Stretch {
     std::vector<EdgeUse> top;  ///< as the walls use it, from above the foot's start; empty: no wall here
 };
 
-std::vector<Vec3> chain_of(const Model& model, const std::vector<EdgeUse>& uses)
-{
-    std::vector<Vec3> chain{model.at(model[use_from(model, uses.front())].point)};
-    for (const EdgeUse& use : uses) {
-        const std::vector<Vec3> more = places(model, use);
-        chain.insert(chain.end(), more.begin() + 1, more.end());
-    }
-    return chain;
-}
-
-std::vector<Vec3> even_places(const std::vector<Vec3>& chain)
-{
-    const std::vector<double> arc = geometry::arc_lengths(chain);
-    std::vector<Vec3> result;
-    for (int i = 0; i <= kSamples; ++i)
-        result.push_back(geometry::point_at(chain, arc, arc.back() * i / kSamples));
-    return result;
-}
-
 double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
 {
-    double least = (p - chain.front()).norm();
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const Vec3 along = chain[i + 1] - chain[i];
-        const double f = std::clamp((p - chain[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (p - chain[i] - f * along).norm());
-    }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+        least = std::min(least, geometry::distance_to_segment(p, chain[i], chain[i + 1]));
     return least;
-}
-
-Vec3 area_of(const std::vector<Vec3>& loop)
-{
-    Vec3 area = Vec3::Zero();
-    for (std::size_t i = 0; i + 1 < loop.size(); ++i)
-        area += (loop[i] - loop.front()).cross(loop[i + 1] - loop.front()) / 2;
-    return area;
 }
 
 /// The flat faces beside which walls stand and others are missing, those with most faces beside them first.
@@ -151,7 +125,7 @@ public:
             for (const Stretch& stretch : rim) {
                 if (!stretch.top.empty()) continue;
                 for (const EdgeUse& use : stretch.foot) {
-                    for (const Vec3& p : even_places(places(volume_.model, use))) {
+                    for (const Vec3& p : geometry::even_places(use_places(volume_.model, use), kSamples)) {
                         result.push_back(motion_(p));
                         result.push_back((p + motion_(p)) / 2);
                     }
@@ -188,14 +162,6 @@ private:
         return true;
     }
 
-    /// The vertex above one of the end's, where walls' edges lead up from it: where a free edge is met.
-    [[nodiscard]] std::optional<VertexId> above(VertexId foot) const
-    {
-        const std::vector<EdgeUse> way = climber_.climb(foot);
-        if (way.empty()) return std::nullopt;
-        return use_to(volume_.model, way.back());
-    }
-
     /// The walls' free uses from one vertex on to another, past no vertex of the end.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
@@ -222,11 +188,14 @@ private:
             any_walled = any_walled || !bare(i);
             if (bare(i) && bare(i + n - 1)) continue;
             const VertexId at = use_from(model, rim.uses[i]);
-            top[i] = above(at);
-            if (bare(i) != bare(i + n - 1) && !top[i]) return false;
-            if (!top[i]) continue;
+            const std::vector<EdgeUse> way = climber_.climb(at);
+            if (bare(i) != bare(i + n - 1) && way.empty()) return false;
+            if (way.empty()) continue;
+            top[i] = use_to(model, way.back());
             if (on_end_.contains(*top[i]) || !leaving_.contains(*top[i])) return false;
             above_.emplace(at, *top[i]);
+            for (const EdgeUse& use : way)
+                if (is_free(use.edge)) accounted_.insert(use.edge);
             start = std::min(start, i);
         }
         std::vector<Stretch>& stretches = rims_.emplace_back();
@@ -255,11 +224,13 @@ private:
     {
         const Model& model = volume_.model;
         if (free_rims_.size() != 1) return false; // which of several it is cannot be told
-        const std::vector<Vec3> low = chain_of(model, rim.uses), high = chain_of(model, free_rims_[0].uses);
+        const std::vector<Vec3> low = use_places(model, rim.uses),
+                                high = use_places(model, free_rims_[0].uses);
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
-        const Vec3 from = area_of(low), to = area_of(high);
-        const Vec3 mean_low = geometry::mean_point(even_places(low));
-        const Vec3 mean_high = geometry::mean_point(even_places(high));
+        const Vec3 from = geometry::newell_vector(std::span(low).first(low.size() - 1)),
+                   to = geometry::newell_vector(std::span(high).first(high.size() - 1));
+        const Vec3 mean_low = geometry::mean_point(geometry::even_places(low, kSamples));
+        const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kSamples));
         const double scale = std::sqrt(to.norm() / from.norm());
         for (const double along : {-1.0, 0.0, 1.0}) {
             from_.push_back(mean_low + along * std::sqrt(from.norm()) * from.stableNormalized());
@@ -270,8 +241,10 @@ private:
 
     void add_samples(const Stretch& stretch)
     {
-        const std::vector<Vec3> low = even_places(chain_of(volume_.model, stretch.foot)),
-                                high = even_places(chain_of(volume_.model, stretch.top));
+        const std::vector<Vec3> low = geometry::even_places(use_places(volume_.model, stretch.foot),
+                                                            kSamples),
+                                high = geometry::even_places(use_places(volume_.model, stretch.top),
+                                                             kSamples);
         from_.insert(from_.end(), low.begin(), low.end());
         to_.insert(to_.end(), high.begin(), high.end());
     }
@@ -279,13 +252,10 @@ private:
     /// Whether every free edge is at the end's rim, at the top of a wall or beside one.
     [[nodiscard]] bool accounts_for_all() const
     {
-        std::set<EdgeId> known;
+        std::set<EdgeId> known = accounted_;
         for (const std::vector<Stretch>& rim : rims_)
             for (const Stretch& stretch : rim)
                 for (const EdgeUse& use : stretch.top) known.insert(use.edge);
-        for (const auto& [foot, top] : above_)
-            for (const EdgeUse& use : climber_.climb(foot))
-                if (is_free(use.edge)) known.insert(use.edge);
         return known.size() == free_count_;
     }
 
@@ -299,8 +269,9 @@ private:
             for (const std::vector<Stretch>& rim : rims_) {
                 for (const Stretch& stretch : rim) {
                     if (stretch.top.empty()) continue;
-                    const std::vector<Vec3> top = chain_of(volume_.model, stretch.top);
-                    for (const Vec3& p : even_places(chain_of(volume_.model, stretch.foot)))
+                    const std::vector<Vec3> top = use_places(volume_.model, stretch.top);
+                    for (const Vec3& p :
+                         geometry::even_places(use_places(volume_.model, stretch.foot), kSamples))
                         if (off_chain(motion_(p), top) > kOnTop * width) return false;
                 }
             }
@@ -327,7 +298,7 @@ private:
         for (const std::vector<Stretch>& rim : rims_) {
             for (const Stretch& stretch : rim) {
                 if (!stretch.top.empty()) continue;
-                for (const Vec3& p : even_places(chain_of(volume_.model, stretch.foot)))
+                for (const Vec3& p : geometry::even_places(use_places(volume_.model, stretch.foot), kSamples))
                     if ((motion_(p) - p).norm() <= kOnTop * width) return false;
             }
         }
@@ -342,7 +313,7 @@ private:
         for (const std::vector<Stretch>& rim : rims_) {
             double walled = 0, whole = 0;
             for (const Stretch& stretch : rim) {
-                const double length = geometry::arc_lengths(chain_of(volume_.model, stretch.foot)).back();
+                const double length = geometry::arc_lengths(use_places(volume_.model, stretch.foot)).back();
                 whole += length;
                 if (!stretch.top.empty()) walled += length;
             }
@@ -380,7 +351,7 @@ private:
     {
         const VertexId from = moved(use_from(volume_.model, foot)), to = moved(use_to(volume_.model, foot));
         Model& model = volume_.model;
-        const std::vector<Vec3> low = places(model, foot);
+        const std::vector<Vec3> low = use_places(model, foot);
         const std::vector<double> arc = geometry::arc_lengths(low);
         const Vec3 off_from = model.at(model[from].point) - motion_(low.front());
         const Vec3 off_to = model.at(model[to].point) - motion_(low.back());
@@ -404,6 +375,7 @@ private:
     std::vector<Rim> free_rims_;          ///< of walls
     std::size_t free_count_ = 0;          ///< free edges of walls
     std::map<VertexId, VertexId> above_;  ///< of vertices of the end those of the moved one
+    std::set<EdgeId> accounted_;          ///< free edges that lead up to those
     std::vector<std::vector<Stretch>> rims_;
     std::vector<Vec3> from_, to_; ///< places on feet and on tops
     geometry::RigidFit motion_;

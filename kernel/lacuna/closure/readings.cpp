@@ -52,10 +52,8 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
 bool closes_flat(const Reading& reading)
 {
     const Model& model = reading.volume.model;
-    return std::ranges::all_of(reading.closure->void_faces, [&](FaceId face) {
-        return std::ranges::all_of(model[face].loops,
-                                   [&](const Loop& loop) { return is_flat(model, {loop.uses}); });
-    });
+    return std::ranges::all_of(reading.closure->void_faces,
+                               [&](FaceId face) { return has_flat_loops(model, face); });
 }
 
 } // namespace

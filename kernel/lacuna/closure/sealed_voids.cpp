@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
@@ -183,9 +184,7 @@ bool leaves_open(const Sealed& sealed)
 {
     const Model& model = sealed.volume.model;
     const bool bent_end = std::ranges::any_of(sealed.closure.void_faces, [&](FaceId face) {
-        if (sealed.volume.role[face.index()] == Role::wall) return false;
-        return std::ranges::any_of(model[face].loops,
-                                   [&](const Loop& loop) { return !is_flat(model, {loop.uses}); });
+        return sealed.volume.role[face.index()] != Role::wall && !has_flat_loops(model, face);
     });
     return bent_end || has_membranes(sealed);
 }

@@ -5,6 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -144,14 +145,14 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
     const Vec3 source = model.at(model[gap.source].point), target = model.at(model[gap.target].point);
     Tangents result;
     if (!gap.below.empty()) {
-        result.leave = end_tangent(places(model, gap.below.back()));
+        result.leave = geometry::end_tangent(use_places(model, gap.below.back()));
     } else if (walls != nullptr) {
         result.leave = walls->leaving(source);
     } else {
         result.leave = side * normal_at(volume, Role::source, gap.source);
     }
     if (!gap.above.empty()) {
-        result.arrive = -end_tangent(places(model, gap.above.back()));
+        result.arrive = -geometry::end_tangent(use_places(model, gap.above.back()));
     } else if (walls != nullptr) {
         result.arrive = walls->arriving(target);
     } else {

@@ -9,6 +9,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/topology/use_places.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -23,25 +24,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-std::vector<Index> points_of(const Model& model, const std::vector<EdgeUse>& uses, bool closed)
-{
-    std::vector<Index> points;
-    for (const EdgeUse& use : uses) {
-        const std::vector<Index> chain = use_points(model, use);
-        points.insert(points.end(), chain.begin(), chain.end() - 1);
-        if (!closed && &use == &uses.back()) points.push_back(chain.back());
-    }
-    return points;
-}
-
-std::vector<Vec3> positions(const Model& model, const std::vector<Index>& points)
-{
-    std::vector<Vec3> result;
-    result.reserve(points.size());
-    for (const Index p : points) result.push_back(model.at(p));
-    return result;
-}
 
 /// Boundary points of the face in the plane it is triangulated in; a seam's points stand twice.
 struct Outline {
@@ -82,10 +64,10 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
 {
     NewellOutline result;
     std::vector<std::vector<Vec3>> rims;
-    for (const Loop& loop : loops) rims.push_back(positions(model, points_of(model, loop.uses, true)));
+    for (const Loop& loop : loops) rims.push_back(loop_places(model, loop.uses));
     result.plane = geometry::newell_plane(rims);
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::vector<Index> points = points_of(model, loops[l].uses, true);
+        const std::vector<Index> points = loop_points(model, loops[l].uses);
         std::vector<Index>& numbers = result.outline.loops.emplace_back();
         for (std::size_t i = 0; i < points.size(); ++i) {
             numbers.push_back(static_cast<Index>(result.outline.flat.size()));
@@ -255,8 +237,8 @@ struct PatchSide {
 PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
 {
     PatchSide side;
-    side.chain = points_of(model, uses, false);
-    side.points = positions(model, side.chain);
+    side.chain = use_points(model, uses);
+    side.points = places_at(model, side.chain);
     side.share = geometry::arc_lengths(side.points);
     const double total = side.share.back();
     for (double& s : side.share) s /= total;
@@ -422,13 +404,14 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
 
 /// A bent face between four corners, where straight lines lead over it or its rim lies on no quadratic
 /// height.
+/// @param on_quadratic  whether the rim lies on one
 std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
-                                                const NewellOutline& newell, const RunContext& context)
+                                                bool on_quadratic, const RunContext& context)
 {
     if (loops.size() != 1) return std::nullopt;
     const auto sides = four_corners(model, loops.front());
     if (sides.empty()) return std::nullopt;
-    if (!is_ruled(model, sides) && quadratic_through(model, newell)) return std::nullopt;
+    if (on_quadratic && !is_ruled(model, sides)) return std::nullopt;
     try {
         return fill_transfinite(model, sides, nullptr, context);
     } catch (const InvalidInput&) {
@@ -463,7 +446,7 @@ VoidFilling fill_with_least_area(const Model& model, const std::vector<Loop>& lo
     std::vector<std::vector<Index>> cycles;
     for (const Loop& loop : loops) {
         std::vector<Index>& cycle = cycles.emplace_back();
-        for (const Index p : points_of(model, loop.uses, true)) {
+        for (const Index p : loop_points(model, loop.uses)) {
             cycle.push_back(static_cast<Index>(points.size()));
             model_point.push_back(p);
             points.push_back(model.at(p));
@@ -538,8 +521,10 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     const bool flat = newell.bulge <= model.tolerance;
     const auto sides = loops.size() == 1 ? logical_sides(volume, loops.front())
                                          : std::vector<std::vector<EdgeUse>>{};
+    const bool has_sides = !sides.empty() && (!flat || crossing);
+    const auto on = flat || has_sides ? std::nullopt : quadratic_through(model, newell);
     VoidFilling result;
-    if (!sides.empty() && (!flat || crossing)) {
+    if (has_sides) {
         try {
             result = fill_transfinite(model, sides, follower, context);
         } catch (const InvalidInput& error) {
@@ -547,11 +532,11 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                                       name_of(model, sides.front().front().edge) +
                                                       ", folds where its sides lead: " + error.what());
         }
-    } else if (auto patch = flat ? std::nullopt : fill_between_corners(model, loops, newell, context)) {
+    } else if (auto patch = flat ? std::nullopt
+                                 : fill_between_corners(model, loops, on.has_value(), context)) {
         result = std::move(*patch);
     } else if (!crossing) {
-        const auto bent = flat ? std::nullopt : quadratic_through(model, newell);
-        result = fill_on_newell_plane(model, newell, bent, context);
+        result = fill_on_newell_plane(model, newell, on, context);
     } else {
         result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name,
                                       context);

@@ -45,6 +45,27 @@ Vec3 point_at(std::span<const Vec3> points, std::span<const double> arc_lengths,
     return a + place.fraction * (b - a);
 }
 
+std::vector<Vec3> even_places(std::span<const Vec3> points, std::size_t pieces)
+{
+    const std::vector<double> arc = arc_lengths(points);
+    std::vector<Vec3> result{points.front()};
+    for (std::size_t i = 1; i < pieces; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(pieces);
+        result.push_back(point_at(points, arc, arc.back() * share));
+    }
+    result.push_back(points.back());
+    return result;
+}
+
+Vec3 end_tangent(std::span<const Vec3> points)
+{
+    const std::size_t n = points.size();
+    const Vec3 last = (points[n - 1] - points[n - 2]).stableNormalized();
+    if (n < 3) return last;
+    const Vec3 before = (points[n - 2] - points[n - 3]).stableNormalized();
+    return (1.5 * last - 0.5 * before).stableNormalized();
+}
+
 double sag(std::span<const Vec3> points)
 {
     double most = 0;

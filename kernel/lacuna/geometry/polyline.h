@@ -43,4 +43,12 @@ PolylinePlace place_at(std::span<const double> arc_lengths, double s);
 /// @pre points.size() == arc_lengths.size() > 0
 Vec3 point_at(std::span<const Vec3> points, std::span<const double> arc_lengths, double s);
 
+/// Places that part a chain into so many pieces of one length, both ends included: `pieces + 1` of them.
+/// @pre points.size() > 0, pieces > 0
+std::vector<Vec3> even_places(std::span<const Vec3> points, std::size_t pieces);
+
+/// Unit tangent at the end of a chain that is walked from its start; as if the points lay on an arc.
+/// @pre points.size() > 1
+Vec3 end_tangent(std::span<const Vec3> points);
+
 } // namespace lacuna::geometry

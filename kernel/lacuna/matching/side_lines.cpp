@@ -2,6 +2,8 @@
 #include <lacuna/matching/side_lines.h>
 
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,14 +54,8 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
 {
     std::map<Index, double> heights;
     for (const SideLine& line : lines) {
-        std::vector<Index> chain;
-        for (const EdgeUse& use : line.uses) {
-            const std::vector<Index> points = use_points(model, use);
-            chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
-        }
-        std::vector<double> run{0};
-        for (std::size_t i = 1; i < chain.size(); ++i)
-            run.push_back(run.back() + (model.at(chain[i]) - model.at(chain[i - 1])).norm());
+        const std::vector<Index> chain = use_points(model, line.uses);
+        const std::vector<double> run = geometry::arc_lengths(places_at(model, chain));
         for (std::size_t i = 1; i + 1 < chain.size(); ++i) heights[chain[i]] = run[i] / run.back();
     }
     return heights;

@@ -5,6 +5,7 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/given_nodes.h>
 #include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -350,11 +351,7 @@ bool has_column(const GivenColumns& columns, const LinkingSurface& link, double 
 /// Make a side line a column of its own.
 void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
 {
-    std::vector<Index> points;
-    for (const EdgeUse& use : line.line.uses) {
-        const std::vector<Index> more = use_points(model, use);
-        points.insert(points.end(), more.begin() + (points.empty() ? 0 : 1), more.end());
-    }
+    const std::vector<Index> points = use_points(model, line.line.uses);
     const auto after = std::upper_bound(columns.source_at.begin(), columns.source_at.end(), line.source_at);
     const auto at = after - columns.source_at.begin();
     columns.rows = rows;

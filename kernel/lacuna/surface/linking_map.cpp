@@ -7,6 +7,7 @@
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,16 +46,6 @@ LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
         }
     }
     return facets;
-}
-
-std::vector<Index> line_points(const Model& model, const matching::SideLine& line)
-{
-    std::vector<Index> result;
-    for (const EdgeUse& use : line.uses) {
-        const std::vector<Index> points = use_points(model, use);
-        result.insert(result.end(), points.begin() + (result.empty() ? 0 : 1), points.end());
-    }
-    return result;
 }
 
 /// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its
@@ -156,7 +147,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
     } else {
-        cut = line_points(model, link.lines.front().line);
+        cut = use_points(model, link.lines.front().line.uses);
     }
     for (const ChainNode& p : chain_nodes(model, link.source))
         fixed[p.point] = Vec2(p.at / link.source.length(), 0);
@@ -166,7 +157,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
     }
     for (const LinkingLine& line : link.lines) {
-        const std::vector<Index> points = line_points(model, line.line);
+        const std::vector<Index> points = use_points(model, line.line.uses);
         std::vector<Vec3> way;
         for (const Index p : points) way.push_back(model.at(p));
         const std::vector<double> at = geometry::arc_lengths(way);
@@ -287,8 +278,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                 Ring piece;
                 double along = 0, up = 0;
                 const std::vector<Index> points = use_points(model, use);
-                std::vector<Vec3> line;
-                for (const Index p : points) line.push_back(model.at(p));
+                const std::vector<Vec3> line = places_at(model, points);
                 std::vector<double> share = geometry::arc_lengths(line);
                 const double length = share.back();
                 for (double& f : share) f = use.reversed ? 1 - f / length : f / length;

@@ -9,6 +9,7 @@
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +28,9 @@ constexpr std::size_t kLines = 3;
 /// Points of a side of the face, evenly spread by running length.
 std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
 {
-    std::vector<Vec3> line;
-    for (std::size_t i = from; i != to; i = (i + 1) % loop.uses.size()) {
-        for (const Index p : use_points(model, loop.uses[i])) line.push_back(model.at(p));
-    }
-    const std::vector<double> arc = geometry::arc_lengths(line);
-    std::vector<Vec3> points;
-    for (std::size_t k = 0; k <= kSamples; ++k)
-        points.push_back(geometry::point_at(line, arc, arc.back() * static_cast<double>(k) / kSamples));
-    points.front() = line.front();
-    points.back() = line.back();
-    return points;
+    std::vector<EdgeUse> side;
+    for (std::size_t i = from; i != to; i = (i + 1) % loop.uses.size()) side.push_back(loop.uses[i]);
+    return geometry::even_places(use_places(model, side), kSamples);
 }
 
 } // namespace

@@ -10,13 +10,6 @@
 
 namespace lacuna::closure {
 
-/// Unit tangent at the end of a chain of points that is walked away from its start; as if the points lay
-/// on an arc.
-Vec3 end_tangent(const std::vector<Vec3>& points);
-
-/// Places along a use, both ends included.
-std::vector<Vec3> places(const topology::Model& model, topology::EdgeUse use);
-
 /// Walks up wall edges from a rim.
 class Climber {
 public:

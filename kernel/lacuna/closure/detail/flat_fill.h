@@ -28,4 +28,7 @@ std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const s
 /// Whether a loop is flat.
 bool is_flat(const topology::Model& model, const topology::Rim& rim);
 
+/// Whether each of a face's loops is.
+bool has_flat_loops(const topology::Model& model, FaceId face);
+
 } // namespace lacuna::closure

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/readings.h>
 
 #include <cstddef>
