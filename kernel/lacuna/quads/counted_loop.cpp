@@ -8,11 +8,7 @@
 namespace lacuna::quads {
 namespace {
 
-double cost_of(const CountedRun& run, int count)
-{
-    const double off = count - run.wanted;
-    return count > 0 ? off * off / count : std::numeric_limits<double>::infinity();
-}
+double cost_of(const CountedRun& run, int count) { return cost_of_sides(run.wanted, count); }
 
 /// What a side of a run adds to the excess of sides one way over those back.
 std::array<int, 2> step_of(int quarter)
@@ -39,9 +35,7 @@ bool may_be(const CountTask& task, const CountedLoop& loop, const CountedRun& ru
     const BoundarySegment& own = task.segments[run.segment];
     if (count < 1 || own.fixed) return count >= 1;
     const int sides = sides_of(loop, run.segment) + count - run.count;
-    if (count < run.count && sides < own.least) return false;
-    const double off = sides / own.wanted;
-    return (off <= range.most && off >= range.least) || std::abs(sides - own.wanted) <= 1;
+    return (count >= run.count || sides >= own.least) && is_within(range, own.wanted, sides);
 }
 
 bool improves(const CountedLoop& loop, const CountedRun& run, int by, const CountedRun* other)
@@ -82,6 +76,18 @@ std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, 
 }
 
 } // namespace
+
+bool is_within(const CountRange& range, double wanted, int sides)
+{
+    const double share = sides / wanted;
+    return (share >= range.least && share <= range.most) || std::abs(sides - wanted) <= 1;
+}
+
+double cost_of_sides(double wanted, int sides)
+{
+    const double off = sides - wanted;
+    return sides > 0 ? off * off / sides : std::numeric_limits<double>::infinity();
+}
 
 CountTask::CountTask(const PlanarRegion& of, std::span<const int> segment_of_side,
                      std::span<const BoundarySegment> all)

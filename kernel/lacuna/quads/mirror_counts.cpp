@@ -137,8 +137,7 @@ std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std
         counts.push_back(std::max(segment.least, static_cast<int>(std::lround(segment.wanted))));
     for (const auto& [a, b] : pairs) {
         if (a == b && !segments[a].fixed)
-            counts[a] = std::max(2 * ((segments[a].least + 1) / 2),
-                                 2 * static_cast<int>(std::lround(segments[a].wanted / 2)));
+            counts[a] = even_sides(segments[a].wanted, segments[a].least);
         if (!segments[b].fixed) counts[b] = counts[a];
     }
     return counts;

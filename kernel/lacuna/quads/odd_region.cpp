@@ -29,29 +29,6 @@ constexpr std::size_t kMostSteps = 8;
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 
-/// A side of the region's loops, in the order they are worth dividing.
-struct Side {
-    RegionSide side;
-    double length; ///< over the size there
-};
-
-std::vector<Side> sides_by_length(const PlanarRegion& region)
-{
-    std::vector<Side> sides;
-    for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        const std::vector<Index>& loop = region.loops[l];
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& a = region.points[index(loop[i])];
-            const Vec2& b = region.points[index(loop[(i + 1) % loop.size()])];
-            const double size = region.size ? region.size((a + b) / 2) : 1;
-            sides.push_back({{l, i}, (b - a).norm() / size});
-        }
-    }
-    std::stable_sort(sides.begin(), sides.end(),
-                     [](const Side& a, const Side& b) { return a.length > b.length; });
-    return sides;
-}
-
 /// Of a quad, or of a triangle over that of an even one.
 double quality_of(std::span<const Vec2> points, const Quad& cell)
 {
@@ -420,15 +397,37 @@ std::size_t sides_of(const PlanarRegion& region)
 
 } // namespace
 
+std::vector<RegionSide> sides_by_length(const PlanarRegion& region)
+{
+    struct Side {
+        RegionSide side;
+        double length; ///< over the size there
+    };
+    std::vector<Side> sides;
+    for (std::size_t l = 0; l < region.loops.size(); ++l) {
+        const std::vector<Index>& loop = region.loops[l];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2& a = region.points[index(loop[i])];
+            const Vec2& b = region.points[index(loop[(i + 1) % loop.size()])];
+            const double size = region.size ? region.size((a + b) / 2) : 1;
+            sides.push_back({{l, i}, (b - a).norm() / size});
+        }
+    }
+    std::ranges::stable_sort(sides, std::ranges::greater{}, &Side::length);
+    std::vector<RegionSide> result;
+    for (const Side& side : sides) result.push_back(side.side);
+    return result;
+}
+
 PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& mesher,
                             const RunContext& context)
 {
     if (sides_of(region) % 2 == 0) return mesher(region, context);
     std::optional<Closed> best;
-    const std::vector<Side> sides = sides_by_length(region);
+    const std::vector<RegionSide> sides = sides_by_length(region);
     const auto middle = static_cast<Index>(region.points.size());
     for (std::size_t s = 0; s < std::min(sides.size(), kMostSides); ++s) {
-        const PlanarRegion divided = divide(region, std::span(&sides[s].side, 1));
+        const PlanarRegion divided = divide(region, std::span(&sides[s], 1));
         const PlanarQuads filled = mesher(divided, context);
         if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))
             best = std::move(closed);

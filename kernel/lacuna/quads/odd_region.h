@@ -6,8 +6,17 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace lacuna::quads {
+
+/// A side of a region's boundary: of one of its loops, from the node at a place of it to the next.
+struct RegionSide {
+    std::size_t loop, place;
+};
+
+/// The sides of a region in the order they are worth dividing: the longest over the size there first.
+std::vector<RegionSide> sides_by_length(const PlanarRegion& region);
 
 /// Fill a region whose boundary may have an odd number of sides: then with quads and one triangle, which is
 /// as few as there can be, and is the last of the quads (`mesh::is_triangle()`).
@@ -23,11 +32,6 @@ namespace lacuna::quads {
 /// @note   Deterministic. A region with an even number of sides is handed to `mesher` as it is.
 PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& mesher,
                             const RunContext& context = {});
-
-/// A side of a region's boundary: of one of its loops, from the node at a place of it to the next.
-struct RegionSide {
-    std::size_t loop, place;
-};
 
 /// Fill a region with some of its sides divided in two, each of which is then closed as `fill_odd_region()`
 /// does: with as many triangles, the last of the quads. No other sides are tried, and nodes near by are

@@ -36,15 +36,12 @@ std::optional<std::vector<int>> counts_for(const CountTask& task)
 bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
 {
     for (const std::vector<Index>& loop : task.region.loops) {
-        const std::size_t n = loop.size();
-        const auto at = [&](std::size_t i) -> const Vec2& { return task.region.points[index(loop[i % n])]; };
         int nodes = 0; // up to here
         std::optional<int> first;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
             const std::size_t own = task.segment_of(loop[i]);
             if (i > 0 && own == task.segment_of(loop[i - 1])) continue;
-            const double angle = paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            if (std::abs(angle - std::numbers::pi) > paving::kTurnsLeftOut) {
+            if (paving::stays(task.region, loop, i)) {
                 if ((nodes - first.value_or(nodes)) % 2 != 0) return false;
                 first = nodes;
             }
@@ -70,6 +67,11 @@ std::optional<std::vector<int>> even_counts(const CountTask& task)
 }
 
 } // namespace
+
+int even_sides(double wanted, int least)
+{
+    return std::max(2 * ((least + 1) / 2), 2 * static_cast<int>(std::lround(wanted / 2)));
+}
 
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
                                                std::span<const BoundarySegment> segments)

@@ -16,6 +16,9 @@ struct BoundarySegment {
     bool fixed = false; ///< its number of sides is given
 };
 
+/// The even number of sides nearest to those wanted that is no fewer than are needed.
+int even_sides(double wanted, int least);
+
 /// More quads than this are made of a quarter as many, and no symmetry is kept (`pave()`): they take long,
 /// and nobody looks at them one by one. A choice, not a measurement.
 inline constexpr double kManyQuads = 20'000;

@@ -161,7 +161,8 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
                   const std::function<double(const Vec2&)>& asked, bool few)
 {
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0}; // choices, not measurements
-    if (!find_fault(attempt.mesh, region).empty()) return false;
+    const Limits& limits = few ? kGoodFew : kGood;
+    if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
     // Where images meet, on an axis or at the centre, each may have a quad too many.
     constexpr Index kMostQuads = 6;
     std::vector<Index> valence(attempt.mesh.points.size(), 0);
@@ -170,15 +171,15 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
             if (++valence[index(p)] > kMostQuads) return false;
         }
     }
-    return reaches(few ? kGoodFew : kGood, attempt, region) && has_quads_asked(attempt.mesh, asked);
+    return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
 }
 
 /// Whether quads of a coarser mesh, cut in four, are so good that nothing else need be tried.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
     constexpr Limits kGood{0.65, 0.97, 0.95}; // choices, not measurements
-    return find_fault(attempt.mesh, region).empty() && reaches(kGood, attempt, region) &&
-           has_quads_asked(attempt.mesh, region.size);
+    return attempt.worst >= kGood.least && find_fault(attempt.mesh, region).empty() &&
+           reaches(kGood, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }
 
 } // namespace

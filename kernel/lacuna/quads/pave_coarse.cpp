@@ -22,15 +22,22 @@ namespace {
 /// Whether the loop is all but straight at every other node, from place `first` on.
 bool can_leave_out(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t first)
 {
-    for (std::size_t i = first, n = loop.size(); i < n; i += 2) {
-        const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
-        const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-        if (std::abs(angle - std::numbers::pi) > kTurnsLeftOut) return false;
-    }
+    for (std::size_t i = first; i < loop.size(); i += 2)
+        if (stays(region, loop, i)) return false;
     return true;
 }
 
 } // namespace
+
+bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place)
+{
+    // 20°, so that round holes keep nine nodes at least. A choice, not a measurement.
+    constexpr double kTurnsLeftOut = std::numbers::pi / 9;
+    const std::size_t n = loop.size();
+    const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
+    const double angle = turn_between(at(place + 1) - at(place), at(place + n - 1) - at(place));
+    return std::abs(angle - std::numbers::pi) > kTurnsLeftOut;
+}
 
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region)
 {
@@ -111,10 +118,8 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
         const std::size_t n = loop.size();
         const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
         std::vector<std::size_t> corners;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            if (std::abs(angle - std::numbers::pi) > kTurnsLeftOut) corners.push_back(i);
-        }
+        for (std::size_t i = 0; i < n; ++i)
+            if (stays(region, loop, i)) corners.push_back(i);
         if (corners.empty()) corners.push_back(0);
         for (std::size_t c = 0; c < corners.size(); ++c) {
             const std::size_t from = corners[c],
@@ -129,26 +134,6 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
         }
     }
     return sides;
-}
-
-/// The longest side of a region with an odd number of them.
-std::optional<RegionSide> side_to_divide(const PlanarRegion& region)
-{
-    std::size_t sides = 0;
-    std::optional<RegionSide> longest;
-    double most = 0;
-    for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        const std::vector<Index>& loop = region.loops[l];
-        for (std::size_t i = 0; i < loop.size(); ++i, ++sides) {
-            const Vec2 &a = region.points[index(loop[i])],
-                       &b = region.points[index(loop[(i + 1) % loop.size()])];
-            const double length = (b - a).norm() / (region.size ? region.size((a + b) / 2) : 1);
-            if (length <= most) continue;
-            most = length;
-            longest = RegionSide{l, i};
-        }
-    }
-    return sides % 2 == 0 ? std::nullopt : longest;
 }
 
 /// Pave a coarse region in one way, and in all others only where that is poor.
@@ -199,9 +184,10 @@ PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, 
     const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
         return pave_once(even, options, report, its_context);
     };
-    if (const auto side = side_to_divide(region)) {
+    const std::vector<RegionSide> by_length = sides_by_length(region);
+    if (by_length.size() % 2 != 0) {
         try {
-            PlanarQuads mesh = fill_divided_region(region, std::span(&*side, 1), once, context);
+            PlanarQuads mesh = fill_divided_region(region, std::span(by_length).first(1), once, context);
             if (least_without_triangles(mesh) > kFair) return mesh;
         } catch (const NotSweepable&) {
             // another side may do

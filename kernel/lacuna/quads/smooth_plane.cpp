@@ -208,14 +208,13 @@ private:
         constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
-        // Right angles alone would draw points together: sides stay this long, of the mean, or as short as
-        // they are. A choice, not a measurement.
-        constexpr double kShort = 0.25;
+        // Right angles alone would draw points together: sides keep this share of the mean, or are as short
+        // as they are.
         const double reach = shortest_side(points_, star, points_[p]);
         double sum = 0;
         for (const Spoke& spoke : star) sum += (points_[index(spoke.next)] - points_[p]).norm();
-        const double shortest = std::max(least_side_[p],
-                                         std::min(reach, kShort * sum / static_cast<double>(star.size())));
+        const double shortest = std::max(
+            least_side_[p], std::min(reach, kShortestKept * sum / static_cast<double>(star.size())));
         const double before = least_sine(points_, star, points_[p]);
         std::size_t first = 0;
         const auto sine_at = [&](const Vec2& to, double floor) {

@@ -54,24 +54,24 @@ bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
 /// What numbers of sides cost; `kNever` where a segment is out of a range.
 class StarCost {
 public:
-    StarCost(const CountTask& task, std::vector<std::size_t> sides, const CountRange& range)
+    StarCost(const CountTask& task, std::vector<std::size_t> sides)
         : task_(task),
           sides_(std::move(sides)),
-          range_(range),
           pairs_(mirrored_segments(task.region, task.segment)),
           asked_(quads_asked(task))
     {
     }
 
-    [[nodiscard]] double operator()(const std::vector<int>& counts) const
+    [[nodiscard]] double operator()(const std::vector<int>& counts, const CountRange& range) const
     {
         constexpr double kQuads = 0.25; // what they are worth, as in `straight_counts()`
         double cost = 0;
         SideCounts side;
         for (const std::size_t s : sides_) {
-            if (!may_be(task_.segments[s], counts[s])) return kNever;
-            const double off = counts[s] - task_.segments[s].wanted;
-            cost += off * off / counts[s];
+            const BoundarySegment& own = task_.segments[s];
+            if (!own.fixed && (counts[s] < own.least || !is_within(range, own.wanted, counts[s])))
+                return kNever;
+            cost += cost_of_sides(own.wanted, counts[s]);
             side.side[side.count++] = counts[s];
         }
         std::array<int, kMostSides> foot{};
@@ -83,23 +83,15 @@ public:
     }
 
 private:
-    [[nodiscard]] bool may_be(const BoundarySegment& own, int count) const
-    {
-        const double share = count / own.wanted;
-        return own.fixed || (count >= own.least && (std::abs(count - own.wanted) <= 1 ||
-                                                    (share >= range_.least && share <= range_.most)));
-    }
-
     const CountTask& task_;
     std::vector<std::size_t> sides_;
-    CountRange range_;
     std::vector<SegmentPair> pairs_;
     double asked_;
 };
 
 /// The best of numbers near a few shares of those wanted; nothing where none may be.
 std::optional<Counts> best_near(const CountTask& task, const std::vector<std::size_t>& sides,
-                                const StarCost& cost_of)
+                                const StarCost& cost_of, const CountRange& range)
 {
     constexpr std::array<double, 11> kShares{1, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 1.05, 1.1, 1.15, 1.2};
     std::optional<Counts> best;
@@ -116,7 +108,7 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 left /= 3;
                 counts.sides[s] = own.fixed ? task.own[s] : std::max(own.least, near + by);
             }
-            counts.cost = cost_of(counts.sides);
+            counts.cost = cost_of(counts.sides, range);
             if (counts.cost < (best ? best->cost : kNever)) best = std::move(counts);
         }
     }
@@ -129,9 +121,10 @@ std::optional<std::vector<int>> star_counts(const CountTask& task)
 {
     const std::vector<std::size_t> sides = sides_of_patch(task);
     if ((sides.size() != 3 && sides.size() != 5) || !is_balanced(task, sides)) return std::nullopt;
+    const StarCost cost_of(task, sides);
     std::optional<Counts> best;
     for (const CountRange& range : {kSegment, kRingSegment}) {
-        auto found = best_near(task, sides, StarCost(task, sides, range));
+        auto found = best_near(task, sides, cost_of, range);
         if (found && (!best || found->cost < best->cost)) best = std::move(found);
         if (best && best->cost < kOff) break;
     }

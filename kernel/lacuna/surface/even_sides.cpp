@@ -139,8 +139,7 @@ void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<
         for (SeedPiece& piece : seeds.pieces.at(edge)) {
             if (piece.fixed || !piece.low.empty() || !piece.high.empty() || piece.sides < quads::kFewestEven)
                 continue;
-            piece.count = std::max(2 * ((piece.least + 1) / 2),
-                                   2 * static_cast<int>(std::lround(piece.sides / 2)));
+            piece.count = quads::even_sides(piece.sides, piece.least);
         }
     }
 }

@@ -49,6 +49,12 @@ inline constexpr CountRange kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 
+/// Whether a number of sides is within a range of those wanted, or one off.
+bool is_within(const CountRange& range, double wanted, int sides);
+
+/// (n − wanted)² / n: alike for a given ratio, above and below; infinite for none.
+double cost_of_sides(double wanted, int sides);
+
 /// Numbers of sides of every segment, and what they cost beside those of other parts of a region.
 struct Counts {
     std::vector<int> sides;
@@ -84,7 +90,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
 /// @param quarter  0 or 1
 void change_both(const CountTask& task, CountedLoop& loop, int quarter);
 
-/// Σ (n − wanted)² / n over the runs: alike for a given ratio, above and below.
+/// Σ `cost_of_sides()` over the runs.
 double sum_of_costs(const CountedLoop& loop);
 
 /// Sides of a segment along a loop.

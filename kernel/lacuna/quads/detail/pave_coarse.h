@@ -5,15 +5,13 @@
 #include <lacuna/quads/pave.h>
 
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 namespace lacuna::quads::paving {
 
-/// A node where the loop turns more stays: 20°, so that round holes keep nine nodes at least. A choice, not a
-/// measurement.
-inline constexpr double kTurnsLeftOut = std::numbers::pi / 9;
+/// Whether a loop turns so much at its node at `place` that the node is not left out.
+bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
 /// A region with every other node of its loops.
 struct CoarseRegion {
