@@ -3,10 +3,11 @@
 
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/sealing.h>
+#include <lacuna/closure/detail/split_loop.h>
+#include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -20,191 +21,6 @@ namespace {
 
 /// A loop is flat where no point of it is further than this share of its length from its plane.
 constexpr double kFlatLoop = 1e-6;
-/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but
-/// for rounding, those of the side of a bent groove are not. A choice, not a measurement.
-constexpr double kParallel = 0.02;
-
-/// A loop in one plane.
-struct FlatLoop {
-    std::vector<EdgeUse> uses;
-};
-
-/// As many uses of a loop from `start` as lie in one plane.
-std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
-{
-    const std::size_t uses = rim.uses.size();
-    std::vector<Vec3> points{model.at(model[use_from(model, rim.uses[start])].point)};
-    std::optional<Vec3> normal;
-    const double tolerance = model.tolerance;
-    for (std::size_t n = 0; n < uses; ++n) {
-        const std::vector<Index> chain = use_points(model, rim.uses[(start + n) % uses]);
-        for (std::size_t i = 1; i < chain.size(); ++i) {
-            const Vec3& p = model.at(chain[i]);
-            if (normal) {
-                if (std::abs((p - points.front()).dot(*normal)) > tolerance) return n;
-                continue;
-            }
-            for (std::size_t k = 1; k < points.size() && !normal; ++k) {
-                const Vec3 across = (points[k] - points.front()).cross(p - points.front());
-                if (across.norm() > tolerance * (points[k] - points.front()).norm())
-                    normal = across.normalized();
-            }
-            points.push_back(p);
-        }
-    }
-    return uses;
-}
-
-/// Part of a loop: `count` uses from `first` on, round its end.
-struct Run {
-    std::size_t first = 0, count = 0;
-};
-
-std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
-{
-    std::vector<EdgeUse> uses;
-    for (std::size_t k = 0; k < run.count; ++k) uses.push_back(rim.uses[(run.first + k) % rim.uses.size()]);
-    return uses;
-}
-
-/// What of a loop lies between the r-th of some runs and the next. @pre they rise and do not overlap
-Run between(const Rim& rim, const std::vector<Run>& runs, std::size_t r)
-{
-    const std::size_t end = runs[r].first + runs[r].count;
-    const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
-    return {end, next - end};
-}
-
-/// Whether some rising runs of a loop go on past each other.
-bool overlap(const Rim& rim, const std::vector<Run>& runs)
-{
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
-        if (runs[r].first + runs[r].count > next) return true;
-    }
-    return false;
-}
-
-/// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
-std::vector<FlatLoop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
-{
-    std::vector<FlatLoop> parts(runs.size() + 1);
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-        parts[r].uses = uses_of(rim, runs[r]);
-        const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
-        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
-        parts[r].uses.push_back({edge, true});
-        parts.back().uses.push_back({edge, false});
-        const std::vector<EdgeUse> rest = uses_of(rim, between(rim, runs, r));
-        parts.back().uses.insert(parts.back().uses.end(), rest.begin(), rest.end());
-    }
-    return parts;
-}
-
-/// Where to part a loop that lies in two planes.
-std::optional<Run> half_run(const std::vector<std::size_t>& run)
-{
-    const std::size_t uses = run.size();
-    for (std::size_t i = 0; i < uses; ++i) {
-        const std::size_t first = run[i], j = (i + first) % uses;
-        if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
-        // Runs that go on past each other leave several places to part them: none is more right.
-        if (run[j] == uses - first) return Run{i, first};
-    }
-    return std::nullopt;
-}
-
-/// The faces at the free edges.
-std::vector<FaceId> faces_at_edges(const Model& model)
-{
-    std::vector<FaceId> at(model.edges.size());
-    for (const FaceId face : all_faces(model))
-        for (const Loop& loop : model[face].loops)
-            for (const EdgeUse& use : loop.uses) at[use.edge.index()] = face;
-    return at;
-}
-
-/// How often an open chain of points changes its direction.
-std::size_t turns(const std::vector<Vec3>& chain)
-{
-    std::size_t count = 0;
-    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-        const Vec3 a = chain[i] - chain[i - 1], b = chain[i + 1] - chain[i];
-        count += a.cross(b).norm() > kFlatLoop * a.norm() * b.norm() ? 1 : 0;
-    }
-    return count;
-}
-
-/// The ends of a groove: runs of a loop that lie in planes of their own, where no given face does, and are no
-/// mere corners, which two straight edges are.
-std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
-{
-    const std::size_t uses = rim.uses.size();
-    const std::vector<FaceId> at = faces_at_edges(model);
-    std::vector<Run> ends;
-    for (std::size_t i = 0; i < uses; ++i) {
-        if (run[i] == 0 || run[i] == uses) continue;
-        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
-        const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
-        const std::vector<std::vector<Vec3>> points{use_places(model, own)};
-        if (turns(points.front()) < 2) continue;
-        const geometry::Plane plane = geometry::newell_plane(points);
-        const bool given = std::ranges::all_of(
-            own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
-        if (!given) ends.push_back({i, run[i]});
-    }
-    return ends;
-}
-
-/// The way a groove runs: that of the straight edges of its mouth, from end to end.
-/// @return  nothing where one is bent or they are not parallel.
-std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
-{
-    std::optional<Vec3> way;
-    for (std::size_t r = 0; r < ends.size(); ++r) {
-        const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
-        if (own.empty()) continue;
-        const std::vector<Vec3> chain = use_places(model, own);
-        if (turns(chain) > 0) continue; // across the mouth, where an end is given
-        const Vec3 along = (chain.back() - chain.front()).normalized();
-        if (way && way->cross(along).norm() > kParallel) return std::nullopt;
-        way = along;
-    }
-    return way;
-}
-
-/// Whether all faces that are not flat go along `way`. Beside a groove that is bent they do not: there the
-/// rim's long sides lie in planes of their own, and its ends are where the straight edges are.
-bool all_go_along(const Model& model, const Vec3& way)
-{
-    return std::ranges::all_of(all_faces(model), [&](FaceId face) {
-        std::vector<Vec3> normals;
-        for (const Triangle& t : model[face].triangles)
-            normals.push_back(
-                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized());
-        const bool along = std::ranges::all_of(
-            normals, [&](const Vec3& n) { return std::abs(n.dot(way)) <= kParallel; });
-        return along || std::ranges::all_of(normals, [&](const Vec3& n) {
-                   return n.cross(normals.front()).norm() <= kParallel;
-               });
-    });
-}
-
-/// A loop that is not flat as flat ones with straight void edges between them: two, or those of a groove's
-/// ends and of its mouth.
-std::optional<std::vector<FlatLoop>> split_flat(Model& model, const Rim& rim)
-{
-    std::vector<std::size_t> run;
-    for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
-    if (const auto half = half_run(run)) return cut_off(model, rim, {*half});
-    const std::vector<Run> ends = groove_ends(model, rim, run);
-    if (ends.size() < 2 || overlap(rim, ends)) return std::nullopt;
-    const std::optional<Vec3> way = way_of(model, rim, ends);
-    if (!way || !all_go_along(model, *way)) return std::nullopt;
-    std::vector<FlatLoop> parts = cut_off(model, rim, ends);
-    if (!is_flat(model, {parts.back().uses})) return std::nullopt;
-    return parts;
-}
 
 /// Loops that lie in one plane.
 struct Coplanar {
@@ -212,7 +28,7 @@ struct Coplanar {
     std::vector<std::size_t> loops;
 };
 
-std::vector<Coplanar> by_plane(const Model& model, const std::vector<FlatLoop>& loops)
+std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loops)
 {
     std::vector<Coplanar> planes;
     for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -229,6 +45,55 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<FlatLoop>& 
             planes.push_back({geometry::newell_plane(loop), {i}});
     }
     return planes;
+}
+
+/// The free loops of a filling's faces, those in several planes parted.
+struct ToFill {
+    std::vector<Loop> flat, bent;
+};
+
+std::optional<ToFill> loops_to_fill(FlatFilling& filling)
+{
+    Model& model = filling.volume.model;
+    ToFill result;
+    for (const Rim& rim : free_loops(filling.volume)) {
+        if (is_flat(model, rim)) {
+            result.flat.push_back({rim.uses});
+            continue;
+        }
+        const std::size_t edges = model.edges.size();
+        auto split = split_loop(model, rim);
+        if (!split) return std::nullopt;
+        for (std::size_t e = edges; e < model.edges.size(); ++e) filling.closure.void_edges.emplace_back(e);
+        for (Loop& part : split->parts)
+            (is_flat(model, {part.uses}) ? result.flat : result.bent).push_back(std::move(part));
+        filling.each_alone = false;
+        filling.channel = filling.channel || split->channel;
+    }
+    return result;
+}
+
+void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunContext& context)
+{
+    Model& model = filling.volume.model;
+    for (const Coplanar& one : by_plane(model, loops)) {
+        check_cancelled(context);
+        std::vector<std::vector<Vec2>> flat;
+        for (const std::size_t loop : one.loops) {
+            flat.emplace_back();
+            for (const Vec3& p : loop_places(model, loops[loop].uses))
+                flat.back().push_back(geometry::to_plane(one.plane, p));
+        }
+        for (const std::vector<std::size_t>& region : regions_of(flat)) {
+            std::vector<std::vector<EdgeUse>> bounds;
+            for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
+            filling.each_alone = filling.each_alone && region.size() == 1;
+            const FaceId face = add_partition(model, bounds, one.plane, context);
+            model[face].name.clear();
+            filling.volume.role.push_back(Role::wall);
+            filling.closure.void_faces.push_back(face);
+        }
+    }
 }
 
 } // namespace
@@ -261,37 +126,16 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
-    std::vector<FlatLoop> loops;
-    for (const Rim& rim : free_loops(volume)) {
-        if (is_flat(volume.model, rim)) {
-            loops.push_back({rim.uses});
-            continue;
+    const std::optional<ToFill> loops = loops_to_fill(result);
+    if (!loops) return std::nullopt;
+    fill_flat(result, loops->flat, context);
+    try {
+        for (const Loop& loop : loops->bent) {
+            VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
+            result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
         }
-        const std::size_t edges = volume.model.edges.size();
-        auto parts = split_flat(volume.model, rim);
-        if (!parts) return std::nullopt;
-        for (std::size_t e = edges; e < volume.model.edges.size(); ++e)
-            result.closure.void_edges.emplace_back(e);
-        loops.insert(loops.end(), parts->begin(), parts->end());
-        result.each_alone = false;
-    }
-    for (const Coplanar& one : by_plane(volume.model, loops)) {
-        check_cancelled(context);
-        std::vector<std::vector<Vec2>> flat;
-        for (const std::size_t loop : one.loops) {
-            flat.emplace_back();
-            for (const Vec3& p : loop_places(volume.model, loops[loop].uses))
-                flat.back().push_back(geometry::to_plane(one.plane, p));
-        }
-        for (const std::vector<std::size_t>& region : regions_of(flat)) {
-            std::vector<std::vector<EdgeUse>> bounds;
-            for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
-            result.each_alone = result.each_alone && region.size() == 1;
-            const FaceId face = add_partition(volume.model, bounds, one.plane, context);
-            volume.model[face].name.clear();
-            volume.role.push_back(Role::wall);
-            result.closure.void_faces.push_back(face);
-        }
+    } catch (const NotClosed&) {
+        return std::nullopt;
     }
     build_loops(volume.model);
     orient_consistently(volume.model);

@@ -20,16 +20,6 @@ namespace {
 /// A choice, not a measurement.
 constexpr double kCorner = 30;
 
-/// Whether a loop turns sharply where one use goes over into the next.
-bool turns(const Model& model, EdgeUse before, EdgeUse after)
-{
-    std::vector<Vec3> back = use_places(model, after);
-    std::reverse(back.begin(), back.end());
-    const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
-               leaves = -geometry::end_tangent(back);
-    return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
-}
-
 /// How unlike the first and the third side are for a patch moved along the others.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
@@ -51,12 +41,21 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
 
 } // namespace
 
+bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
+{
+    std::vector<Vec3> back = use_places(model, after);
+    std::reverse(back.begin(), back.end());
+    const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
+               leaves = -geometry::end_tangent(back);
+    return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
+}
+
 std::vector<std::vector<EdgeUse>> four_corners(const Model& model, const Loop& loop)
 {
     const std::size_t uses = loop.uses.size();
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < uses; ++i)
-        if (turns(model, loop.uses[(i + uses - 1) % uses], loop.uses[i])) corners.push_back(i);
+        if (turns_sharply(model, loop.uses[(i + uses - 1) % uses], loop.uses[i])) corners.push_back(i);
     if (corners.size() != 4) return {};
     std::vector<std::vector<EdgeUse>> sides(4);
     for (std::size_t c = 0; c < 4; ++c) {

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/bowl.h>
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
@@ -70,6 +71,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.volume = sealed->volume;
     reading.closure = sealed->closure;
     reading.enclosed = sealed->enclosed;
+    reading.guess = guess_of(model, faces, *sealed);
     if (low.empty()) {
         for (Role& role : reading.volume.role)
             role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;

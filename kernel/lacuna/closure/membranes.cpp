@@ -79,6 +79,12 @@ bool is_membrane(const Model& model, FaceId face)
 
 } // namespace
 
+bool is_about_flat(const Model& model, FaceId face)
+{
+    const Heights heights = heights_of(model, face);
+    return heights.bulge() <= kFlat * heights.extent();
+}
+
 bool bends_as_rim(const Model& model, FaceId face)
 {
     const Heights heights = heights_of(model, face);

@@ -7,6 +7,8 @@
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
+#include <lacuna/geometry/segment.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <limits>
@@ -31,10 +33,25 @@ constexpr std::size_t kMostListed = 8;
 std::string plain(double value) { return with_digits(value, 4); }
 
 /// The void that flat faces close, where these are not one for each free loop.
-std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+/// Whether a void edge goes further from its chord than a half circle does.
+bool detours(const Void& v)
+{
+    const Model& model = v.sealed.volume.model;
+    return std::ranges::any_of(v.sealed.closure.void_edges, [&](EdgeId edge) {
+        const std::vector<Vec3> chain = use_places(model, {edge, false});
+        return std::ranges::any_of(chain, [&](const Vec3& p) {
+            return geometry::distance_to_segment(p, chain.front(), chain.back()) >
+                   (chain.back() - chain.front()).norm() / 2;
+        });
+    });
+}
+
+/// @param told  whether a void is known whose bends are told: then no channel is guessed
+std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
+                              const RunContext& context)
 {
     auto filled = fill_flat_loops(model, faces, context);
-    if (!filled || filled->each_alone) return std::nullopt;
+    if (!filled || filled->each_alone || (told && filled->channel)) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
     Void found;
@@ -44,7 +61,9 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.filled = "sealed by flat faces within its free loops";
+    found.filled = filled->channel ? "sealed by ends that are alike and a wall between them"
+                                   : "sealed by flat faces within its free loops";
+    found.channel = filled->channel;
     return found;
 }
 
@@ -95,7 +114,8 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         }
     }
     if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
-    if (auto filled = fill_flat(model, faces, context)) add_filled(found, std::move(*filled));
+    const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
+    if (auto filled = fill_flat(model, faces, told, context)) add_filled(found, std::move(*filled));
     take_moved(model, faces, found, context);
     std::vector<Reading> readings;
     for (Void& now : found) {

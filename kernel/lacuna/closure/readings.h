@@ -69,7 +69,11 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// without membranes enclose one void, that is taken instead.
 ///
 /// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
-/// one more void.
+/// one more void. So is a channel without its ends and a wall where nothing else tells: the free loop's runs
+/// in two planes are its ends where they are alike.
+///
+/// A void whose bends nothing tells gives way to one with flat faces, and is a guess where it stands alone:
+/// `Reading::guess` says what is not told.
 /// @return  empty where no reading passes.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 /// @note  O(facets log facets) for each reading that is sealed; no more than 24 are. Readings that only fill

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/steps.h>
@@ -31,9 +32,6 @@ constexpr double kSameSkin = 0.02;
 /// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
 /// likelier. A choice, not a measurement.
 constexpr double kBentVoid = 0.5;
-/// A membrane leaves the shape in doubt where more than this share of what is enclosed lies beside its plane.
-/// A choice: tops that bend by a few hundredths of the height stay below it.
-constexpr double kDoubt = 0.05;
 
 /// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
 /// several loops.
@@ -116,13 +114,47 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
 }
 
+/// Whether a void is closed by about flat faces between ends, or by ends that are alike.
+bool is_settled(const Void& v)
+{
+    if (v.untold || !v.filled.empty()) return v.channel;
+    return std::ranges::all_of(v.sealed.closure.void_faces,
+                               [&](FaceId face) { return is_about_flat(v.sealed.volume.model, face); });
+}
+
+/// Keep those about as likely as the likeliest. What bends as nothing tells gives way to what is settled.
 void keep_likely(std::vector<Void>& found)
 {
+    if (std::ranges::any_of(found, is_settled)) std::erase_if(found, &Void::untold);
     std::stable_sort(found.begin(), found.end(),
                      [](const Void& a, const Void& b) { return a.cost < b.cost; });
     std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
         return v.cost > least + RoleOptions{}.margin;
     });
+}
+
+/// Add a reading to the void that it encloses. One that bends as nothing tells gives way to those that
+/// enclose the same and do not: closed by its roles, the void would bend so.
+void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed sealed, bool fills_flat)
+{
+    Void now;
+    now.cost = cost_of(candidate, sealed);
+    now.first = candidate;
+    now.ways.push_back(candidate);
+    now.untold = bends_untold(sealed);
+    now.fills_flat_loops = fills_flat;
+    now.sealed = std::move(sealed);
+    const auto same = std::ranges::find_if(
+        found, [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); });
+    if (same == found.end()) {
+        found.push_back(std::move(now));
+    } else if (same->untold == now.untold) {
+        same->ways.push_back(candidate);
+        same->fills_flat_loops = same->fills_flat_loops || fills_flat;
+    } else if (same->untold) {
+        now.cost = std::min(now.cost, same->cost);
+        *same = std::move(now);
+    }
 }
 
 /// The faces round each free loop that is not flat and leaves open how its inside bends.
@@ -141,19 +173,6 @@ std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, cons
             round.back().push_back(faces[uses[use.edge.index()].front().face.index()]);
     }
     return round;
-}
-
-/// What lies between a void face and the plane through its middle [model length³].
-double beside_plane(const Model& model, FaceId face)
-{
-    const Vec3 middle = face_centroid(model, face);
-    const Vec3 normal = face_area_vector(model, face).stableNormalized();
-    double sum = 0;
-    for (const Triangle& t : model[face].triangles) {
-        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-        sum += std::abs(((a + b + c) / 3 - middle).dot(normal) * (b - a).cross(c - a).dot(normal)) / 2;
-    }
-    return sum;
 }
 
 } // namespace
@@ -197,31 +216,6 @@ std::vector<FaceId> as_named(const Roles& roles)
     return faces;
 }
 
-std::string guess_of(const Model& model, const Void& found)
-{
-    const Model& own = found.sealed.volume.model;
-    const std::vector<FaceId> given = as_named(found.first.roles);
-    const auto uses = edge_uses(own);
-    for (const FaceId face : membranes(own, found.sealed.closure.void_faces)) {
-        if (beside_plane(own, face) < kDoubt * found.sealed.enclosed || bends_as_rim(own, face)) continue;
-        std::set<int> round;
-        for (const Loop& loop : own[face].loops)
-            for (const EdgeUse& use : loop.uses)
-                for (const FaceUse& by : uses[use.edge.index()])
-                    if (by.face.index() < given.size()) round.insert(model[given[by.face.index()]].tag);
-        constexpr std::size_t kMostNamed = 12;
-        std::string tags;
-        for (std::size_t i = 0; const int tag : round) {
-            if (i++ < kMostNamed) tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
-        }
-        if (round.size() > kMostNamed) tags += " … (" + std::to_string(round.size()) + " in all)";
-        return "nothing given tells how the face missing beside " +
-               std::string(round.size() == 1 ? "face " : "the faces ") + tags +
-               " bends: its rim lies in no plane";
-    }
-    return {};
-}
-
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
                         bool settled, const RunContext& context)
 {
@@ -240,14 +234,7 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
         std::optional<Sealed> now = seal(model, candidate.roles, context);
         if (now || settled) ++sealed;
         if (!now || (settled && has_membranes(*now))) continue;
-        auto same = std::find_if(found.begin(), found.end(),
-                                 [&](const Void& v) { return enclose_the_same(v.sealed, *now); });
-        if (same == found.end())
-            same = found.insert(found.end(),
-                                Void{cost_of(candidate, *now), candidate, std::move(*now), {}, false, {}});
-        same->ways.push_back(candidate);
-
-        same->fills_flat_loops = same->fills_flat_loops || flat;
+        add_sealed(found, candidate, std::move(*now), flat);
     }
     keep_likely(found);
     return found;
@@ -304,7 +291,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         const auto end = std::ranges::find_if(
             ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
         // A face that is not told how it bends gives way to the moved end.
-        if (end != ends.end()) same.push_back(has_membranes(v.sealed) ? *end : v);
+        if (end != ends.end()) same.push_back(v.untold || has_membranes(v.sealed) ? *end : v);
     }
     if (!same.empty())
         found = std::move(same);
@@ -320,7 +307,11 @@ void add_filled(std::vector<Void>& found, Void filled)
         found, [&](const Void& v) { return enclose_the_same(v.sealed, filled.sealed); });
     if (known == found.end()) {
         found.push_back(std::move(filled));
-    } else if (filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
+    } else if (known->untold ||
+               filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
+        if (known->untold) known->ways.clear(); // closed by their roles it would bend as nothing tells
+        known->untold = filled.untold;
+        known->channel = filled.channel;
         known->first = std::move(filled.first);
         known->sealed = std::move(filled.sealed);
         known->filled = std::move(filled.filled);

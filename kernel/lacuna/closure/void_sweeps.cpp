@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/void_sweeps.h>
 
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
@@ -180,7 +181,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
-    reading.guess = guess_of(model, found);
+    reading.guess = guess_of(model, as_named(found.first.roles), found.sealed);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = as_named(first.roles);

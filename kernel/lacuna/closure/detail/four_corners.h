@@ -7,6 +7,9 @@
 
 namespace lacuna::closure {
 
+/// Whether a loop turns sharply where one use goes over into the next.
+bool turns_sharply(const topology::Model& model, topology::EdgeUse before, topology::EdgeUse after);
+
 /// The four sides of a loop that turns sharply at four of its vertices, in walking order; empty where it
 /// turns at more or fewer.
 ///

@@ -16,4 +16,7 @@ std::vector<FaceId> membranes(const topology::Model& model, const std::vector<Fa
 /// tells how the face bends.
 bool bends_as_rim(const topology::Model& model, FaceId face);
 
+/// Whether no point of a face is further off its plane than a small share of its extent.
+bool is_about_flat(const topology::Model& model, FaceId face);
+
 } // namespace lacuna::closure

@@ -21,7 +21,9 @@ struct Void {
     topology::RoleCandidate first;             ///< by which it was sealed
     Sealed sealed;                             ///< as that seals it
     std::vector<topology::RoleCandidate> ways; ///< the likeliest first
+    bool untold = false;                       ///< whether a void face bends as nothing given tells
     bool fills_flat_loops = false;             ///< all that is missing
+    bool channel = false;                      ///< whether it was sealed by two ends that are alike
     std::string filled;                        ///< how it was sealed where that was by no roles, in words
 };
 
@@ -39,9 +41,6 @@ bool leaves_open(const Sealed& sealed);
 
 /// The faces of the model in the order that a volume with these roles has them.
 std::vector<FaceId> as_named(const topology::Roles& roles);
-
-/// What of a void's shape nothing given tells, in words; empty where all is told.
-std::string guess_of(const topology::Model& model, const Void& found);
 
 /// Readings of the given faces, sealed and sorted by what they enclose.
 /// @param most     as many are sealed

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/detail/sealed_voids.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Whether a void face is bent in a way that nothing given tells, as `guess_of()` says.
+bool bends_untold(const Sealed& sealed);
+
+/// What of a sealed volume's shape nothing given tells, in words; empty where all is told.
+///
+/// - A bent void face whose rim says nothing of its inside: a membrane, or one with more than four corners.
+/// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
+///   there.
+/// - A hole of a given face that is closed in its plane, though an end away from it is missing as well: the
+///   hole may go through. Faces that look into the void, as those of a counterbore do, leave no such doubt.
+/// @param given  the faces of `model` that are the volume's first
+std::string guess_of(const topology::Model& model, const std::vector<FaceId>& given, const Sealed& sealed);
+
+} // namespace lacuna::closure

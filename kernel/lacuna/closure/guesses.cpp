@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/guesses.h>
+
+#include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/membranes.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/use_places.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A bent face leaves the shape in doubt where more than this share of what is enclosed lies beside its
+/// plane. A choice: tops that bend by a few hundredths of the height stay below it.
+constexpr double kDoubt = 0.05;
+
+/// What lies between a void face and the plane through its middle [model length³].
+double beside_plane(const Model& model, FaceId face)
+{
+    const Vec3 middle = face_centroid(model, face);
+    const Vec3 normal = face_area_vector(model, face).stableNormalized();
+    double sum = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+        sum += std::abs(((a + b + c) / 3 - middle).dot(normal) * (b - a).cross(c - a).dot(normal)) / 2;
+    }
+    return sum;
+}
+
+bool is_far_off_plane(const Sealed& sealed, FaceId face)
+{
+    return beside_plane(sealed.volume.model, face) >= kDoubt * sealed.enclosed;
+}
+
+bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
+
+/// Whether some uses that go on from each other lie in one plane.
+bool in_one_plane(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    const std::vector<std::vector<Vec3>> chain{use_places(model, uses)};
+    const geometry::Plane plane = geometry::newell_plane(chain);
+    return std::ranges::all_of(chain.front(), [&](const Vec3& p) {
+        return std::abs(geometry::height(plane, p)) <= model.tolerance;
+    });
+}
+
+/// Whether given edges of a loop, from one on, go round two corners in one plane.
+bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
+{
+    std::vector<EdgeUse> run;
+    int corners = 0;
+    for (std::size_t k = 0; k < loop.uses.size(); ++k) {
+        const EdgeUse use = loop.uses[(first + k) % loop.uses.size()];
+        if (is_void(model, use.edge)) return false;
+        if (!run.empty() && turns_sharply(model, run.back(), use)) ++corners;
+        run.push_back(use);
+        if (run.size() > 1 && !in_one_plane(model, run)) return false;
+        if (corners == 2) return true;
+    }
+    return false;
+}
+
+std::size_t corners_of(const Model& model, const Loop& loop)
+{
+    const std::size_t uses = loop.uses.size();
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < uses; ++i)
+        corners += turns_sharply(model, loop.uses[(i + uses - 1) % uses], loop.uses[i]) ? 1 : 0;
+    return corners;
+}
+
+/// Whether a void face is bent between its sides and not by its heights over its plane.
+bool is_stretched(const Model& model, FaceId face)
+{
+    return model[face].geometry != Geometry::newell && !is_about_flat(model, face);
+}
+
+/// Whether a void face is bent and its rim does not tell how.
+bool is_open(const Sealed& sealed, FaceId face)
+{
+    const Model& model = sealed.volume.model;
+    if (!is_far_off_plane(sealed, face) || bends_as_rim(model, face)) return false;
+    const std::vector<Loop>& loops = model[face].loops;
+    return !membranes(model, {face}).empty() ||
+           (is_stretched(model, face) && loops.size() == 1 && corners_of(model, loops.front()) > 4);
+}
+
+/// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
+/// may be.
+bool leaves_plane(const Model& model, FaceId face)
+{
+    return is_stretched(model, face) && std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
+               const bool given = std::ranges::none_of(
+                   loop.uses, [&](const EdgeUse& use) { return is_void(model, use.edge); });
+               if (given && corners_of(model, loop) <= 4) return false;
+               for (std::size_t first = 0; first < loop.uses.size(); ++first)
+                   if (goes_round_plane(model, loop, first)) return true;
+               return false;
+           });
+}
+
+bool is_untold(const Sealed& sealed, FaceId face)
+{
+    return leaves_plane(sealed.volume.model, face) || is_open(sealed, face);
+}
+
+/// The tags of some faces, the first of many.
+std::string in_words(const std::set<int>& tags)
+{
+    constexpr std::size_t kMostNamed = 12;
+    std::string text = tags.size() == 1 ? "face " : "the faces ";
+    for (std::size_t i = 0; const int tag : tags) {
+        if (i == kMostNamed) return text + " … (" + std::to_string(tags.size()) + " in all)";
+        text += (i++ == 0 ? "" : ", ") + std::to_string(tag);
+    }
+    return text;
+}
+
+/// The given face in whose plane a void face closes a hole of it, if it does.
+std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                      FaceId filler)
+{
+    std::set<FaceId> round;
+    for (const Loop& loop : model[filler].loops)
+        for (const EdgeUse& use : loop.uses)
+            for (const FaceUse& by : uses[use.edge.index()])
+                if (by.face != filler) round.insert(by.face);
+    if (round.size() != 1 || model[*round.begin()].loops.size() < 2) return std::nullopt;
+    const auto plane = plane_of(model, *round.begin());
+    if (!plane || !lies_in_plane(model, filler, *plane)) return std::nullopt;
+    return *round.begin();
+}
+
+std::set<VertexId> vertices_of(const Model& model, FaceId face)
+{
+    std::set<VertexId> result;
+    for (const Loop& loop : model[face].loops)
+        for (const EdgeUse& use : loop.uses) result.insert(use_from(model, use));
+    return result;
+}
+
+/// Whether a void face lies away from a given one: they have no vertex in common.
+bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
+{
+    const std::set<VertexId> own = vertices_of(model, face);
+    return std::ranges::any_of(void_faces, [&](FaceId other) {
+        return std::ranges::none_of(vertices_of(model, other), [&](VertexId v) { return own.contains(v); });
+    });
+}
+
+/// Whether the given faces look into the volume that was sealed, as those of a hollow in a solid do.
+bool look_inward(const Model& model, const std::vector<FaceId>& given, const Model& sealed)
+{
+    const auto normal = [](const Model& of, FaceId face) {
+        const Triangle& t = of[face].triangles.front();
+        return (of.at(t[1]) - of.at(t[0])).cross(of.at(t[2]) - of.at(t[0]));
+    };
+    for (std::size_t f = 0; f < given.size(); ++f)
+        if (normal(model, given[f]).dot(normal(sealed, FaceId(f))) > 0) return false;
+    return true;
+}
+
+std::string guess_of_bent(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+{
+    const Model& own = sealed.volume.model;
+    const auto uses = edge_uses(own);
+    for (const FaceId face : sealed.closure.void_faces) {
+        if (!is_untold(sealed, face) || !is_far_off_plane(sealed, face)) continue;
+        std::set<int> round;
+        for (const Loop& loop : own[face].loops)
+            for (const EdgeUse& use : loop.uses)
+                for (const FaceUse& by : uses[use.edge.index()])
+                    if (by.face.index() < given.size()) round.insert(model[given[by.face.index()]].tag);
+        return "nothing given tells how what is missing beside " + in_words(round) +
+               " bends: its rim lies in no plane";
+    }
+    return {};
+}
+
+std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+{
+    const Model& own = sealed.volume.model;
+    const auto uses = edge_uses(own);
+    for (const FaceId face : sealed.closure.void_faces) {
+        const auto round = face_round_hole(own, uses, face);
+        if (!round || round->index() >= given.size()) continue;
+        if (!is_end_away_from(own, sealed.closure.void_faces, *round)) continue;
+        if (look_inward(model, given, own)) continue;
+        return "nothing given tells what is behind the hole of " + name_of(model, given[round->index()]) +
+               ": its walls are missing, and so is an end to which it may go through";
+    }
+    return {};
+}
+
+} // namespace
+
+bool bends_untold(const Sealed& sealed)
+{
+    return std::ranges::any_of(sealed.closure.void_faces,
+                               [&](FaceId face) { return is_untold(sealed, face); });
+}
+
+std::string guess_of(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+{
+    const std::string bent = guess_of_bent(model, given, sealed);
+    return bent.empty() ? guess_of_holes(model, given, sealed) : bent;
+}
+
+} // namespace lacuna::closure

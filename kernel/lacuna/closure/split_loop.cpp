@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/split_loop.h>
+
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/use_places.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Sine of the angle up to which a chain goes straight on.
+constexpr double kStraight = 1e-6;
+/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but
+/// for rounding, those of the side of a bent groove are not. A choice, not a measurement.
+constexpr double kParallel = 0.02;
+/// Ends are alike where one lies on the other, moved, but for this share of its length: what facets cut off
+/// round sides, and more. A choice, not a measurement.
+constexpr double kAlike = 0.005;
+
+/// As many uses of a loop from `start` as lie in one plane.
+std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
+{
+    const std::size_t uses = rim.uses.size();
+    std::vector<Vec3> points{model.at(model[use_from(model, rim.uses[start])].point)};
+    std::optional<Vec3> normal;
+    const double tolerance = model.tolerance;
+    for (std::size_t n = 0; n < uses; ++n) {
+        const std::vector<Index> chain = use_points(model, rim.uses[(start + n) % uses]);
+        for (std::size_t i = 1; i < chain.size(); ++i) {
+            const Vec3& p = model.at(chain[i]);
+            if (normal) {
+                if (std::abs((p - points.front()).dot(*normal)) > tolerance) return n;
+                continue;
+            }
+            for (std::size_t k = 1; k < points.size() && !normal; ++k) {
+                const Vec3 across = (points[k] - points.front()).cross(p - points.front());
+                if (across.norm() > tolerance * (points[k] - points.front()).norm())
+                    normal = across.normalized();
+            }
+            points.push_back(p);
+        }
+    }
+    return uses;
+}
+
+/// Part of a loop: `count` uses from `first` on, round its end.
+struct Run {
+    std::size_t first = 0, count = 0;
+};
+
+std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
+{
+    std::vector<EdgeUse> uses;
+    for (std::size_t k = 0; k < run.count; ++k) uses.push_back(rim.uses[(run.first + k) % rim.uses.size()]);
+    return uses;
+}
+
+/// What of a loop lies between the r-th of some runs and the next. @pre they rise and do not overlap
+Run between(const Rim& rim, const std::vector<Run>& runs, std::size_t r)
+{
+    const std::size_t end = runs[r].first + runs[r].count;
+    const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
+    return {end, next - end};
+}
+
+/// Whether some rising runs of a loop go on past each other.
+bool overlap(const Rim& rim, const std::vector<Run>& runs)
+{
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
+        if (runs[r].first + runs[r].count > next) return true;
+    }
+    return false;
+}
+
+/// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
+std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
+{
+    std::vector<Loop> parts(runs.size() + 1);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        parts[r].uses = uses_of(rim, runs[r]);
+        const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
+        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
+        parts[r].uses.push_back({edge, true});
+        parts.back().uses.push_back({edge, false});
+        const std::vector<EdgeUse> rest = uses_of(rim, between(rim, runs, r));
+        parts.back().uses.insert(parts.back().uses.end(), rest.begin(), rest.end());
+    }
+    return parts;
+}
+
+/// Where to part a loop that lies in two planes.
+std::optional<Run> half_run(const std::vector<std::size_t>& run)
+{
+    const std::size_t uses = run.size();
+    for (std::size_t i = 0; i < uses; ++i) {
+        const std::size_t first = run[i], j = (i + first) % uses;
+        if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
+        // Runs that go on past each other leave several places to part them: none is more right.
+        if (run[j] == uses - first) return Run{i, first};
+    }
+    return std::nullopt;
+}
+
+/// The faces at the free edges.
+std::vector<FaceId> faces_at_edges(const Model& model)
+{
+    std::vector<FaceId> at(model.edges.size());
+    for (const FaceId face : all_faces(model))
+        for (const Loop& loop : model[face].loops)
+            for (const EdgeUse& use : loop.uses) at[use.edge.index()] = face;
+    return at;
+}
+
+/// How often an open chain of points changes its direction.
+std::size_t turns(const std::vector<Vec3>& chain)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+        const Vec3 a = chain[i] - chain[i - 1], b = chain[i + 1] - chain[i];
+        count += a.cross(b).norm() > kStraight * a.norm() * b.norm() ? 1 : 0;
+    }
+    return count;
+}
+
+/// The ends of a groove: runs of a loop that lie in planes of their own, where no given face does, and are no
+/// mere corners, which two straight edges are.
+std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
+{
+    const std::size_t uses = rim.uses.size();
+    const std::vector<FaceId> at = faces_at_edges(model);
+    std::vector<Run> ends;
+    for (std::size_t i = 0; i < uses; ++i) {
+        if (run[i] == 0 || run[i] == uses) continue;
+        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
+        const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
+        const std::vector<std::vector<Vec3>> points{use_places(model, own)};
+        if (turns(points.front()) < 2) continue;
+        const geometry::Plane plane = geometry::newell_plane(points);
+        const bool given = std::ranges::all_of(
+            own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
+        if (!given) ends.push_back({i, run[i]});
+    }
+    return ends;
+}
+
+/// The way a groove runs: that of the straight edges of its mouth, from end to end.
+/// @return  nothing where one is bent or they are not parallel.
+std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
+{
+    std::optional<Vec3> way;
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+        const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
+        if (own.empty()) continue;
+        const std::vector<Vec3> chain = use_places(model, own);
+        if (turns(chain) > 0) continue; // across the mouth, where an end is given
+        const Vec3 along = (chain.back() - chain.front()).normalized();
+        if (way && way->cross(along).norm() > kParallel) return std::nullopt;
+        way = along;
+    }
+    return way;
+}
+
+/// Whether all faces that are not flat go along `way`. Beside a groove that is bent they do not: there the
+/// rim's long sides lie in planes of their own, and its ends are where the straight edges are.
+bool all_go_along(const Model& model, const Vec3& way)
+{
+    return std::ranges::all_of(all_faces(model), [&](FaceId face) {
+        std::vector<Vec3> normals;
+        for (const Triangle& t : model[face].triangles)
+            normals.push_back(
+                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized());
+        const bool along = std::ranges::all_of(
+            normals, [&](const Vec3& n) { return std::abs(n.dot(way)) <= kParallel; });
+        return along || std::ranges::all_of(normals, [&](const Vec3& n) {
+                   return n.cross(normals.front()).norm() <= kParallel;
+               });
+    });
+}
+
+/// Whether one run of a loop, walked back, is another that was turned and shifted.
+bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
+{
+    constexpr std::size_t kPieces = 32;
+    std::vector<Vec3> from = use_places(model, uses_of(rim, a)), to = use_places(model, uses_of(rim, b));
+    std::ranges::reverse(to);
+    const double allowed = kAlike * geometry::length(from);
+    from = geometry::even_places(from, kPieces);
+    to = geometry::even_places(to, kPieces);
+    const geometry::RigidFit moved = geometry::fit_rigid(from, to, false);
+    for (std::size_t i = 0; i < from.size(); ++i)
+        if ((moved(from[i]) - to[i]).norm() > allowed) return false;
+    return true;
+}
+
+/// The ends of a channel: two runs that are alike, with edges of walls between them. They have three edges
+/// and more: two may be those of a triangle or of a rectangle, and a bent wall's own rim may lie in a plane.
+std::vector<Run> channel_ends(const Model& model, const Rim& rim, std::vector<Run> ends)
+{
+    std::erase_if(ends, [](const Run& run) { return run.count < 3; });
+    if (ends.size() != 2 || overlap(rim, ends)) return {};
+    if (between(rim, ends, 0).count == 0 || between(rim, ends, 1).count == 0) return {};
+    return are_alike(model, rim, ends[0], ends[1]) ? ends : std::vector<Run>{};
+}
+
+/// Whether some runs are the ends of a straight groove.
+bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<Run>& ends)
+{
+    if (ends.size() < 2 || overlap(rim, ends)) return false;
+    const std::optional<Vec3> way = way_of(model, rim, ends);
+    return way && all_go_along(model, *way);
+}
+
+} // namespace
+
+std::optional<SplitLoop> split_loop(Model& model, const Rim& rim)
+{
+    std::vector<std::size_t> run;
+    for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
+    if (const auto half = half_run(run)) return SplitLoop{cut_off(model, rim, {*half})};
+    const std::vector<Run> ends = groove_ends(model, rim, run);
+    if (ends_straight_groove(model, rim, ends)) {
+        Model tried = model;
+        std::vector<Loop> parts = cut_off(tried, rim, ends);
+        if (is_flat(tried, {parts.back().uses})) {
+            model = std::move(tried);
+            return SplitLoop{std::move(parts)};
+        }
+    }
+    const std::vector<Run> alike = channel_ends(model, rim, ends);
+    if (alike.empty()) return std::nullopt;
+    return SplitLoop{cut_off(model, rim, alike), true};
+}
+
+} // namespace lacuna::closure
