@@ -195,8 +195,11 @@ const Option<WriteArguments> kWriteOptions[] = {
 
 /// Of files that are written a layer at a time.
 const Option<WriteArguments> kLayeredOptions[] = {
-    {"version", read_version},       {"binary", read_binary}, {"quality", read_quality},
-    {"partitions", read_partitions}, {"ghosts", read_ghosts},
+    {"version", read_version},
+    {"binary", read_binary},
+    {"quality", read_quality},
+    {"partitions", read_partitions},
+    {"ghosts", read_ghosts},
     {"interfaces", boolean<&WriteArguments::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
 };
@@ -344,18 +347,28 @@ const Format& format_of(const std::string& path, const WriteArguments& arguments
                        "write: the ending of " + path + " says no format; meshes are written as" + known);
 }
 
+/// The scaled Jacobian of some cells: as they were proved, where that was kept.
+void copy_scaled_jacobians(const sweep::Swept& swept, std::span<const std::uint32_t> cells, double* out)
+{
+    const std::vector<float>* kept = swept.quality.of_cells.get();
+    if (kept == nullptr || kept->size() != swept.mesh.cell_count())
+        return quality::scaled_jacobians(swept.mesh, cells, out);
+    for (const std::uint32_t cell : cells) *out++ = static_cast<double>((*kept)[cell]);
+}
+
 /// The fields asked for of the cells of a mesh; decks have none.
-void add_fields(const mesh::HexMesh& mesh, const Format& format, WriteArguments& arguments,
+void add_fields(const sweep::Swept& swept, const Format& format, WriteArguments& arguments,
                 const RunContext& context)
 {
+    const mesh::HexMesh& mesh = swept.mesh;
     if (format.is_deck || !arguments.with.empty()) return;
     for (const quality::Metric metric : metrics_of(arguments)) {
         io::CellField& field = arguments.msh.fields.emplace_back();
         field.name = quality::metric_name(metric);
         // What every file has is made while another thread writes, and takes no memory.
         if (metric == quality::Metric::scaled_jacobian && mesh.order() == 1)
-            field.make = [&mesh](std::span<const std::uint32_t> cells, double* out) {
-                quality::scaled_jacobians(mesh, cells, out);
+            field.make = [&swept](std::span<const std::uint32_t> cells, double* out) {
+                copy_scaled_jacobians(swept, cells, out);
             };
         else
             field.values = quality::metric_values(mesh, metric, context);
@@ -380,7 +393,7 @@ int write(lua_State* L)
         for (const Box<ModelState>& model : arguments.with) refresh(*model);
         arguments.deck.material = state.material;
         report_progress(context, "writing " + path.text());
-        add_fields(mesh, format, arguments, context);
+        add_fields(state.swept, format, arguments, context);
         format.write(mesh, path, arguments, context);
         write_options_beside(lent, path, arguments);
     });
@@ -655,7 +668,7 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
         const Format& format = format_of(path.text(), arguments);
-        add_fields(mesh, format, arguments, context);
+        add_fields(swept, format, arguments, context);
         return format.write(mesh, path, arguments, context);
     }
     team::write_layered(

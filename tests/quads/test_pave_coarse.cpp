@@ -2,10 +2,11 @@
 #include "support/plane_domains.h"
 
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/pave_coarse.h>
+#include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/measure_plane.h>
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
+#include <lacuna/quads/smooth_plane.h>
 
 #include <doctest/doctest.h>
 
@@ -50,7 +51,7 @@ double shortest_side(const PlanarQuads& mesh)
     return least * static_cast<double>(mesh.quads.size()) / sum;
 }
 
-/// A disc with holes, whose nodes lie `size` apart; the holes have even numbers of nodes.
+/// A disc with holes, whose nodes lie `size` apart.
 PlanarRegion disc_with_holes(int outer, const std::vector<int>& holes)
 {
     PlanarRegion region;
@@ -62,6 +63,23 @@ PlanarRegion disc_with_holes(int outer, const std::vector<int>& holes)
                   holes[h]);
     }
     region.size = [size](const Vec2&) { return size; };
+    return region;
+}
+
+/// A rectangle whose edges have so many sides, about one long.
+PlanarRegion rectangle(const std::vector<int>& sides)
+{
+    PlanarRegion region;
+    const double width = sides[0], height = sides[1];
+    const Vec2 corners[] = {{0, 0}, {width, 0}, {width, height}, {0, height}};
+    region.loops.emplace_back();
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (int k = 0; k < sides[c]; ++k) {
+            region.loops[0].push_back(static_cast<Index>(region.points.size()));
+            region.points.push_back(corners[c] + (corners[(c + 1) % 4] - corners[c]) * k / sides[c]);
+        }
+    }
+    region.size = [](const Vec2&) { return 1; };
     return region;
 }
 
@@ -98,23 +116,38 @@ TEST_CASE("a coarse region has every other node of every loop, whatever loops th
     }
 }
 
-TEST_CASE("no region is made coarse that would lose a corner or half a side")
+TEST_CASE("no region is made coarse that would lose many corners or has an odd number of sides")
 {
-    PlanarRegion odd = disc_with_holes(201, {});
-    CHECK_FALSE(paving::coarse_region(odd));
-    PlanarRegion small = disc_with_holes(200, {12});
-    CHECK_FALSE(paving::coarse_region(small));
-    // A square with an odd number of sides along each edge: corners at even and odd places.
-    PlanarRegion square;
-    square.loops.emplace_back();
-    const Vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (std::size_t c = 0; c < 4; ++c) {
-        for (int k = 0; k < 25; ++k) {
-            square.loops[0].push_back(static_cast<Index>(square.points.size()));
-            square.points.push_back(corners[c] + (corners[(c + 1) % 4] - corners[c]) * (k / 25.0));
-        }
+    CHECK_FALSE(paving::coarse_region(disc_with_holes(201, {})));
+    CHECK_FALSE(paving::coarse_region(disc_with_holes(201, {40})));
+    CHECK_FALSE(paving::coarse_region(disc_with_holes(200, {12})));
+}
+
+TEST_CASE("odd loops and edges keep one side whole each, and quads cut in four keep all boundary nodes")
+{
+    std::vector<PlanarRegion> regions{disc_with_holes(121, {35}), disc_with_holes(161, {35, 36}),
+                                      disc_with_holes(160, {35, 41}), disc_with_holes(161, {35, 41, 43})};
+    for (const int first : {24, 25})
+        for (const int second : {30, 31}) regions.push_back(rectangle({first, second, first, second}));
+    regions.push_back(rectangle({25, 25, 24, 24}));
+    regions.push_back(rectangle({31, 20, 30, 21}));
+    for (const PlanarRegion& region : regions) {
+        CAPTURE(region.points.size());
+        CAPTURE(region.loops.size());
+        auto coarse = paving::coarse_region(region);
+        REQUIRE(coarse);
+        CHECK(2 * sides_of(coarse->region) == sides_of(region) + coarse->runs.size());
+        const PlanarQuads filled = fill_odd_region(coarse->region, paved);
+        const auto whole = paving::choose_whole_sides(*coarse, filled);
+        REQUIRE(whole);
+        CHECK(std::count(coarse->next.begin(), coarse->next.end(), -1) ==
+              static_cast<std::ptrdiff_t>(coarse->runs.size()));
+        PlanarQuads fine = paving::cut_in_four(region, *coarse, filled, *whole);
+        CHECK(std::none_of(fine.quads.begin(), fine.quads.end(), mesh::is_triangle));
+        smooth_plane(fine.points, fine.quads, region.points.size(), {.size = region.size});
+        CHECK(find_fault(fine, region) == "");
+        for (std::size_t p = 0; p < region.points.size(); ++p) CHECK(fine.points[p] == region.points[p]);
     }
-    CHECK_FALSE(paving::coarse_region(square));
 }
 
 TEST_CASE("quads cut in four keep all boundary nodes, and are four for a quad and three for a triangle")
@@ -124,11 +157,13 @@ TEST_CASE("quads cut in four keep all boundary nodes, and are four for a quad an
             CAPTURE(outer);
             CAPTURE(holes.size());
             const PlanarRegion region = disc_with_holes(outer, holes);
-            const auto coarse = paving::coarse_region(region);
+            auto coarse = paving::coarse_region(region);
             REQUIRE(coarse);
             const bool odd = sides_of(coarse->region) % 2 != 0;
             const PlanarQuads filled = fill_odd_region(coarse->region, paved);
-            const PlanarQuads fine = paving::cut_in_four(region, *coarse, filled);
+            const auto whole = paving::choose_whole_sides(*coarse, filled);
+            REQUIRE(whole);
+            const PlanarQuads fine = paving::cut_in_four(region, *coarse, filled, *whole);
             CHECK(fine.quads.size() == 4 * filled.quads.size() - (odd ? 1 : 0));
             CHECK(find_fault(fine, region) == "");
             for (std::size_t p = 0; p < region.points.size(); ++p) CHECK(fine.points[p] == region.points[p]);
@@ -161,7 +196,8 @@ TEST_CASE("quads of a coarse mesh of a coarser one are good, whatever the number
     for (const auto& [outer, holes] :
          {Case{720, {}}, Case{720, {100}}, Case{720, {102}}, Case{720, {98, 106, 102}},
           Case{720, {110, 110, 112, 108, 110}}, Case{700, {66, 70, 74, 78, 82}},
-          Case{700, {90, 94, 98, 102, 106}}, Case{740, {74, 78, 82, 86, 90}}}) {
+          Case{700, {90, 94, 98, 102, 106}}, Case{740, {74, 78, 82, 86, 90}}, Case{721, {101}},
+          Case{719, {103, 98}}, Case{720, {101, 103}}, Case{721, {67, 71, 75, 78, 82}}}) {
         CAPTURE(outer);
         CAPTURE(holes.size());
         const PlanarRegion region = disc_with_holes(outer, holes);
@@ -192,5 +228,21 @@ TEST_CASE("many quads are as good as fewer, with hardly more irregular nodes")
         CHECK(after.size_share() > 0.95);
         CHECK(after.irregular < 2 * before.irregular + 40);
         CHECK(large.how.find("cut in four") != std::string::npos);
+    }
+}
+
+TEST_CASE(
+    "boundary rows of rings of many quads are as high as was asked, though sides of one loop are longer")
+{
+    for (const int quads : {24'000, 36'500, 60'000}) {
+        CAPTURE(quads);
+        const auto seeded = test::seed_domain(test::plane_domain("ring"), quads);
+        const PlanarQuads mesh = paved(seeded.region);
+        CHECK(find_fault(mesh, seeded.region) == "");
+        CHECK(mesh.how.find("cut in four") != std::string::npos);
+        const PlaneQuality quality = measure_plane(mesh, seeded.region);
+        CHECK(quality.row_share() > 0.95);
+        CHECK(quality.mean_scaled_jacobian > 0.99);
+        CHECK(quality.size_share() > 0.95);
     }
 }

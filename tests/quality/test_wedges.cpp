@@ -159,6 +159,10 @@ TEST_CASE("metrics of wedges are theirs alone: the others are over the hexahedra
     CHECK(summaries[2].max == doctest::Approx(0));
     CHECK(std::isfinite(summaries[2].mean));
     const auto values = quality::metric_values(mesh, quality::Metric::volume);
+    const auto kept = quality::measure(mesh, {}, quality::Keep::of_cells).of_cells;
+    REQUIRE(kept != nullptr);
+    CHECK(std::vector<double>(kept->begin(), kept->end()) ==
+          quality::metric_values(mesh, quality::Metric::scaled_jacobian));
     double sum = 0;
     for (const double v : values) sum += v;
     CHECK(sum == doctest::Approx(1));

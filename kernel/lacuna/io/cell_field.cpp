@@ -2,8 +2,8 @@
 #include <lacuna/io/cell_field.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/marks.h>
 #include <lacuna/io/detail/node_reader.h>
-#include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
 #include <set>
@@ -18,9 +18,19 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
         Segment ends;
         std::uint32_t quad;
     };
-    std::vector<Side> sides;
-    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
-        sides.push_back({{side.from, side.to}, static_cast<std::uint32_t>(side.quad)});
+    Marks on_rim(index(mesh.nodes_per_layer));
+    for (const Segment& segment : mesh.rim)
+        for (const Index n : segment)
+            if (n >= 0 && n < mesh.nodes_per_layer) on_rim.add(n);
+    std::vector<Side> sides; // between nodes of the rim: its own and few others
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        const Quad& quad = mesh.quads[q];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Index from = quad[k], to = quad[(k + 1) % 4];
+            if (on_rim.has(from) && on_rim.has(to))
+                sides.push_back({{from, to}, static_cast<std::uint32_t>(q)});
+        }
+    }
     const auto before = [](const Side& a, const Side& b) { return a.ends < b.ends; };
     std::sort(sides.begin(), sides.end(), before);
     std::vector<std::uint32_t> quads;

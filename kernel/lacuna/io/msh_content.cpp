@@ -114,20 +114,24 @@ MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
 {
     check_skin(mesh);
     MshContent content;
-    const std::size_t count = mesh.skin_count();
     std::vector<std::size_t> start(mesh.patches.size() + 1, 0);
-    for (std::size_t i = 0; i < count; ++i) ++start[static_cast<std::size_t>(skin_quad(mesh, i).patch) + 1];
+    for (const std::vector<Index>* patches : {&mesh.source_patch, &mesh.target_patch, &mesh.wall_patch})
+        for (const Index patch : *patches) ++start[index(patch) + 1];
     for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-    content.skin.resize(count);
+    content.skin.resize(mesh.skin_count());
     std::vector<Eigen::AlignedBox3d> boxes(mesh.patches.size());
     std::vector<std::size_t> triangles(mesh.patches.size(), 0);
     std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < content.skin.size(); ++i) {
         const mesh::SkinQuad quad = skin_quad(mesh, i);
-        const auto patch = static_cast<std::size_t>(quad.patch);
+        const std::size_t patch = index(quad.patch);
         content.skin[next[patch]++] = static_cast<std::uint32_t>(i);
         if (mesh::is_triangle(quad.nodes)) ++triangles[patch];
-        for (const Index node : skin_nodes(mesh, i).all()) boxes[patch].extend(nodes.on_skin(node));
+        const auto extend = [&](Index node) { boxes[patch].extend(nodes.on_skin(node)); };
+        if (mesh.middles.empty())
+            std::for_each(quad.nodes.begin(), quad.nodes.end(), extend);
+        else
+            for (const Index node : skin_nodes(mesh, i).all()) extend(node);
     }
 
     GroupTags groups;
@@ -143,9 +147,11 @@ MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
         surface.triangles = triangles[p];
         // A patch lies on the source, on the target or on walls: its triangles came last by themselves, but
         // where faces of both ends are one patch.
-        std::stable_partition(content.skin.begin() + static_cast<std::ptrdiff_t>(start[p]),
-                              content.skin.begin() + static_cast<std::ptrdiff_t>(start[p + 1]),
-                              [&](std::uint32_t i) { return !mesh::is_triangle(skin_quad(mesh, i).nodes); });
+        if (triangles[p] > 0)
+            std::stable_partition(
+                content.skin.begin() + static_cast<std::ptrdiff_t>(start[p]),
+                content.skin.begin() + static_cast<std::ptrdiff_t>(start[p + 1]),
+                [&](std::uint32_t i) { return !mesh::is_triangle(skin_quad(mesh, i).nodes); });
         content.box.extend(surface.box); // the inside of a valid mesh reaches no further than its skin
         content.surfaces.push_back(std::move(surface));
     }

@@ -4,7 +4,6 @@
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace lacuna::mesh {
 
@@ -24,53 +23,46 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
 
 std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count)
 {
-    // Sides are put in the bin of their lower node; bins are as small as a node has neighbours.
+    // Sides with the same nodes meet in the bin of the lower one; bins are as small as a node has neighbours.
     struct SideUse {
-        Index high, number;
-        bool rising;
+        Index high, first, second; ///< the other node, and who has the side: kRimSide where nobody has it yet
     };
-    std::vector<Index> start(static_cast<std::size_t>(node_count) + 1, 0);
     const auto each_side = [&](const auto& visit) {
         for (std::size_t q = 0; q < quads.size(); ++q)
             for (std::size_t i = 0; i < 4; ++i)
                 if (is_side(quads[q], i))
                     visit(quads[q][i], quads[q][(i + 1) % 4], static_cast<Index>(4 * q + i));
     };
-    each_side([&](Index a, Index b, Index) { ++start[static_cast<std::size_t>(std::min(a, b)) + 1]; });
+    std::vector<Index> start(index(node_count) + 1, 0);
+    each_side([&](Index a, Index b, Index) { ++start[index(std::min(a, b)) + 1]; });
     for (std::size_t n = 1; n < start.size(); ++n) start[n] += start[n - 1];
 
-    std::vector<SideUse> sides(static_cast<std::size_t>(start.back()));
-    std::vector<Index> next(start.begin(), start.end() - 1);
-    each_side([&](Index a, Index b, Index number) {
-        const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(std::min(a, b))]++);
-        sides[at] = {std::max(a, b), number, a < b};
-    });
-
-    std::vector<Index> opposite(4 * quads.size(), kRimSide);
+    std::vector<SideUse> uses(index(start.back()));
+    std::vector<Index> end(start.begin(), start.end() - 1), opposite(4 * quads.size(), kRimSide);
     for (std::size_t q = 0; q < quads.size(); ++q)
         if (is_triangle(quads[q])) opposite[4 * q + 2] = kNoSide;
-    const auto at = [&](const SideUse& side) -> Index& {
-        return opposite[static_cast<std::size_t>(side.number)];
-    };
-    for (std::size_t n = 0; n + 1 < start.size(); ++n) {
-        const auto first = sides.begin() + start[n];
-        const auto last = sides.begin() + start[n + 1];
-        std::sort(first, last, [](const SideUse& a, const SideUse& b) {
-            return std::tie(a.high, a.number) < std::tie(b.high, b.number);
-        });
-        for (auto i = first; i != last;) {
-            auto j = i + 1;
-            while (j != last && j->high == i->high) ++j;
-            const bool pair = j - i == 2 && i->rising != (i + 1)->rising;
-            if (pair) {
-                at(*i) = (i + 1)->number;
-                at(*(i + 1)) = i->number;
-            } else if (j - i > 1) {
-                for (auto k = i; k != j; ++k) at(*k) = kBadSide;
-            }
-            i = j;
+    each_side([&](Index a, Index b, Index number) {
+        const std::size_t low = index(std::min(a, b));
+        const Index high = std::max(a, b);
+        std::size_t u = index(start[low]);
+        while (u < index(end[low]) && uses[u].high != high) ++u;
+        if (u == index(end[low])) {
+            uses[u] = {high, number, kRimSide};
+            ++end[low];
+            return;
         }
-    }
+        SideUse& use = uses[u];
+        const bool turned = a != b && quads[index(use.first / 4)][index(use.first % 4)] == b;
+        if (use.second == kRimSide && turned) {
+            opposite[index(use.first)] = number;
+            opposite[index(number)] = use.first;
+            use.second = number;
+            return;
+        }
+        if (use.second != kRimSide) opposite[index(use.second)] = kBadSide;
+        opposite[index(use.first)] = opposite[index(number)] = kBadSide;
+        use.second = number;
+    });
     return opposite;
 }
 

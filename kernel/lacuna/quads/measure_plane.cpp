@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/measure_plane.h>
 
+#include <lacuna/core/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
@@ -115,6 +116,17 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
     double least = 1;
     for (const Quad& quad : quads) least = std::min(least, scaled_jacobian(points, quad));
     return least;
+}
+
+double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
+                             const RunContext& context)
+{
+    constexpr std::size_t kBlock = 4096; // a choice
+    std::vector<double> least((quads.size() + kBlock - 1) / kBlock, 1);
+    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        least[begin / kBlock] = least_scaled_jacobian(points, quads.subspan(begin, end - begin));
+    });
+    return least.empty() ? 1 : *std::min_element(least.begin(), least.end());
 }
 
 std::vector<double> boundary_angles(const PlanarRegion& region)

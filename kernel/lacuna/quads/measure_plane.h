@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 #include <lacuna/quads/region.h>
 
@@ -18,6 +19,9 @@ double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
 
 /// The least of all quads; 1 of none.
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads);
+/// The same on all threads.
+double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
+                             const RunContext& context);
 
 /// Sides this much shorter or longer than asked for are of another size. Choices, not measurements.
 inline constexpr double kShortestOfSize = 0.6, kLongestOfSize = 1.6;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/pattern_counts.h>
 
+#include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/partial_mesh.h>
-#include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/detail/ring_counts.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/detail/star_counts.h>

@@ -330,7 +330,7 @@ void AttemptChooser::try_grids()
 bool AttemptChooser::try_coarse()
 {
     if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kManyQuads) return false;
-    std::optional<Paved> paved = pave_in_four(region_, options_, setting_.size, context_);
+    std::optional<Paved> paved = pave_in_four(region_, options_, judged_.size, context_);
     if (!paved) return false;
     Attempt attempt{std::move(paved->mesh), std::move(paved->report)};
     judge(attempt);

@@ -79,18 +79,24 @@ public:
 
     /// Move the points of poor quads to where the least sine around is largest; later only those with a
     /// neighbour that moved. @return whether any moved.
-    bool raise(double floor)
+    bool raise(double floor, const RunContext& context)
     {
         if (restless_.empty()) {
             restless_.assign(points_.size(), 1);
             least_side_ = sides_to_keep(points_, stars_, fixed_);
         }
-        std::vector<char> poor(points_.size(), 0);
-        for (const Quad& quad : quads_) {
-            const bool still = std::none_of(quad.begin(), quad.end(),
-                                            [&](Index p) { return restless_[index(p)] != 0; });
-            if (still || scaled_jacobian(points_, quad) >= floor) continue;
-            for (const Index p : quad) poor[index(p)] = 1;
+        std::vector<char> is_poor(quads_.size(), 0), poor(points_.size(), 0);
+        parallel_for(context, quads_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t q = begin; q < end; ++q) {
+                const Quad& quad = quads_[q];
+                const bool still = std::none_of(quad.begin(), quad.end(),
+                                                [&](Index p) { return restless_[index(p)] != 0; });
+                is_poor[q] = !still && scaled_jacobian(points_, quad) < floor;
+            }
+        });
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            if (is_poor[q] == 0) continue;
+            for (const Index p : quads_[q]) poor[index(p)] = 1;
         }
         bool moved = false;
         for (std::size_t p = fixed_; p < points_.size(); ++p) {
@@ -103,14 +109,17 @@ public:
         return moved;
     }
 
-    void ask_sizes()
+    void ask_sizes(const RunContext& context)
     {
         if (!options_.size || !(options_.size_weight > 0)) return;
         areas_.weight = options_.size_weight;
-        for (const Vec2& p : points_) {
-            const double size = options_.size(p);
-            areas_.asked.push_back({size * size, 1 / (size * size)});
-        }
+        areas_.asked.resize(points_.size());
+        parallel_for(context, points_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p) {
+                const double size = options_.size(points_[p]);
+                areas_.asked[p] = {size * size, 1 / (size * size)};
+            }
+        });
     }
 
 private:
@@ -243,7 +252,7 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
                            const SmoothPlaneOptions& options, const RunContext& context)
 {
     SmoothedPlane result;
-    double least = least_scaled_jacobian(points, quads);
+    double least = least_scaled_jacobian(points, quads, context);
     result.min_before = result.min_after = least;
     result.was_folded = result.folded = !(least > 0);
     if (fixed >= points.size()) return result;
@@ -251,10 +260,10 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
         std::vector<char> mask(points.size(), 0);
         std::fill(mask.begin(), mask.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
         untangle_plane(points, quads, mask, {});
-        least = least_scaled_jacobian(points, quads);
+        least = least_scaled_jacobian(points, quads, context);
     }
     Smoother smoother(points, quads, fixed, options);
-    smoother.ask_sizes();
+    smoother.ask_sizes(context);
     // Points that all but met part again only where sines may fall meanwhile.
     const double floor = has_needles(points, quads, fixed) ? 0 : std::max(0.0, least);
     for (int i = 0; i < options.sweeps; ++i) {
@@ -264,9 +273,9 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
     }
     for (int i = 0; i < options.repairs; ++i) {
         check_cancelled(context);
-        if (!smoother.raise(options.good_enough)) break;
+        if (!smoother.raise(options.good_enough, context)) break;
     }
-    result.min_after = least_scaled_jacobian(points, quads);
+    result.min_after = least_scaled_jacobian(points, quads, context);
     result.folded = !(result.min_after > 0);
     return result;
 }

@@ -79,11 +79,13 @@ void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, std::
     });
 }
 
-void add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell)
+/// @return  the scaled Jacobian.
+double add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell)
 {
     const WedgeValues values = evaluate_wedge(corners);
     ++partial.wedges;
     add_cell(partial, values.scaled, values.smallest, values.volume, cell, [&] { return over_cube(values); });
+    return values.scaled;
 }
 
 void add_cell(Partial& partial, const CurvedCell& curved, std::size_t cell)
@@ -97,8 +99,10 @@ void add_cell(Partial& partial, const CurvedCell& curved, std::size_t cell)
 bool none_curved(std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; }
 
 /// @param curved  tells whether a cell is curved, and sets its nodes if it is.
+/// @param kept    null, or room for the scaled Jacobian of every cell, none of which is curved.
 template <class Cells, class Curved>
-Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& context)
+Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& context,
+                    float* kept = nullptr)
 {
     const std::size_t count = cells.columns() * cells.layers();
     const std::size_t width = chunk_width(cells, kLanes);
@@ -122,8 +126,13 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
                             add_hex(partials[c], values, lane, first + k);
                     }
                     for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                        add_wedge(partials[c], corners, first + static_cast<std::size_t>(lane));
+                        values.scaled[lane] = add_wedge(partials[c], corners,
+                                                        first + static_cast<std::size_t>(lane));
                     });
+                    if (kept == nullptr) return;
+                    for (int lane = 0; lane < filled; ++lane)
+                        kept[first + static_cast<std::size_t>(lane)] = static_cast<float>(
+                            values.scaled[lane]);
                 });
     });
 
@@ -157,14 +166,18 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
 
 } // namespace
 
-Quality measure(const mesh::HexMesh& mesh, const RunContext& context)
+Quality measure(const mesh::HexMesh& mesh, const RunContext& context, Keep keep)
 {
+    const bool keeps = keep == Keep::of_cells && mesh.order() == 1;
+    const auto kept = std::make_shared<std::vector<float>>(keeps ? mesh.cell_count() : 0);
     const auto curved = [&mesh](std::size_t cell, std::array<Vec3, 27>& nodes) {
         nodes = hex27_of(mesh, cell);
         return !is_straight(nodes);
     };
-    Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, none_curved, context)
+    Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, none_curved, context,
+                                                      keeps ? kept->data() : nullptr)
                                         : measure_all(SweptCells{mesh}, curved, context);
+    if (keeps) quality.of_cells = kept;
     for (WorstCell& worst : quality.worst) worst.layer = static_cast<int>(worst.cell / mesh.quads.size());
     return quality;
 }

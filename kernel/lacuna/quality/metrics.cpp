@@ -181,6 +181,9 @@ std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metri
     return summaries;
 }
 
+/// As `Quality::of_cells` has values.
+double in_single_precision(double value) { return static_cast<double>(static_cast<float>(value)); }
+
 /// Every written mesh carries the scaled Jacobian: a short way to it, without what other metrics need. Of the
 /// columns [begin, end), each cell's at its number.
 template <class Cells>
@@ -193,7 +196,7 @@ void put_scaled_jacobians(const Cells& cells, std::size_t begin, std::size_t end
             for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
                 scaled[lane] = evaluate_wedge(corners).scaled;
             });
-            std::copy_n(scaled, filled, out + first);
+            std::transform(scaled, scaled + filled, out + first, in_single_precision);
         });
 }
 
@@ -289,7 +292,7 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
     parallel_for(context, values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
-            if (!is_straight(nodes)) values[c] = judge(nodes, 0).scaled_jacobian;
+            if (!is_straight(nodes)) values[c] = in_single_precision(judge(nodes, 0).scaled_jacobian);
         }
     });
     return values;

@@ -102,7 +102,7 @@ std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::spa
 
 /// A value a cell, by number of cell; 0 of a wedge where the metric is none of theirs. Parallel. Of cells of
 /// order 2 the corners' value, but for the scaled Jacobian, which is that of `judge()` where a cell is
-/// curved.
+/// curved. The scaled Jacobian is rounded to single precision, in which proofs keep it.
 std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {});
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});

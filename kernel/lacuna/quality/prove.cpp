@@ -292,7 +292,7 @@ Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double m
     }
     if (found(arrays ? arrays->take() : check_arrays(mesh, nodes))) return proof;
     check_cancelled(context);
-    proof.quality = measured ? std::move(*measured) : measure(mesh, context);
+    proof.quality = measured ? std::move(*measured) : measure(mesh, context, Keep::of_cells);
     if (beside)
         found(std::move(misplaced));
     else if (!found(check_quality(proof.quality, min_scaled_jacobian, mesh.layers)))

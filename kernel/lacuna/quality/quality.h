@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,12 +51,20 @@ struct Quality {
     std::array<std::size_t, 20> histogram{}; ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
     std::vector<WorstCell> worst;            ///< at most ten, worst first
     double volume = 0;                       ///< sum over the cells [model length³]
+    /// The scaled Jacobian of every cell, where `measure()` was to keep it; null: not kept.
+    std::shared_ptr<const std::vector<float>> of_cells;
+};
+
+/// What `measure()` keeps.
+enum class Keep {
+    sums,    ///< what is known of all cells together
+    of_cells ///< the scaled Jacobian of each cell of a mesh of order 1 too, which files have: 4 bytes a cell
 };
 
 /// Measure every cell; one of order 2 that is curved by `judge()` (`quality/second_order.h`). Parallel; the
 /// same for any thread count. O(cells).
 /// @pre  every corner is the number of a node (`prove()` checks it).
-Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {});
+Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
 /// The same for hexahedra, and wedges as `mesh::is_wedge()` has them, of any origin.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,

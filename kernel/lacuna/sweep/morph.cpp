@@ -145,7 +145,7 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
 /// quad is taken.
 Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
                        const std::vector<Vec3>& guess, const HarmonicSpread& spread,
-                       const SurfaceSmoother& smoother, Candidate best)
+                       const SurfaceSmoother& smoother, Candidate best, const RunContext& context)
 {
     const std::span<const Vec3> rim = columns.row(columns.layers);
     const Vec3 area = rim_area(rim, rim_sides(source, columns));
@@ -160,7 +160,7 @@ Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
         const Vec3 reach = height * radius(rim) / top * area.normalized();
         for (std::size_t i = 0; i < guess.size(); ++i) other.nodes[i] += bulge[i][0] * reach;
         smoother.project(other.nodes);
-        other.worst = worst_quad(source.quads, other.nodes);
+        other.worst = worst_quad(source.quads, other.nodes, context);
         if (other.worst > best.worst) best = std::move(other);
     }
     return best;
@@ -174,11 +174,11 @@ Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, cons
     const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(),
                                    free_nodes, project);
     if (found.worst < kStandsUp * good_enough) {
-        found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found));
+        found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found), context);
     }
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
     found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
-    found.worst = worst_quad(source.quads, found.nodes);
+    found.worst = worst_quad(source.quads, found.nodes, context);
     return found;
 }
 
@@ -193,9 +193,9 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     const Guess guess = guess_from_rims(source, columns, spreader, context);
 
     Morphed result;
-    result.worst_source = worst_quad(source.quads, source.nodes);
+    result.worst_source = worst_quad(source.quads, source.nodes, context);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
-    Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes)};
+    Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes, context)};
     // What an affine map takes from the source's quads is the rims' doing; the rest can be improved.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
@@ -204,7 +204,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         const double move = largest_move(guess.nodes, projected.nodes);
         const double size = columns.rim.empty() ? radius(source.nodes) : radius(columns.row(columns.layers));
         if (move > kOnSurface * size) {
-            projected.worst = worst_quad(source.quads, projected.nodes);
+            projected.worst = worst_quad(source.quads, projected.nodes, context);
             found = std::move(projected);
             result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) +
                              " of its radius";
@@ -215,7 +215,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         const auto start_from = [&](std::vector<Vec3> unprojected, const char* words) {
             Candidate other{unprojected, -1};
             project_nodes(other.nodes, free_nodes, project);
-            other.worst = worst_quad(source.quads, other.nodes);
+            other.worst = worst_quad(source.quads, other.nodes, context);
             if (other.worst <= found.worst) return;
             found = std::move(other);
             start = std::move(unprojected);

@@ -75,9 +75,11 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
             places[{std::min(a, c), std::max(a, c)}] = {b, i};
         }
     }
+    std::vector<RimPosition> along_rim;
+    for (const Segment& side : mesh.rim)
+        along_rim.push_back(places.at({std::min(side[0], side[1]), std::max(side[0], side[1])}));
     for (int layer = 0; layer < mesh.layers; ++layer) {
-        for (const Segment& side : mesh.rim) {
-            const RimPosition place = places.at({std::min(side[0], side[1]), std::max(side[0], side[1])});
+        for (const RimPosition& place : along_rim) {
             const std::size_t n = source.links[place.link].source_at.size();
             mesh.wall_patch.push_back(
                 patches.of(walls[place.link].face[static_cast<std::size_t>(layer) * n + place.side]));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/surface_smoothing.h>
 
+#include <lacuna/core/parallel.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -99,12 +101,17 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
     return worst;
 }
 
-double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes)
+double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context)
 {
+    constexpr std::size_t kBlock = 4096; // a choice
     const std::vector<Vec3> normals = node_normals(quads, nodes);
-    double worst = 1;
-    for (const Quad& quad : quads) worst = std::min(worst, quad_quality(quad, nodes, normals));
-    return worst;
+    std::vector<double> worst((quads.size() + kBlock - 1) / kBlock, 1);
+    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        double own = 1;
+        for (std::size_t q = begin; q < end; ++q) own = std::min(own, quad_quality(quads[q], nodes, normals));
+        worst[begin / kBlock] = own;
+    });
+    return worst.empty() ? 1 : *std::min_element(worst.begin(), worst.end());
 }
 
 void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project)
@@ -143,7 +150,7 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
                                          const RunContext& context) const
 {
     std::vector<Vec3> best = nodes;
-    double best_worst = worst_quad(model_.quads, nodes);
+    double best_worst = worst_quad(model_.quads, nodes, context);
     std::vector<Vec3> load(nodes.size());
     for (int round = 0; round < kRelaxations && best_worst < good_enough; ++round) {
         check_cancelled(context);
@@ -164,7 +171,7 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
             nodes[i] += along(load[i], normals[i]);
         }
         project_nodes(nodes, free_nodes_, project_);
-        const double worst = worst_quad(model_.quads, nodes);
+        const double worst = worst_quad(model_.quads, nodes, context);
         if (worst > best_worst) {
             best_worst = worst;
             best = nodes;
@@ -251,11 +258,11 @@ std::vector<Vec3> SurfaceSmoother::polish(std::vector<Vec3> nodes, double good_e
                                           const RunContext& context) const
 {
     std::vector<Vec3> best = nodes;
-    double best_worst = worst_quad(model_.quads, nodes);
+    double best_worst = worst_quad(model_.quads, nodes, context);
     for (int round = 0; round < kPolishes && best_worst < good_enough; ++round) {
         check_cancelled(context);
         if (!polish_once(nodes, good_enough)) break;
-        const double worst = worst_quad(model_.quads, nodes);
+        const double worst = worst_quad(model_.quads, nodes, context);
         if (!(worst > best_worst)) break;
         best_worst = worst;
         best = nodes;

@@ -120,7 +120,7 @@ BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed
         mesh.layers = columns.layers;
         mesh.quads = source.quads.quads;
         mesh.nodes = std::move(layers.nodes);
-        quality::Quality found = quality::measure(mesh, context);
+        quality::Quality found = quality::measure(mesh, context, quality::Keep::of_cells);
         layers.nodes = std::move(mesh.nodes);
         return found;
     };

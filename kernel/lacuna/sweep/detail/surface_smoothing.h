@@ -20,7 +20,7 @@ std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3
 double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
 
 /// The worst of all quads; 1 for none.
-double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes);
+double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context = {});
 
 /// Put some nodes on the surface, all at once.
 void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project);
