@@ -60,6 +60,7 @@ public:
         const auto wanted = [&](Index p) {
             return quads::row_corner(turn[static_cast<std::size_t>(p)], valence[static_cast<std::size_t>(p)]);
         };
+        const auto possible = [&](Index p) { return quads::may_be_good(turn[static_cast<std::size_t>(p)]); };
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             double least = 1;
             for (std::size_t k = 0; k < 4; ++k) {
@@ -75,6 +76,7 @@ public:
                 if (other != mesh::kRimSide) continue;
                 rim[p] = 1;
                 ++result.rows;
+                if (possible(quads_[q][k]) && possible(quads_[q][(k + 1) % 4])) ++result.possible_rows;
                 if (stands_well(quads_[q], k, wanted(quads_[q][k]), wanted(quads_[q][(k + 1) % 4])))
                     ++result.good_rows;
             }

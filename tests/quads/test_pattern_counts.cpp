@@ -449,6 +449,43 @@ TEST_CASE("few quads of plates with four cut corners are as many as asked, and i
     CHECK(grids >= all - 7);
 }
 
+TEST_CASE("a plate with one sharp corner is a grid with a node of three quads at each of the others")
+{
+    test::Dice dice(43);
+    int grids = 0, all = 0;
+    for (int n = 0; n < 12; ++n) {
+        CAPTURE(n);
+        const double a = dice.between(1.2, 2.4), b = dice.between(0.1, 0.3), c = dice.between(0.1, 0.3),
+                     d = dice.between(0.1, 0.3);
+        std::vector<Piece> rim{line({0, 0}, {a - b, 0})};
+        if (n % 2 == 0)
+            rim.push_back(line({a - b, 0}, {a, b}));
+        else
+            rim.push_back(arc({a - b, b}, b, -kPi / 2, 0));
+        rim.push_back(line({a, b}, {a, 1 - c}));
+        rim.push_back(line({a, 1 - c}, {a - c, 1}));
+        rim.push_back(line({a - c, 1}, {d, 1}));
+        rim.push_back(line({d, 1}, {0, 1 - d}));
+        rim.push_back(line({0, 1 - d}, {0, 0}));
+        const std::vector<std::vector<Piece>> loops{rim};
+        for (const double asked : {120.0, 200.0, 400.0}) {
+            CAPTURE(asked);
+            ++all;
+            const double size = std::sqrt(area_of(loops) / asked);
+            const Seeded plain = seed(loops, size, nullptr);
+            const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
+            if (!counts) continue;
+            const Seeded made = seed(loops, size, &*counts);
+            const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
+            CHECK(quads::find_fault(mesh, made.region) == "");
+            const std::size_t irregular = quads::measure_plane(mesh, made.region).irregular;
+            grids += mesh.how.starts_with("grid") && irregular == 3 ? 1 : 0;
+        }
+    }
+    MESSAGE(grids << " of " << all << " are grids");
+    CHECK(grids >= all * 2 / 3);
+}
+
 TEST_CASE("a grid goes on behind a notch whose sides begin where its rows end")
 {
     // A cut corner takes a row, which ends on the first side of a round or pointed notch beside it.

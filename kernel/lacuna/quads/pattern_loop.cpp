@@ -172,15 +172,40 @@ public:
         for (int& rows : loop_.soft) rows = std::max(rows - 1, 0);
     }
 
-    /// Lay a row from the first node, which is hard, to the hard node `end`; 0: to the first again.
+    /// Lay a row along the whole loop, whose first node is its only end: one quad has that corner.
+    /// @return false where the loop turns beside it.
+    bool lay_round_end()
+    {
+        const std::size_t n = loop_.size();
+        if (n < kFewestRoundEnd || loop_.turn(1) != 0 || loop_.turn(n - 1) != 0) return false;
+        std::vector<Index> inner(n - 2);
+        inner[0] = add(at(1) + at(n - 1) - at(0));
+        for (std::size_t i = 1; i < inner.size(); ++i) inner[i] = add_inner(i + 1);
+        quads_.push_back({loop_.nodes[0], loop_.nodes[1], inner[0], loop_.nodes[n - 1]});
+        PatternLoop next;
+        next.turns = loop_.turns;
+        for (std::size_t i = 0; i < inner.size(); ++i) {
+            const std::size_t own = i + 1;
+            quads_.push_back(
+                {loop_.nodes[own], loop_.nodes[own + 1], inner[(i + 1) % inner.size()], inner[i]});
+            next.push(inner[i], loop_.heading[own], loop_.direction[own], std::max(loop_.soft[own] - 1, 0),
+                      loop_.movable[own]);
+        }
+        loop_ = std::move(next);
+        return true;
+    }
+
+    /// Lay a row from the first node, which is hard, to the next hard node `end`, which may be the first
+    /// again.
     /// @return false where there is no side for it to end on.
     bool lay_part(std::size_t end)
     {
         const std::size_t n = loop_.size();
-        const bool ends_at_start = loop_.turn(0) == 1, ends_at_end = loop_.turn(end) == 1;
+        if (end == n && loop_.turn(0) == 1) return lay_round_end();
+        const bool ends_at_start = loop_.turn(0) == 1, ends_at_end = loop_.turn(end % n) == 1;
         const std::size_t left = n - end; // sides beyond the part
-        if (loop_.turn(0) > 1 || loop_.turn(end) > 1) return false;
-        if (left < 1 + (ends_at_start ? 1U : 0U) + (ends_at_end ? 1U : 0U)) return false;
+        if (loop_.turn(0) > 1 || loop_.turn(end % n) > 1) return false;
+        if (left > 0 && left < 1 + (ends_at_start ? 1U : 0U) + (ends_at_end ? 1U : 0U)) return false;
         if (ends_at_start && loop_.movable[n - 1] && loop_.turn(n - 1) > 0) return false;
         if (ends_at_end && loop_.movable[end + 1] && loop_.turn(end + 1) > 0) return false;
         std::vector<Index> inner(end + 1);
@@ -188,37 +213,32 @@ public:
         for (std::size_t i = 1; i < end; ++i) inner[i] = add_inner(i);
         inner[end] = ends_at_end ? loop_.nodes[end + 1] : add_square(end, end - 1);
         for (std::size_t i = 0; i < end; ++i)
-            quads_.push_back({loop_.nodes[i], loop_.nodes[i + 1], inner[i + 1], inner[i]});
+            quads_.push_back({loop_.nodes[i], loop_.nodes[(i + 1) % n], inner[i + 1], inner[i]});
         PatternLoop next;
         next.turns = loop_.turns;
-        const auto push = [&](Index node, int heading, double direction, int soft, char movable) {
-            next.nodes.push_back(node);
-            next.heading.push_back(heading);
-            next.direction.push_back(direction);
-            next.soft.push_back(soft);
-            next.movable.push_back(movable);
-        };
         if (!ends_at_start) {
             const int up = loop_.heading[0] + 1;
-            push(loop_.nodes[0], up, up, 0, 0);
+            next.push(loop_.nodes[0], up, up, 0, 0);
         }
         for (std::size_t i = 0; i < end; ++i)
-            push(inner[i], loop_.heading[i], loop_.direction[i], i > 0 ? std::max(loop_.soft[i] - 1, 0) : 0,
-                 i > 0 ? loop_.movable[i] : 0);
+            next.push(inner[i], loop_.heading[i], loop_.direction[i],
+                      i > 0 ? std::max(loop_.soft[i] - 1, 0) : 0, i > 0 ? loop_.movable[i] : 0);
         if (!ends_at_end) {
             const int down = loop_.heading[end - 1] - 1;
-            push(inner[end], down, down, 0, 0);
+            next.push(inner[end], down, down, 0, 0);
         }
         // Where the row ends at a soft turn, the turn is made there.
         const std::size_t first = end + (ends_at_end ? 1 : 0);
         for (std::size_t i = first; i < n - (ends_at_start ? 1 : 0); ++i)
-            push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
-                 i == first ? 0 : loop_.movable[i]);
+            next.push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
+                      i == first ? 0 : loop_.movable[i]);
         loop_ = std::move(next);
         return true;
     }
 
 private:
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< nodes, so that three are left
+
     [[nodiscard]] const Vec2& at(std::size_t i) const
     {
         return points_[static_cast<std::size_t>(loop_.nodes[i % loop_.size()])];
@@ -430,7 +450,7 @@ bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<
         rotate(loop, hard);
         std::size_t end = 1;
         while (end < n && !is_hard(loop, end)) ++end;
-        if (end == n || !rows.lay_part(end)) return false;
+        if (!rows.lay_part(end)) return false;
     }
 }
 

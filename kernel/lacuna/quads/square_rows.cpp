@@ -28,10 +28,14 @@ struct RowSide {
 
 class RowSquarer {
 public:
-    RowSquarer(PlanarQuads& mesh, const PlanarRegion& region)
+    /// @param sizes  whether sides are brought to the size asked as well.
+    RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, bool sizes)
         : mesh_(mesh), fixed_(region.points.size()), stars_(mesh.points.size(), mesh.quads)
     {
         collect(region);
+        if (sizes && region.size) {
+            for (const Vec2& p : mesh.points) asked_.push_back(region.size(p));
+        }
         floor_ = std::max(kGood, least_scaled_jacobian(mesh.points, mesh.quads));
     }
 
@@ -48,6 +52,7 @@ private:
     // kRowOffHeight, and what quads in general weigh beside rows.
     static constexpr double kGood = 0.8;
     static constexpr double kOffRight = 0.31, kOffHeight = 0.26, kShape = 0.005;
+    static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
 
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
@@ -128,7 +133,22 @@ private:
         return cost;
     }
 
-    /// The nodes of row quads beyond their limits, and of all quads around those.
+    /// What a node's sides cost by their lengths.
+    [[nodiscard]] double cost_of_sizes(Index p) const
+    {
+        if (asked_.empty()) return 0;
+        double cost = 0;
+        for (const Spoke& spoke : stars_[index(p)]) {
+            const double asked = (asked_[index(p)] + asked_[index(spoke.next)]) / 2;
+            const double length = (at(spoke.next) - at(p)).norm() / asked;
+            const double off = std::max({0.0, kShorter - length, length - kLonger});
+            cost += off * off;
+        }
+        return cost;
+    }
+
+    /// The nodes of row quads beyond their limits, and of all quads around those; and those with sides of
+    /// another size.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);
@@ -139,6 +159,9 @@ private:
                 for (const Spoke& spoke : stars_[index(p)])
                     moves[index(spoke.next)] = moves[index(spoke.across)] = 1;
             }
+        }
+        for (std::size_t p = fixed_; p < asked_.size(); ++p) {
+            if (cost_of_sizes(static_cast<Index>(p)) > 0) moves[p] = 1;
         }
         std::vector<Index> nodes;
         for (std::size_t p = fixed_; p < moves.size(); ++p) {
@@ -160,7 +183,7 @@ private:
         const double floor = std::min(floor_, least_sine(mesh_.points, star, start));
         Vec2& here = mesh_.points[index(p)];
         const auto cost_above = [&](double bound) {
-            double cost = 0;
+            double cost = cost_of_sizes(p);
             for (const Index row : of_node_[index(p)]) cost += cost_of(rows_[index(row)]);
             for (std::size_t i = 0; i < star.size() && cost < bound; ++i)
                 cost += kShape * shape_of(p, star[i]);
@@ -198,36 +221,58 @@ private:
     Stars stars_;
     std::vector<RowSide> rows_;
     std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
+    std::vector<double> asked_;               ///< size at each node, where sizes count
     double floor_ = kGood;
 };
 
-} // namespace
+/// The share of rows and of sizes that is promised.
+constexpr double kPromised = 0.95;
 
-std::size_t square_rows(PlanarQuads& mesh, const PlanarRegion& region)
+/// What quads are worth: shares beyond what is promised count for less. A choice, not a measurement.
+double worth_of(const PlaneQuality& quality)
+{
+    constexpr double kBeyond = 0.25;
+    const auto share = [](double x) {
+        return std::min(x, kPromised) + kBeyond * std::max(0.0, x - kPromised);
+    };
+    return quality.mean_scaled_jacobian + share(quality.row_share()) / 2 + share(quality.size_share()) / 2;
+}
+
+/// Move nodes for as long as quads are worth more for it.
+/// @param quality  of the mesh, before and after.
+void improve(PlanarQuads& mesh, const PlanarRegion& region, bool sizes, PlaneQuality& quality)
 {
     // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
     // measurements.
-    constexpr double kLess = 0.004, kLessOfSize = 0.02;
-    constexpr int kRounds = 12, kIdle = 3; // idle ones bring no row more
+    constexpr double kLess = 0.01;
+    constexpr int kRounds = 12, kIdle = 3; // idle ones bring nothing more
     constexpr double kStill = 0.03;        // of a side: no more is gained
-    const PlaneQuality before = measure_plane(mesh, region);
-    if (before.good_rows == before.rows) return 0;
+    const PlaneQuality before = quality;
+    const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };
     PlanarQuads made = mesh;
-    RowSquarer squarer(made, region);
-    std::size_t best = before.good_rows;
-    for (int round = 0, idle = 0; round < kRounds && idle < kIdle && best < before.rows; ++round, ++idle) {
+    RowSquarer squarer(made, region, sizes);
+    for (int round = 0, idle = 0; round < kRounds && idle < kIdle; ++round, ++idle) {
         const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
-        if (after.good_rows > best && after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
+        if (worth_of(after) > worth_of(quality) &&
+            after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
             after.min_scaled_jacobian >= before.min_scaled_jacobian &&
-            after.size_share() >= before.size_share() - kLessOfSize) {
-            best = after.good_rows;
+            keeps(before.row_share(), after.row_share()) && keeps(before.size_share(), after.size_share())) {
+            quality = after;
             idle = -1;
             mesh.points = made.points;
         }
         if (most < kStill) break;
     }
-    return best - before.good_rows;
+}
+
+} // namespace
+
+void square_rows(PlanarQuads& mesh, const PlanarRegion& region)
+{
+    PlaneQuality quality = measure_plane(mesh, region);
+    if (quality.good_rows < quality.rows) improve(mesh, region, false, quality);
+    if (quality.size_share() < kPromised) improve(mesh, region, true, quality);
 }
 
 } // namespace lacuna::quads::paving

@@ -41,6 +41,14 @@ struct PatternLoop {
     int turns = 0;                 ///< right angles by which the loop turns in its frame
 
     [[nodiscard]] std::size_t size() const { return nodes.size(); }
+    void push(Index node, int side_heading, double side_direction, int soft_rows, char may_move)
+    {
+        nodes.push_back(node);
+        heading.push_back(side_heading);
+        direction.push_back(side_direction);
+        soft.push_back(soft_rows);
+        movable.push_back(may_move);
+    }
     [[nodiscard]] int turn(std::size_t i) const
     {
         return i > 0 ? heading[i] - heading[i - 1] : heading[0] + turns - heading[nodes.size() - 1];
@@ -91,7 +99,8 @@ bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 /// Lay rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
 /// A part ends at nodes that turn by themselves. At an end (one quad) the row ends on the neighbouring side;
-/// at corners and reversals it gets an edge of its own.
+/// at corners and reversals it gets an edge of its own. Where an end is the only such node, the row goes
+/// round the whole loop and one quad has that corner.
 /// @return false where rows would use a side twice.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
                       const std::function<double(const Vec2&)>& height);
