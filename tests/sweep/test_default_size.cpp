@@ -183,6 +183,18 @@ TEST_CASE("a mapped strip has three quads across and is no finer along for it")
     }
 }
 
+TEST_CASE("a sliver that nobody asked quads across makes no mesh of millions, and the report says so")
+{
+    for (const double width : {0.1, 0.02, 1e-3, 3e-4}) {
+        const Swept swept = swept_by_default(
+            test::sealed({.sides = 0, .hole_list = {{Vec2(0, 0), 1 - width}}, .cuts = 8}));
+        CAPTURE(width);
+        CHECK(swept.mesh.quads.size() < 5000);
+        CHECK(swept.min_scaled_jacobian > 0.5);
+        CHECK(says(swept, "size: ", "would be too many in all") == (width < 0.01));
+    }
+}
+
 TEST_CASE("what shape asks of a size costs near linear time in facets")
 {
     double before = 0;
