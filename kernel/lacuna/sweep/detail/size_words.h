@@ -19,7 +19,8 @@ struct SourceSize {
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< asked, and smaller where the shape needs it
     surface::SizeField along; ///< of the layers: without what narrow places ask for by default
-    /// A place too narrow for `kDefaultGap` quads across, which nobody asked for: they would be too many in all.
+    /// A place too narrow for `kDefaultGap` quads across, which nobody asked for: they would be too many in
+    /// all.
     std::optional<surface::SizeCause> too_narrow;
     bool narrow = false; ///< quads are to be across places that are, or may be, narrow
 };
