@@ -262,7 +262,9 @@ Swept finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked,
         if (!finer) break;
         why.push_back(finer_in_words(swept, taken, *finer));
         try {
-            swept = sweep_compared(volume, *finer, links, context);
+            Swept next = sweep_compared(volume, *finer, links, context);
+            if (next.mesh.cell_count() <= swept.mesh.cell_count()) break; // given nodes leave no more
+            swept = std::move(next);
         } catch (const NotSweepable& error) {
             log_line(context, why.back() + ": " + error.what());
             break;
