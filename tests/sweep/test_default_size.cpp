@@ -2,6 +2,7 @@
 #include "support/check_valid.h"
 #include "surface/sealed.h"
 
+#include <lacuna/core/error.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/surface/default_size.h>
 #include <lacuna/surface/shape_size.h>
@@ -180,6 +181,58 @@ TEST_CASE("a mapped strip has three quads across and is no finer along for it")
             test::sealed({.outline = {{0, 0}, {4, 0}, {4, w}, {0, w}}, .cuts = 4}));
         CAPTURE(w);
         CHECK(swept.mesh.quads.size() <= 3 * 20);
+    }
+}
+
+TEST_CASE("a sliver that nobody asked quads across makes no mesh of millions, and the report says so")
+{
+    for (const double width : {0.1, 0.02, 1e-3, 3e-4}) {
+        const Swept swept = swept_by_default(
+            test::sealed({.sides = 0, .hole_list = {{Vec2(0, 0), 1 - width}}, .cuts = 8}));
+        CAPTURE(width);
+        CHECK(swept.mesh.quads.size() < 5000);
+        CHECK(swept.min_scaled_jacobian > 0.5);
+        CHECK(says(swept, "size: ", "would be too many in all") == (width < 0.01));
+    }
+}
+
+TEST_CASE("numbers that nobody asked for get finer where a face bends between nodes, and the report says so")
+{
+    int finer = 0;
+    const auto check = [&](const test::PrismOptions& options) {
+        const auto volume = test::sealed(options);
+        const Swept swept = swept_by_default(volume);
+        CHECK(swept.fidelity.volume == doctest::Approx(swept.fidelity.sealed_volume).epsilon(0.05));
+        if (!says(swept, "layer count: ", "instead of") && !says(swept, "size: ", "instead of")) return;
+        ++finer;
+        SweepOptions asked;
+        asked.size = [](const Vec3&) { return 1.0; };
+        asked.layers.count = sweep::kDefaultGap;
+        CHECK_THROWS_AS(sweep::sweep(volume, asked), NotSweepable);
+    };
+    for (const double belly : {2.0, 3.0, 4.0})
+        check({.sides = 4, .height = 0.8, .cuts = 1, .levels = 24, .belly = belly});
+    for (const double lift : {1.5, 3.0}) {
+        check({.sides = 4, .height = 2, .cuts = 1, .target = test::End::bowed, .lift = lift});
+        check({.sides = 4, .height = 4, .cuts = 8, .target = test::End::saddle, .lift = lift});
+    }
+    CHECK(finer > 1);
+}
+
+TEST_CASE("as many walls as may be stacked, each gets a layer by default")
+{
+    for (const int sides : {0, 3, 4}) {
+        for (const int rows : {1, 4, 9}) {
+            const auto volume = test::sealed({.sides = sides, .height = 0.5, .cuts = 2, .rows = rows});
+            CAPTURE(sides);
+            CAPTURE(rows);
+            CHECK(swept_by_default(volume).mesh.layers >= rows);
+            SweepOptions options;
+            options.size = [](const Vec3&) { return 1.0; };
+            const Swept swept = sweep::sweep(volume, options);
+            test::check_valid(swept.mesh);
+            CHECK(swept.mesh.layers >= rows);
+        }
     }
 }
 

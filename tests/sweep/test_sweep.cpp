@@ -4,7 +4,10 @@
 #include "support/quad_meshers.h"
 #include "surface/sealed.h"
 
+#include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/healing/split_facets.h>
+#include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -100,6 +103,40 @@ std::string refusal(const std::function<void()>& work)
 bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+/// A unit box whose target goes on down one side to a height: there its rim and the walls' edges lie in one
+/// line.
+OpenVolume box_with_bent_target(double height)
+{
+    healing::FacetSoup soup;
+    const double h = height;
+    soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                   {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {1, 1, h}, {0, 1, h}};
+    const std::vector<std::vector<Triangle>> faces{{{0, 3, 2}, {0, 2, 1}},
+                                                   {{0, 1, 5}, {0, 5, 4}},
+                                                   {{1, 2, 8}, {1, 8, 5}, {5, 8, 6}},
+                                                   {{2, 3, 9}, {2, 9, 8}},
+                                                   {{3, 0, 9}, {0, 4, 9}, {4, 7, 9}},
+                                                   {{4, 5, 6}, {4, 6, 7}, {8, 9, 7}, {8, 7, 6}}};
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        soup.label_name.push_back("f" + std::to_string(f));
+        for (const Triangle& t : faces[f]) {
+            soup.triangles.push_back(t);
+            soup.triangle_label.push_back(static_cast<int>(f));
+        }
+    }
+    healing::SplitOptions split;
+    split.whole_labels = true;
+    const Model model = healing::split_facets(soup, split);
+    Roles roles;
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const std::string& name = model.faces[f].name;
+        (name == "f0" ? roles.source : name == "f5" ? roles.target : roles.walls).emplace_back(f);
+    }
+    OpenVolume volume = open_volume(model, roles);
+    closure::close(volume, matching::match(volume));
+    return volume;
 }
 
 } // namespace
@@ -600,4 +637,25 @@ TEST_CASE("the quality a sweep tells is that of its cells, however they were pla
     layer.growth = 1.3;
     layer.count = 3;
     check(straight, rows);
+}
+
+TEST_CASE("where a rim and an edge of the walls lie in one line, the refusal names the vertex and both edges")
+{
+    for (const double height : {0.3, 0.5, 0.8}) {
+        for (const double size : {0.5, 0.2}) {
+            CAPTURE(height);
+            CAPTURE(size);
+            SweepOptions options = test::layers_of(4, size);
+            options.improving.work = 1; // nothing has to be tried to know it
+            std::string message;
+            try {
+                sweep::sweep(box_with_bent_target(height), options);
+            } catch (const NotSweepable& error) {
+                message = error.what();
+            }
+            CHECK(message.find("at vertex ") != std::string::npos);
+            CHECK(message.find("lie in one line") != std::string::npos);
+            CHECK(message.find("edge ") != std::string::npos);
+        }
+    }
 }

@@ -46,6 +46,32 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
+/// Layers that edges round the walls take at least where they end on side lines alone: one more than a line
+/// has vertices between the rims from which such edges leave.
+int layers_between_rings(const Model& model, const LinkingSurface& link)
+{
+    std::set<EdgeId> along;
+    std::set<VertexId> crossed;
+    for (const LinkingLine& line : link.lines)
+        for (const EdgeUse& use : line.line.uses) along.insert(use.edge);
+    for (const FaceId wall : link.walls) {
+        for (const Loop& loop : model[wall].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (along.contains(use.edge)) continue;
+                crossed.insert({use_from(model, use), use_to(model, use)});
+            }
+        }
+    }
+    int layers = 1;
+    for (const LinkingLine& line : link.lines) {
+        int rings = 0;
+        for (std::size_t u = 1; u < line.line.uses.size(); ++u)
+            rings += crossed.contains(use_from(model, line.line.uses[u])) ? 1 : 0;
+        layers = std::max(layers, rings + 1);
+    }
+    return layers;
+}
+
 class Breaker {
 public:
     Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link, bool void_edges)
@@ -137,6 +163,7 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
 {
     int layers = 1;
     for (LinkingSurface& link : links) {
+        layers = std::max(layers, layers_between_rings(volume.model, link));
         if (!has_net(volume.model, link)) continue;
         const bool has_given = std::any_of(link.walls.begin(), link.walls.end(), [&](FaceId wall) {
             return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);

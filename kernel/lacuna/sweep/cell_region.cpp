@@ -139,7 +139,40 @@ mesh::Incidence uses_of(const CellRegion& region)
     });
 }
 
+/// Sine of the angle between two sides below which they lie in one line: rounding.
+constexpr double kInLine = 1e-6;
+
+/// Two sides of a cell that lie in one line and cannot move.
+std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
+                                        const std::vector<char>& locked)
+{
+    const auto& neighbours = mesh::is_wedge(hex) ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
+    const auto stays = [&](std::size_t corner) { return locked[index(hex[corner])] != 0; };
+    for (std::size_t c = 0; c < 8; ++c) {
+        for (std::size_t i = 0; i < 3 && stays(c); ++i) {
+            const std::size_t a = neighbours[c][i], b = neighbours[c][(i + 1) % 3];
+            if (!stays(a) || !stays(b)) continue;
+            const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
+            if (u.cross(v).norm() <= kInLine * u.norm() * v.norm())
+                return StuckCorner{hex[c], {hex[a], hex[b]}};
+        }
+    }
+    return std::nullopt;
+}
+
 } // namespace
+
+std::optional<StuckCorner> stuck_corner(const mesh::HexMesh& mesh, const Sliding& sliding)
+{
+    const std::vector<char> locked = locked_nodes(mesh, sliding);
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+        const Hex hex = mesh.hex(c);
+        const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
+        if (certified_positive(hex, corners)) continue;
+        if (const auto stuck = stuck_corner(hex, corners, locked)) return stuck;
+    }
+    return std::nullopt;
+}
 
 CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                        const RunContext& context)

@@ -6,6 +6,7 @@
 #include <lacuna/core/parallel.h>
 #include <lacuna/surface/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
+#include <lacuna/sweep/detail/finer_sides.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -65,28 +66,21 @@ DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& 
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
 
 /// A length a little below `value`, in two digits.
-std::string rounded_down(double value)
+double rounded_down(double value)
 {
     const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-    return in_short(std::floor(value / step) * step);
+    return std::floor(value / step) * step;
 }
 
 std::string more_of_it(const FaceFidelity& face, int layers, const FidelityOptions& options)
 {
-    // The sag of a straight side grows with the square of its length, its share of the side with the length.
-    // What is named is a tenth below that: sides differ a little.
-    constexpr double kBelow = 0.9;
-    const double share = kBelow * face.allowed / face.found;
-    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
-    if (face.along_layers) {
+    const FinerSides finer = finer_sides(face, layers, options);
+    if (finer.layers > 0) {
         return "The face bends there from layer to layer: by the sag of straight sides " +
-               std::to_string(static_cast<int>(std::ceil(layers / by))) + " layers would do instead of " +
-               std::to_string(layers);
+               std::to_string(finer.layers) + " layers would do instead of " + std::to_string(layers);
     }
-    const double asked = options.size ? options.size(face.found_at) : face.source_side;
     return "The face bends there and a side of " + in_short(face.side) +
-           " cannot follow: by the sag of straight sides a size of " +
-           rounded_down(std::min(face.source_side, asked) * by) + " would do";
+           " cannot follow: by the sag of straight sides a size of " + in_short(finer.size) + " would do";
 }
 
 } // namespace
@@ -145,13 +139,31 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     return result;
 }
 
-void require(const Fidelity& fidelity, int layers, const FidelityOptions& options)
+const FaceFidelity* worst_misfit(const Fidelity& fidelity)
 {
     const FaceFidelity* worst = nullptr;
     for (const FaceFidelity& face : fidelity.faces) {
         if (face.misfit == Misfit::none) continue;
         if (worst == nullptr || face.found * worst->allowed > worst->found * face.allowed) worst = &face;
     }
+    return worst;
+}
+
+FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptions& options)
+{
+    // The sag of a straight side grows with the square of its length, its share of the side with the length.
+    // What is named is a tenth below that: sides differ a little.
+    constexpr double kBelow = 0.9;
+    const double share = kBelow * face.allowed / face.found;
+    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
+    if (face.along_layers) return {.layers = static_cast<int>(std::ceil(layers / by))};
+    const double asked = options.size ? options.size(face.found_at) : face.source_side;
+    return {.size = rounded_down(std::min(face.source_side, asked) * by)};
+}
+
+void require(const Fidelity& fidelity, int layers, const FidelityOptions& options)
+{
+    const FaceFidelity* worst = worst_misfit(fidelity);
     const bool given = options.max_deviation > 0;
     if (worst == nullptr) return;
     const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;

@@ -218,6 +218,11 @@ Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Slidi
                  const RunContext& context)
 {
     check(options);
+    if (const auto stuck = stuck_corner(mesh, sliding)) {
+        Improved result;
+        result.stuck = stuck;
+        return result;
+    }
     const CellRegion region = poor_region(mesh, options, sliding, context);
     if (region.free == 0) return {};
     return Improver(mesh, region, options, sliding, context).run();

@@ -4,8 +4,10 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +33,12 @@ struct Sliding {
     std::vector<char> held{}; ///< of each node of the mesh: it stays, inside too; empty: none
 };
 
+/// Two sides of a cell that nodes that stay keep in one line, or turned over: no node that moves opens it.
+struct StuckCorner {
+    Index node = -1;
+    std::array<Index, 2> to{-1, -1}; ///< the other ends of both sides
+};
+
 struct Improved {
     std::size_t cells = 0;                  ///< that took part
     std::size_t moved = 0;                  ///< nodes that took part
@@ -39,6 +47,7 @@ struct Improved {
     bool untangled = false;                 ///< some were folded at first
     bool unfinished = false;                ///< work or time ran out
     bool won = false;                       ///< nodes were moved
+    std::optional<StuckCorner> stuck{};     ///< of a cell without volume; then nothing was tried
 };
 
 /// Move nodes so that folded cells open up and poor ones grow better. Nodes of edges stay, as do all of the

@@ -4,6 +4,7 @@
 
 #include <lacuna/quality/layered.h>
 #include <lacuna/surface/projector.h>
+#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/improve.h>
 
 #include <algorithm>
@@ -57,6 +58,43 @@ private:
     std::map<Index, surface::Projector> projector_;
 };
 
+/// The edge at a vertex that leads towards a place; invalid: none does.
+EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
+{
+    const Vec3 way = (to - model.at(model[vertex].point)).stableNormalized();
+    EdgeId nearest;
+    double most = 0;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const Edge& edge = model.edges[e];
+        for (const bool forward : {true, false}) {
+            if ((forward ? edge.from : edge.to) != vertex) continue;
+            const Index next = forward ? edge.points[1] : edge.points[edge.points.size() - 2];
+            const double along = (model.at(next) - model.at(model[vertex].point)).stableNormalized().dot(way);
+            if (along <= most) continue;
+            most = along;
+            nearest = EdgeId(e);
+        }
+    }
+    return nearest;
+}
+
+/// What keeps a cell without volume, and what to try.
+std::string in_words(const StuckCorner& stuck, const mesh::HexMesh& mesh, const Model& model)
+{
+    const auto at = [&](Index node) { return mesh.nodes[index(node)]; };
+    std::string where = "at " + place_in_short(at(stuck.node)) + " two sides of a cell";
+    for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+        if ((model.at(model.vertices[v].point) - at(stuck.node)).norm() > model.tolerance) continue;
+        const EdgeId a = edge_towards(model, VertexId(v), at(stuck.to[0])),
+                     b = edge_towards(model, VertexId(v), at(stuck.to[1]));
+        if (!a.valid() || !b.valid() || a == b) continue;
+        where = "at " + name_of(model, VertexId(v)) + " " + name_of(model, a) + " and " + name_of(model, b);
+        break;
+    }
+    return where + " lie in one line, and the cell that has both at one corner has no volume wherever its "
+                   "other nodes are; name other faces as source and target, or cut the volume there";
+}
+
 std::string in_words(const Improved& improved)
 {
     const auto value = [](double jacobian) { return with_decimals(jacobian, 3); };
@@ -86,6 +124,10 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
                           [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); },
                           std::move(held)};
     const Improved improved = improve(swept.mesh, improving, sliding, context);
+    if (improved.stuck) {
+        if (proof.finding) proof.finding->message = in_words(*improved.stuck, swept.mesh, model);
+        return proof;
+    }
     if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
     proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
     if (proof.finding && quality::can_be_improved(proof.finding->fault))

@@ -73,6 +73,10 @@ std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolu
                                             : "size: as asked";
         for (std::size_t i = 0; i < finer.size(); ++i)
             line += (i == 0 ? "; less where the shape needs it: " : "; ") + finer[i];
+        if (sizes.too_narrow)
+            line += "; for " + std::to_string(kDefaultGap) +
+                    " quads across, which 'gap' asks for and would be too many in all, it would be " +
+                    width_in_words(volume.model, *sizes.too_narrow);
         lines.push_back(line);
     }
     if (options.layers.count == 0 && options.layers.heights.empty()) {

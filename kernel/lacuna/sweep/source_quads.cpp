@@ -6,6 +6,7 @@
 #include <lacuna/quads/odd_region.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
+#include <lacuna/surface/quads_asked.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -18,6 +19,10 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
+
+/// Quads on the source that narrow places may ask for where nobody asked for quads across them. A ring of
+/// three quads in a width of a 200th of its radius has some 8,000. A choice, not a measurement.
+constexpr double kMostForWidth = 20000;
 
 /// A field that refuses what is no length before anything is divided by it.
 surface::SizeField checked(const surface::SizeField& field, const std::string& option)
@@ -128,6 +133,12 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, co
     check_cancelled(context);
     if (size.by_default && options.gap == 0) size.sizing = {options.curvature, kDefaultGap, maps};
     size.shape = surface::shape_size(volume, size.asked, size.sizing);
+    if (size.by_default && options.gap == 0 && size.shape.width &&
+        surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
+        size.too_narrow = size.shape.width;
+        size.sizing = {options.curvature, 0};
+        size.shape = surface::shape_size(volume, size.asked, size.sizing);
+    }
     const bool narrow_by_default = size.shape.width && options.gap == 0 && size.sizing.gap > 0;
     size.narrow = narrow_by_default || options.gap > 0;
     size.along = size.shape.at;

@@ -8,6 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
+#include <lacuna/sweep/detail/finer_sides.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -17,11 +18,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lacuna::sweep {
 
@@ -202,12 +205,83 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
+/// How often numbers that nobody asked for are made finer, at most, and the cells that this may lead to: what
+/// is asked for by nobody must not take minutes. Choices, not measurements.
+constexpr int kMostFiner = 4;
+constexpr double kMostFinerCells = 300000;
+
+/// The options with a size or a number of layers, where nobody asked for one and the mesh is too coarse for a
+/// face that bends.
+std::optional<SweepOptions> finer_than_default(const Swept& swept, const SweepOptions& asked,
+                                               const SweepOptions& taken)
+{
+    const FaceFidelity* worst = worst_misfit(swept.fidelity);
+    if (worst == nullptr || worst->misfit != Misfit::straight) return std::nullopt;
+    const int layers = swept.mesh.layers;
+    const FinerSides finer = finer_sides(*worst, layers,
+                                         {asked.max_deviation, asked.beside.between, taken.size});
+    const bool no_layers = asked.layers.count == 0 && asked.layers.heights.empty();
+    SweepOptions rest = taken;
+    double times = 1;
+    if (finer.layers > 0 && no_layers) {
+        rest.layers.count = finer.layers;
+        times = static_cast<double>(finer.layers) / layers;
+    } else if (finer.layers == 0 && !asked.size) {
+        rest.size = [size = finer.size](const Vec3&) { return size; };
+        times = std::pow(worst->source_side / finer.size, 2);
+        // Without a size some layers were taken at least; they stay.
+        if (no_layers) rest.layers.count = layers;
+    } else {
+        return std::nullopt;
+    }
+    if (times * static_cast<double>(swept.mesh.cell_count()) > kMostFinerCells) return std::nullopt;
+    return rest;
+}
+
+/// What became finer, and why.
+std::string finer_in_words(const Swept& coarse, const SweepOptions& before, const SweepOptions& after)
+{
+    const FaceFidelity& worst = *worst_misfit(coarse.fidelity);
+    const std::string what =
+        after.layers.count > coarse.mesh.layers
+            ? "layer count: " + std::to_string(after.layers.count) + " instead of " +
+                  std::to_string(coarse.mesh.layers)
+            : "size: " + in_short(after.size(worst.found_at)) + " [model length] instead of " +
+                  in_short(before.size ? before.size(worst.found_at) : worst.source_side);
+    return what + " by default, with which the skin of the mesh was " + in_short(worst.found) + " off " +
+           worst.name;
+}
+
+/// Finer sizes and more layers where nobody asked for any, as long as a face bends away between nodes.
+Swept finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked, SweepOptions taken,
+                            Swept swept, KnownLinks& links, const RunContext& context)
+{
+    std::vector<std::string> why;
+    for (int k = 0; k < kMostFiner; ++k) {
+        const std::optional<SweepOptions> finer = finer_than_default(swept, asked, taken);
+        if (!finer) break;
+        why.push_back(finer_in_words(swept, taken, *finer));
+        try {
+            Swept next = sweep_compared(volume, *finer, links, context);
+            if (next.mesh.cell_count() <= swept.mesh.cell_count()) break; // given nodes leave no more
+            swept = std::move(next);
+        } catch (const NotSweepable& error) {
+            log_line(context, why.back() + ": " + error.what());
+            break;
+        }
+        taken = *finer;
+        swept.report.insert(swept.report.end(), why.begin(), why.end());
+        swept.defaults = why;
+    }
+    return swept;
+}
+
 /// With more sides for a full turn as long as too much volume is lost.
 Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
     Swept best = sweep_as_asked(volume, options, links, context);
-    SweepOptions rest = options;
+    SweepOptions rest = options, taken = options;
     while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
         rest.curvature = *sides;
         try {
@@ -221,11 +295,13 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, Kn
                                   ", by which the volume was " + in_short(100 * volume_lost(best.fidelity)) +
                                   " % less than what was sealed");
             best = std::move(next);
+            taken = rest;
         } catch (const NotSweepable& error) {
             log_line(context, std::string("more sides for a full turn: ") + error.what());
             break;
         }
     }
+    best = finer_where_not_asked(volume, options, taken, std::move(best), links, context);
     require(best.fidelity, best.mesh.layers, {options.max_deviation, options.beside.between, options.size});
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);

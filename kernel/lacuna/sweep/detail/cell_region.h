@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -30,6 +31,9 @@ struct CellRegion {
 /// A corner can be no better than the angle between two of its edges that cannot move.
 CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                        const RunContext& context);
+
+/// The first cell without volume that nodes that stay keep so: two of a corner's sides lie in one line.
+std::optional<StuckCorner> stuck_corner(const mesh::HexMesh& mesh, const Sliding& sliding);
 
 /// What is known of a region's cells.
 struct RegionQuality {

@@ -19,7 +19,10 @@ struct SourceSize {
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< asked, and smaller where the shape needs it
     surface::SizeField along; ///< of the layers: without what narrow places ask for by default
-    bool narrow = false;      ///< quads are to be across places that are, or may be, narrow
+    /// A place too narrow for `kDefaultGap` quads across, which nobody asked for: they would be too many in
+    /// all.
+    std::optional<surface::SizeCause> too_narrow;
+    bool narrow = false; ///< quads are to be across places that are, or may be, narrow
 };
 
 /// How many layers there are, and whether rows of quads on walls or bends of the walls said so.
