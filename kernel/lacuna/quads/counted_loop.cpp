@@ -158,11 +158,14 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
 {
+    std::vector<int> runs(task.segments.size(), 0); // of each segment
+    for (const CountedRun& run : loop.runs) ++runs[run.segment];
     while (badness(loop.excess) > 0) {
         double least = std::numeric_limits<double>::infinity();
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
+            if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue; // nowhere to turn
             for (const int by : {1, -1}) {
                 if (!may_be(task, loop, run, run.count + by, range)) continue;
                 const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
