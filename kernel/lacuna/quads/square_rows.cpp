@@ -30,7 +30,11 @@ class RowSquarer {
 public:
     /// @param sizes  whether sides are brought to the size asked as well.
     RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, bool sizes)
-        : mesh_(mesh), fixed_(region.points.size()), stars_(mesh.points.size(), mesh.quads)
+        : mesh_(mesh),
+          fixed_(region.points.size()),
+          stars_(mesh.points.size(), mesh.quads),
+          moved_(mesh.points.size(), 0),
+          searched_(mesh.points.size(), 0)
     {
         collect(region);
         if (sizes && region.size) {
@@ -43,7 +47,12 @@ public:
     double round()
     {
         double most = 0;
-        for (const Index p : nodes_to_move()) most = std::max(most, move(p));
+        for (const Index p : nodes_to_move()) {
+            if (is_settled(p)) continue;
+            const double way = move(p);
+            (way > 0 ? moved_ : searched_)[index(p)] = ++searches_;
+            most = std::max(most, way);
+        }
         return most;
     }
 
@@ -131,6 +140,17 @@ private:
         for (const double x : off_right(row)) beyond(x, kOffRight);
         for (const double x : off_height(row)) beyond(x, kOffHeight);
         return cost;
+    }
+
+    /// Whether a node stayed where it was and nothing around it has moved since: it would stay again.
+    [[nodiscard]] bool is_settled(Index p) const
+    {
+        const std::size_t when = searched_[index(p)];
+        const auto is_newer = [&](Index q) { return moved_[index(q)] > when; };
+        return when > moved_[index(p)] &&
+               std::none_of(stars_[index(p)].begin(), stars_[index(p)].end(), [&](const Spoke& s) {
+                   return is_newer(s.next) || is_newer(s.across) || is_newer(s.before);
+               });
     }
 
     /// What a node's sides cost by their lengths.
@@ -222,6 +242,8 @@ private:
     std::vector<RowSide> rows_;
     std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
     std::vector<double> asked_;               ///< size at each node, where sizes count
+    std::size_t searches_ = 0;
+    std::vector<std::size_t> moved_, searched_; ///< the last search by which each node moved, or stayed
     double floor_ = kGood;
 };
 
