@@ -5,6 +5,7 @@
 usage: read_back.py LACUNA    Exit 77 where none is.
 """
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -81,6 +82,11 @@ def read_vtk(path):
     return found, grid.GetNumberOfCells(), hexes
 
 
+def in_single(value):
+    """Rounded to single precision, in which files have scaled Jacobians."""
+    return struct.unpack("f", struct.pack("f", value))[0]
+
+
 def main():
     here = [(module, read, files) for module, read, files in
             [("gmsh", read_gmsh, list(FIELDS)), ("meshio", read_meshio, sorted(set(FIELDS) - MESHIO_REFUSES)),
@@ -91,7 +97,7 @@ def main():
         pathlib.Path(folder, "write.lua").write_text(RECIPE)
         run = subprocess.run([sys.argv[1], "write.lua"], cwd=folder, capture_output=True, text=True, check=True)
         words = run.stdout.split()
-        hexes, least = int(words[0]), {"scaled_jacobian": float(words[1]), "shape": float(words[2])}
+        hexes, least = int(words[0]), {"scaled_jacobian": in_single(float(words[1])), "shape": float(words[2])}
         for module, read, files in here:
             for name in files:
                 found, count, found_hexes = read(pathlib.Path(folder, name))
