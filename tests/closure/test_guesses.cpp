@@ -109,6 +109,30 @@ TEST_CASE("two walls of a frustum that are missing side by side are flat, whiche
     }
 }
 
+TEST_CASE("a chamfer and the wall beside it that are missing are two flat faces, and no membrane rivals them")
+{
+    for (const double width : {6.0, 8.0}) {
+        for (const double depth : {3.0, 5.0}) {
+            for (const double chamfer : {1.0, 2.0}) {
+                for (const int missing : {1, 2}) {
+                    const std::vector<Vec2> outline{
+                        {0, 0}, {width, 0}, {width, depth - chamfer}, {width - chamfer, depth}, {0, depth}};
+                    const auto block = test::prism(
+                        {.height = 4,
+                         .outline = outline,
+                         .drop = test::without(false, false, false, {missing, missing + 1})});
+                    CAPTURE(width);
+                    CAPTURE(depth);
+                    CAPTURE(chamfer);
+                    CAPTURE(missing);
+                    const auto reading = closure::find_reading(block.model, all_faces(block.model));
+                    CHECK(test::closed_volume(reading) == doctest::Approx(block.facet_volume).epsilon(1e-9));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("what two missing faces make of a bent bar is right or refused")
 {
     int right = 0, refused = 0;

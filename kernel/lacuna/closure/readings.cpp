@@ -32,7 +32,6 @@ constexpr std::size_t kMostListed = 8;
 
 std::string plain(double value) { return with_digits(value, 4); }
 
-/// The void that flat faces close, where these are not one for each free loop.
 /// Whether a void edge goes further from its chord than a half circle does.
 bool detours(const Void& v)
 {
@@ -46,6 +45,7 @@ bool detours(const Void& v)
     });
 }
 
+/// The void that flat faces close, where these are not one for each free loop, or ends that are alike.
 /// @param told  whether a void is known whose bends are told: then no channel is guessed
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)

@@ -153,7 +153,10 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
         same->fills_flat_loops = same->fills_flat_loops || fills_flat;
     } else if (same->untold) {
         now.cost = std::min(now.cost, same->cost);
+        now.bent = std::move(same->ways);
         *same = std::move(now);
+    } else {
+        same->bent.push_back(candidate);
     }
 }
 
@@ -309,7 +312,7 @@ void add_filled(std::vector<Void>& found, Void filled)
         found.push_back(std::move(filled));
     } else if (known->untold ||
                filled.sealed.closure.void_faces.size() < known->sealed.closure.void_faces.size()) {
-        if (known->untold) known->ways.clear(); // closed by their roles it would bend as nothing tells
+        if (known->untold) known->bent = std::exchange(known->ways, {});
         known->untold = filled.untold;
         known->channel = filled.channel;
         known->first = std::move(filled.first);

@@ -205,7 +205,8 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     }
     const auto is_same = [&](const RoleCandidate& way) { return has_ends(way, {source, target}); };
     for (const Void* other = likelier.data(); other != &found; ++other) {
-        if (std::any_of(other->ways.begin(), other->ways.end(), is_same)) return std::nullopt;
+        if (std::ranges::any_of(other->ways, is_same) || std::ranges::any_of(other->bent, is_same))
+            return std::nullopt;
     }
     const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
     const long irregular = best.irregular;

@@ -21,6 +21,7 @@ struct Void {
     topology::RoleCandidate first;             ///< by which it was sealed
     Sealed sealed;                             ///< as that seals it
     std::vector<topology::RoleCandidate> ways; ///< the likeliest first
+    std::vector<topology::RoleCandidate> bent; ///< others, by which it would bend as nothing given tells
     bool untold = false;                       ///< whether a void face bends as nothing given tells
     bool fills_flat_loops = false;             ///< all that is missing
     bool channel = false;                      ///< whether it was sealed by two ends that are alike
