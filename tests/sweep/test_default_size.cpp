@@ -219,6 +219,30 @@ TEST_CASE("numbers that nobody asked for get finer where a face bends between no
     CHECK(finer > 1);
 }
 
+TEST_CASE("where finer numbers that nobody asked for do not do, the refusal is that of the default and tells "
+          "of them")
+{
+    for (const double belly : {2.0, 3.0, 4.0}) {
+        CAPTURE(belly);
+        SweepOptions options;
+        options.size = [](const Vec3&) { return 0.5; };
+        options.max_deviation = 0.02;
+        std::string message;
+        try {
+            sweep::sweep(test::sealed({.sides = 0, .height = 0.8, .cuts = 4, .levels = 24, .belly = belly}),
+                         options);
+        } catch (const NotSweepable& error) {
+            CHECK(error.code() == "sweep.deviation");
+            message = error.what();
+        }
+        const auto advice = message.find(" layers would do instead of ");
+        const auto tried = message.find(". Tried in vain: layer count: ");
+        CHECK(advice != std::string::npos);
+        CHECK(tried != std::string::npos);
+        CHECK(advice < tried);
+    }
+}
+
 TEST_CASE("as many walls as may be stacked, each gets a layer by default")
 {
     for (const int sides : {0, 3, 4}) {

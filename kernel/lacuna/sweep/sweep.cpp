@@ -252,28 +252,60 @@ std::string finer_in_words(const Swept& coarse, const SweepOptions& before, cons
            worst.name;
 }
 
+FidelityOptions fidelity_options(const SweepOptions& options)
+{
+    return {options.max_deviation, options.beside.between, options.size};
+}
+
 /// Finer sizes and more layers where nobody asked for any, as long as a face bends away between nodes.
-Swept finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked, SweepOptions taken,
-                            Swept swept, KnownLinks& links, const RunContext& context)
+/// @return  nothing where there is nothing to make finer.
+std::optional<Swept> finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked,
+                                           SweepOptions taken, const Swept& coarse, KnownLinks& links,
+                                           const RunContext& context)
 {
     std::vector<std::string> why;
+    std::optional<Swept> swept;
     for (int k = 0; k < kMostFiner; ++k) {
-        const std::optional<SweepOptions> finer = finer_than_default(swept, asked, taken);
+        const Swept& now = swept ? *swept : coarse;
+        const std::optional<SweepOptions> finer = finer_than_default(now, asked, taken);
         if (!finer) break;
-        why.push_back(finer_in_words(swept, taken, *finer));
+        why.push_back(finer_in_words(now, taken, *finer));
         try {
             Swept next = sweep_compared(volume, *finer, links, context);
-            if (next.mesh.cell_count() <= swept.mesh.cell_count()) break; // given nodes leave no more
+            if (next.mesh.cell_count() <= now.mesh.cell_count()) break; // given nodes leave no more
             swept = std::move(next);
         } catch (const NotSweepable& error) {
             log_line(context, why.back() + ": " + error.what());
             break;
         }
         taken = *finer;
-        swept.report.insert(swept.report.end(), why.begin(), why.end());
-        swept.defaults = why;
+        swept->report.insert(swept->report.end(), why.begin(), why.end());
+        swept->defaults = why;
     }
     return swept;
+}
+
+/// Take what is finer by default where that follows all faces. What was swept first is refused otherwise,
+/// with what became of the last try.
+void require_or_refine(const OpenVolume& volume, const SweepOptions& asked, const SweepOptions& taken,
+                       Swept& swept, KnownLinks& links, const RunContext& context)
+{
+    std::optional<Swept> finer = finer_where_not_asked(volume, asked, taken, swept, links, context);
+    std::string tried;
+    if (finer) {
+        try {
+            require(finer->fidelity, finer->mesh.layers, fidelity_options(asked));
+            swept = std::move(*finer);
+        } catch (const NotSweepable& error) {
+            tried = ". Tried in vain: " + finer->defaults.back() + "; then " + error.what();
+        }
+    }
+    try {
+        require(swept.fidelity, swept.mesh.layers, fidelity_options(asked));
+    } catch (const NotSweepable& error) {
+        if (tried.empty()) throw;
+        throw NotSweepable(error.code(), error.what() + tried);
+    }
 }
 
 /// With more sides for a full turn as long as too much volume is lost.
@@ -301,8 +333,7 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, Kn
             break;
         }
     }
-    best = finer_where_not_asked(volume, options, taken, std::move(best), links, context);
-    require(best.fidelity, best.mesh.layers, {options.max_deviation, options.beside.between, options.size});
+    require_or_refine(volume, options, taken, best, links, context);
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
