@@ -50,4 +50,15 @@ void parallel_for(const RunContext& context, std::size_t count, std::size_t grai
     if (failure) std::rethrow_exception(failure);
 }
 
+double parallel_min(const RunContext& context, std::size_t count, std::size_t grain, double none,
+                    const std::function<double(std::size_t, std::size_t)>& least_of)
+{
+    grain = std::max<std::size_t>(grain, 1);
+    std::vector<double> least((count + grain - 1) / grain, none);
+    parallel_for(context, count, grain, [&](std::size_t begin, std::size_t end) {
+        least[begin / grain] = std::min(none, least_of(begin, end));
+    });
+    return least.empty() ? none : *std::min_element(least.begin(), least.end());
+}
+
 } // namespace lacuna

@@ -17,4 +17,10 @@ namespace lacuna {
 void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 
+/// The least of `least_of(begin, end)` over ranges of [0, count) of `grain` each, found on the context's
+/// threads; `none` where there are no ranges, or where that is less.
+/// @throw as `parallel_for()`
+double parallel_min(const RunContext& context, std::size_t count, std::size_t grain, double none,
+                    const std::function<double(std::size_t, std::size_t)>& least_of);
+
 } // namespace lacuna

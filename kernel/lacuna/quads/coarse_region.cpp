@@ -13,18 +13,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Runs with an odd number of sides. From each leads a row of quads that are twice as wide as others, at
-/// first.
-/// A choice, not a measurement.
+/// Runs with an odd number of sides. From each leads a row of quads that are twice as wide as others, until
+/// they are smoothed. A choice, not a measurement.
 constexpr std::size_t kMostOdd = 8;
-
-/// Whether the loop is all but straight at every other node, from place `first` on.
-bool can_leave_out(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t first)
-{
-    for (std::size_t i = first; i < loop.size(); i += 2)
-        if (stays(region, loop, i)) return false;
-    return true;
-}
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
 {
@@ -35,33 +26,22 @@ void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
 }
 
 /// The points of a run of a loop, but for its last node.
-void add_run(CoarseRegion& made, const PlanarRegion& region, std::vector<Index> nodes, std::size_t whole)
+void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& nodes,
+             std::size_t whole)
 {
-    const std::size_t sides = nodes.size() - 1, left = (sides + whole) / 2;
+    const std::size_t sides = nodes.size() - 1;
     const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(nodes[i])]; };
     if (whole == 0) {
         for (std::size_t i = 0; i < sides; i += 2) add_point(made, at(i), nodes[i], nodes[i + 1]);
         return;
     }
-    const auto first = static_cast<Index>(made.own.size());
-    for (std::size_t i = 0; i < left; ++i) {
-        const double place = static_cast<double>(i * sides) / static_cast<double>(left);
+    const WholeRun& run = made.runs.emplace_back(WholeRun{nodes, static_cast<Index>(made.own.size()), whole});
+    for (std::size_t i = 0; i < run.points(); ++i) {
+        const double place = static_cast<double>(i * sides) / static_cast<double>(run.points());
         const auto before = static_cast<std::size_t>(place);
         const double share = place - static_cast<double>(before);
         add_point(made, (1 - share) * at(before) + share * at(before + 1), -1, -1);
     }
-    made.runs.push_back({std::move(nodes), first, whole});
-}
-
-/// The runs of a loop, as places where they begin, and where the last of them ends.
-std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop)
-{
-    std::vector<std::size_t> corners;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        if (stays(region, loop, i)) corners.push_back(i);
-    if (corners.empty()) corners.push_back(0);
-    corners.push_back(corners.front() + loop.size());
-    return corners;
 }
 
 std::size_t odd_runs(const std::vector<std::size_t>& corners)
@@ -86,8 +66,7 @@ void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<
     for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
         std::vector<Index> nodes;
         for (std::size_t i = corners[c]; i <= corners[c + 1]; ++i) nodes.push_back(loop[i % loop.size()]);
-        add_run(made, region, std::move(nodes),
-                c == longest ? of_longest : (corners[c + 1] - corners[c]) % 2);
+        add_run(made, region, nodes, c == longest ? of_longest : (corners[c + 1] - corners[c]) % 2);
     }
 }
 
@@ -150,7 +129,7 @@ void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pa
 void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::size_t>& whole)
 {
     std::size_t place = 0;
-    for (std::size_t i = 0; i < (run.nodes.size() - 1 + run.whole) / 2; ++i) {
+    for (std::size_t i = 0; i < run.points(); ++i) {
         const bool is_whole = std::find(whole.begin(), whole.end(), i) != whole.end();
         made.own[index(run.first) + i] = run.nodes[place];
         made.next[index(run.first) + i] = is_whole ? -1 : run.nodes[place + 1];
@@ -168,6 +147,16 @@ bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size
     const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
     const double angle = turn_between(at(place + 1) - at(place), at(place + n - 1) - at(place));
     return std::abs(angle - std::numbers::pi) > kTurnsLeftOut;
+}
+
+std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop)
+{
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        if (stays(region, loop, i)) corners.push_back(i);
+    if (corners.empty()) corners.push_back(0);
+    corners.push_back(corners.front() + loop.size());
+    return corners;
 }
 
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides sides)
@@ -189,9 +178,9 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
                      takes_all ? odd - own_of_longest : own_of_longest);
             continue;
         }
-        // The first node stays where either may, for it is often one of a symmetry.
-        const std::size_t first = can_leave_out(region, loop, 1) ? 0 : 1;
-        for (std::size_t i = first; i < loop.size(); i += 2)
+        // Its runs are even, so what stays is all at even places or all at odd ones. Where nothing must stay
+        // the first node does, for it is often one of a symmetry.
+        for (std::size_t i = corners[l].front() % 2; i < loop.size(); i += 2)
             add_point(made, region.points[index(loop[i])], loop[i], loop[(i + 1) % loop.size()]);
     }
     if (region.size) made.region.size = [size = region.size](const Vec2& p) { return 2 * size(p); };
@@ -206,8 +195,8 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     std::vector<std::size_t> run_of(made.own.size(), runs), left;
     for (std::size_t r = 0; r < runs; ++r) {
         const WholeRun& run = made.runs[r];
-        const std::size_t first = index(run.first), count = (run.nodes.size() - 1 + run.whole) / 2;
-        for (std::size_t p = first; p < first + count; ++p) run_of[p] = r;
+        const std::size_t first = index(run.first);
+        for (std::size_t p = first; p < first + run.points(); ++p) run_of[p] = r;
         left.push_back(run.whole);
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,

@@ -122,11 +122,9 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
                              const RunContext& context)
 {
     constexpr std::size_t kBlock = 4096; // a choice
-    std::vector<double> least((quads.size() + kBlock - 1) / kBlock, 1);
-    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-        least[begin / kBlock] = least_scaled_jacobian(points, quads.subspan(begin, end - begin));
+    return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
+        return least_scaled_jacobian(points, quads.subspan(begin, end - begin));
     });
-    return least.empty() ? 1 : *std::min_element(least.begin(), least.end());
 }
 
 std::vector<double> boundary_angles(const PlanarRegion& region)

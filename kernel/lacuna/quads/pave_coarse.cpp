@@ -31,13 +31,9 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
         const std::vector<Index>& loop = region.loops[l];
         const std::size_t n = loop.size();
         const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
-        std::vector<std::size_t> corners;
-        for (std::size_t i = 0; i < n; ++i)
-            if (stays(region, loop, i)) corners.push_back(i);
-        if (corners.empty()) corners.push_back(0);
-        for (std::size_t c = 0; c < corners.size(); ++c) {
-            const std::size_t from = corners[c],
-                              to = c + 1 < corners.size() ? corners[c + 1] : corners.front() + n;
+        const std::vector<std::size_t> corners = runs_of(region, loop);
+        for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
+            const std::size_t from = corners[c], to = corners[c + 1];
             if ((to - from) % 2 == 0) continue;
             std::size_t longest = from;
             for (std::size_t i = from; i < to; ++i) {

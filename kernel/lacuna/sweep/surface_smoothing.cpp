@@ -105,13 +105,12 @@ double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, cons
 {
     constexpr std::size_t kBlock = 4096; // a choice
     const std::vector<Vec3> normals = node_normals(quads, nodes);
-    std::vector<double> worst((quads.size() + kBlock - 1) / kBlock, 1);
-    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-        double own = 1;
-        for (std::size_t q = begin; q < end; ++q) own = std::min(own, quad_quality(quads[q], nodes, normals));
-        worst[begin / kBlock] = own;
+    return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
+        double worst = 1;
+        for (std::size_t q = begin; q < end; ++q)
+            worst = std::min(worst, quad_quality(quads[q], nodes, normals));
+        return worst;
     });
-    return worst.empty() ? 1 : *std::min_element(worst.begin(), worst.end());
 }
 
 void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project)

@@ -18,7 +18,14 @@ struct WholeRun {
     std::vector<Index> nodes; ///< of the region, the last one too
     Index first;              ///< of its points in the coarse region, which follow each other
     std::size_t whole;        ///< sides, > 0
+
+    /// How many those points are: two of its other sides become one.
+    [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }
 };
+
+/// Where the runs of a loop begin, rising, and behind them where the last one ends: the first place once
+/// more, counted on. They run from node that stays to node that stays; a loop without such nodes is one run.
+std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
 /// A region with every other node of its loops. Sides of some runs are whole: sides of the coarse region as
 /// they are. Until `choose_whole_sides()` says which, the points of such a run lie evenly along it.
