@@ -23,64 +23,51 @@ constexpr double kFewSides = 2;
 using Facet = std::array<Vec3, 3>;
 using Segment = std::array<Vec3, 2>;
 
-double area(const Facet& f) { return (f[1] - f[0]).cross(f[2] - f[0]).norm() / 2; }
+Vec3 middle(const Facet& f) { return (f[0] + f[1] + f[2]) / 3; }
+Vec3 middle(const Segment& s) { return (s[0] + s[1]) / 2; }
+
+/// Quads of side `h` on a facet, and sides of length `h` on a segment.
+double asked_by(double h, const Facet& f) { return (f[1] - f[0]).cross(f[2] - f[0]).norm() / 2 / (h * h); }
+double asked_by(double h, const Segment& s) { return (s[1] - s[0]).norm() / h; }
 
 /// Whether a size is one on a facet or segment, by its corners and its middle.
 template <std::size_t n>
-bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double middle)
+bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_middle)
 {
-    double least = middle, most = middle;
+    double least = in_middle, most = in_middle;
     for (const Vec3& p : part) {
-        least = std::min(least, size(p));
-        most = std::max(most, size(p));
+        const double here = size(p);
+        least = std::min(least, here);
+        most = std::max(most, here);
     }
     return most <= kOneSize * least;
 }
 
-/// Quads that a size asks for on a facet; no more than just over `most` are counted.
-double quads_on(const Facet& whole, const SizeField& size, double most)
+/// Quads that a size asks for on a facet, or sides on a segment, which is halved until the size is one on it;
+/// no more than just over `most` are counted.
+template <std::size_t n>
+double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double most)
 {
-    double quads = 0;
-    std::vector<Facet> parts{whole};
-    while (!parts.empty() && quads <= most) {
-        const Facet part = parts.back();
+    double asked = 0;
+    std::vector<std::array<Vec3, n>> parts{whole};
+    while (!parts.empty() && asked <= most) {
+        const std::array<Vec3, n> part = parts.back();
         parts.pop_back();
-        const double here = size((part[0] + part[1] + part[2]) / 3);
+        const double here = size(middle(part));
+        const auto side = [&](std::size_t i) { return (part[(i + 1) % n] - part[i]).norm(); };
         std::size_t k = 0;
-        const auto side = [&](std::size_t i) { return (part[(i + 1) % 3] - part[i]).norm(); };
-        for (const std::size_t i : {1, 2})
+        for (std::size_t i = 1; i < n; ++i)
             if (side(i) > side(k)) k = i;
         if (side(k) <= kFewSides * here || is_even(part, size, here)) {
-            quads += area(part) / (here * here);
+            asked += asked_by(here, part);
             continue;
         }
-        const Vec3 middle = (part[k] + part[(k + 1) % 3]) / 2;
-        for (const std::size_t end : {k, (k + 1) % 3}) {
+        for (const std::size_t end : {k, (k + 1) % n}) {
             parts.push_back(part);
-            parts.back()[end] = middle;
+            parts.back()[end] = (part[k] + part[(k + 1) % n]) / 2;
         }
     }
-    return quads;
-}
-
-/// Sides that a size asks for on a segment; no more than just over `most` are counted.
-double sides_on(const Segment& whole, const SizeField& size, double most)
-{
-    double sides = 0;
-    std::vector<Segment> parts{whole};
-    while (!parts.empty() && sides <= most) {
-        const Segment part = parts.back();
-        parts.pop_back();
-        const Vec3 middle = (part[0] + part[1]) / 2;
-        const double here = size(middle), length = (part[1] - part[0]).norm();
-        if (length <= kFewSides * here || is_even(part, size, here)) {
-            sides += length / here;
-            continue;
-        }
-        parts.push_back({part[0], middle});
-        parts.push_back({middle, part[1]});
-    }
-    return sides;
+    return asked;
 }
 
 double sides_round(const Model& model, FaceId face, const SizeField& size, double most)
@@ -90,7 +77,7 @@ double sides_round(const Model& model, FaceId face, const SizeField& size, doubl
         for (const EdgeUse& use : loop.uses) {
             const std::vector<Index>& points = model[use.edge].points;
             for (std::size_t i = 0; i + 1 < points.size() && sides <= most; ++i)
-                sides += sides_on({model.at(points[i]), model.at(points[i + 1])}, size, most);
+                sides += asked_on(Segment{model.at(points[i]), model.at(points[i + 1])}, size, most);
         }
     }
     return sides;
@@ -106,7 +93,8 @@ bool asks_for_more(const OpenVolume& volume, const SizeField& size, double most)
     for (const FaceId face : volume.faces(Role::source)) {
         double quads = 0;
         for (const Triangle& t : model[face].triangles)
-            quads += quads_on({model.at(t[0]), model.at(t[1]), model.at(t[2])}, size, most - all - quads);
+            quads += asked_on(Facet{model.at(t[0]), model.at(t[1]), model.at(t[2])}, size,
+                              most - all - quads);
         if (four_corners(model, face)) {
             const double along = sides_round(model, face, size, kSides * std::sqrt(most)) / kSides;
             quads = std::max(quads, along * along);

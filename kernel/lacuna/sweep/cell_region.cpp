@@ -55,33 +55,47 @@ bool certified_positive(const Hex& hex, const std::array<Vec3, 8>& corners)
                                : quality::certified_positive(corners);
 }
 
+const std::array<std::array<std::size_t, 3>, 8>& neighbours_in(const Hex& hex)
+{
+    return mesh::is_wedge(hex) ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
+}
+
+/// Call `visit(corner, a, b)` for each two edges of a cell that meet in a corner and stay, all three nodes of
+/// which are locked.
+template <class Visit>
+void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Visit& visit)
+{
+    const auto& neighbours = neighbours_in(hex);
+    const auto stays = [&](std::size_t corner) { return locked[index(hex[corner])] != 0; };
+    for (std::size_t c = 0; c < 8; ++c) {
+        for (std::size_t i = 0; i < 3 && stays(c); ++i) {
+            const std::size_t a = neighbours[c][i], b = neighbours[c][(i + 1) % 3];
+            if (stays(a) && stays(b)) visit(c, a, b);
+        }
+    }
+}
+
 /// The best a cell can become: the least sine of an angle between two edges that stay; in the triangles of
 /// wedges, over that of an even one.
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
-    const bool wedge = mesh::is_wedge(hex);
-    const auto& neighbours = wedge ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
-    const double best = wedge ? 2 * std::numbers::inv_sqrt3 : 1;
-    const auto stays = [&](std::size_t corner) { return locked[static_cast<std::size_t>(hex[corner])] != 0; };
+    const auto& neighbours = neighbours_in(hex);
+    const double best = mesh::is_wedge(hex) ? 2 * std::numbers::inv_sqrt3 : 1;
+    const auto stays = [&](std::size_t corner) { return locked[index(hex[corner])] != 0; };
     for (std::size_t c = 0; c < 8; ++c) {
-        if (!stays(c)) continue;
-        if (stays(neighbours[c][0]) && stays(neighbours[c][1]) && stays(neighbours[c][2])) {
-            const Vec3 u = corners[neighbours[c][0]] - corners[c], v = corners[neighbours[c][1]] - corners[c],
-                       w = corners[neighbours[c][2]] - corners[c];
-            const double lengths = u.norm() * v.norm() * w.norm();
-            bound = std::min(bound, lengths > 0 ? best * std::abs(u.dot(v.cross(w))) / lengths : 0.0);
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = neighbours[c][i], b = neighbours[c][(i + 1) % 3];
-            if (locked[static_cast<std::size_t>(hex[a])] == 0 ||
-                locked[static_cast<std::size_t>(hex[b])] == 0)
-                continue;
-            const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
-            const double lengths = u.norm() * v.norm();
-            bound = std::min(bound, lengths > 0 ? best * u.cross(v).norm() / lengths : 0.0);
-        }
+        if (!stays(c) || !stays(neighbours[c][0]) || !stays(neighbours[c][1]) || !stays(neighbours[c][2]))
+            continue;
+        const Vec3 u = corners[neighbours[c][0]] - corners[c], v = corners[neighbours[c][1]] - corners[c],
+                   w = corners[neighbours[c][2]] - corners[c];
+        const double lengths = u.norm() * v.norm() * w.norm();
+        bound = std::min(bound, lengths > 0 ? best * std::abs(u.dot(v.cross(w))) / lengths : 0.0);
     }
+    for_locked_angles(hex, locked, [&](std::size_t c, std::size_t a, std::size_t b) {
+        const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
+        const double lengths = u.norm() * v.norm();
+        bound = std::min(bound, lengths > 0 ? best * u.cross(v).norm() / lengths : 0.0);
+    });
     return bound;
 }
 
@@ -146,18 +160,13 @@ constexpr double kInLine = 1e-6;
 std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
                                         const std::vector<char>& locked)
 {
-    const auto& neighbours = mesh::is_wedge(hex) ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
-    const auto stays = [&](std::size_t corner) { return locked[index(hex[corner])] != 0; };
-    for (std::size_t c = 0; c < 8; ++c) {
-        for (std::size_t i = 0; i < 3 && stays(c); ++i) {
-            const std::size_t a = neighbours[c][i], b = neighbours[c][(i + 1) % 3];
-            if (!stays(a) || !stays(b)) continue;
-            const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
-            if (u.cross(v).norm() <= kInLine * u.norm() * v.norm())
-                return StuckCorner{hex[c], {hex[a], hex[b]}};
-        }
-    }
-    return std::nullopt;
+    std::optional<StuckCorner> stuck;
+    for_locked_angles(hex, locked, [&](std::size_t c, std::size_t a, std::size_t b) {
+        const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
+        if (!stuck && u.cross(v).norm() <= kInLine * u.norm() * v.norm())
+            stuck = StuckCorner{hex[c], {hex[a], hex[b]}};
+    });
+    return stuck;
 }
 
 } // namespace
@@ -168,8 +177,8 @@ std::optional<StuckCorner> stuck_corner(const mesh::HexMesh& mesh, const Sliding
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
         const Hex hex = mesh.hex(c);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
-        if (certified_positive(hex, corners)) continue;
-        if (const auto stuck = stuck_corner(hex, corners, locked)) return stuck;
+        const auto stuck = stuck_corner(hex, corners, locked);
+        if (stuck && !certified_positive(hex, corners)) return stuck;
     }
     return std::nullopt;
 }

@@ -161,11 +161,11 @@ FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptio
     return {.size = rounded_down(std::min(face.source_side, asked) * by)};
 }
 
-void require(const Fidelity& fidelity, int layers, const FidelityOptions& options)
+std::string misfit_in_words(const Fidelity& fidelity, int layers, const FidelityOptions& options)
 {
     const FaceFidelity* worst = worst_misfit(fidelity);
     const bool given = options.max_deviation > 0;
-    if (worst == nullptr) return;
+    if (worst == nullptr) return {};
     const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;
     const std::string limit = in_short(worst->allowed) + (given ? " (max_deviation)"
                                                           : whole_side
@@ -195,7 +195,7 @@ void require(const Fidelity& fidelity, int layers, const FidelityOptions& option
                   in_short(worst->side) + " long";
         break;
     }
-    throw NotSweepable("sweep.deviation", message);
+    return message;
 }
 
 void require_volume(const Fidelity& fidelity, int layers)

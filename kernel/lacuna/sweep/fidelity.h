@@ -84,10 +84,10 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                  const FidelityOptions& options = {}, const RunContext& context = {},
                  const mesh::LayeredNodes* layers = nullptr);
 
-/// @throw NotSweepable "sweep.deviation"  the face that is furthest beyond what is allowed: names it, the
-///        place, the distance found and allowed, and for straight sides on a bend the size, or the number of
-///        layers, by which their sag would be as small as that.
-void require(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
+/// The face that is furthest beyond what is allowed, for a person: its name, the place, the distance found
+/// and allowed, and for straight sides on a bend the size, or the number of layers, by which their sag would
+/// be as small as that. Empty where every face is followed.
+std::string misfit_in_words(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
 /// Chords of long sides stay within a quarter of their own length of a face that turns by a right angle under
 /// them: what they cut off in all tells.

@@ -129,12 +129,12 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, co
     }
     check_amount(volume, size.asked, options.layers);
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
-    size.sizing = {options.curvature, options.gap};
+    const bool gap_by_default = size.by_default && options.gap == 0;
     check_cancelled(context);
-    if (size.by_default && options.gap == 0) size.sizing = {options.curvature, kDefaultGap, maps};
+    size.sizing = gap_by_default ? surface::ShapeSizing{options.curvature, kDefaultGap, maps}
+                                 : surface::ShapeSizing{options.curvature, options.gap};
     size.shape = surface::shape_size(volume, size.asked, size.sizing);
-    if (size.by_default && options.gap == 0 && size.shape.width &&
-        surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
+    if (gap_by_default && size.shape.width && surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
         size.too_narrow = size.shape.width;
         size.sizing = {options.curvature, 0};
         size.shape = surface::shape_size(volume, size.asked, size.sizing);

@@ -93,6 +93,11 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
+FidelityOptions fidelity_options(const SweepOptions& options)
+{
+    return {options.max_deviation, options.beside.between, options.size};
+}
+
 /// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
 /// are off by a quarter of what the quad's own straight sides would be, at most.
 void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
@@ -218,8 +223,7 @@ std::optional<SweepOptions> finer_than_default(const Swept& swept, const SweepOp
     const FaceFidelity* worst = worst_misfit(swept.fidelity);
     if (worst == nullptr || worst->misfit != Misfit::straight) return std::nullopt;
     const int layers = swept.mesh.layers;
-    const FinerSides finer = finer_sides(*worst, layers,
-                                         {asked.max_deviation, asked.beside.between, taken.size});
+    const FinerSides finer = finer_sides(*worst, layers, fidelity_options(taken));
     const bool no_layers = asked.layers.count == 0 && asked.layers.heights.empty();
     SweepOptions rest = taken;
     double times = 1;
@@ -252,11 +256,6 @@ std::string finer_in_words(const Swept& coarse, const SweepOptions& before, cons
            worst.name;
 }
 
-FidelityOptions fidelity_options(const SweepOptions& options)
-{
-    return {options.max_deviation, options.beside.between, options.size};
-}
-
 /// Finer sizes and more layers where nobody asked for any, as long as a face bends away between nodes.
 /// @return  nothing where there is nothing to make finer.
 std::optional<Swept> finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked,
@@ -285,27 +284,19 @@ std::optional<Swept> finer_where_not_asked(const OpenVolume& volume, const Sweep
     return swept;
 }
 
-/// Take what is finer by default where that follows all faces. What was swept first is refused otherwise,
-/// with what became of the last try.
-void require_or_refine(const OpenVolume& volume, const SweepOptions& asked, const SweepOptions& taken,
-                       Swept& swept, KnownLinks& links, const RunContext& context)
+/// A mesh that follows every face, or a finer one that does where nobody asked for its size and layers.
+/// @throw NotSweepable "sweep.deviation"  what is wrong with the mesh as asked for, and with the finest tried
+Swept require_or_refine(const OpenVolume& volume, const SweepOptions& asked, const SweepOptions& taken,
+                        Swept swept, KnownLinks& links, const RunContext& context)
 {
+    const std::string found = misfit_in_words(swept.fidelity, swept.mesh.layers, fidelity_options(asked));
+    if (found.empty()) return swept;
     std::optional<Swept> finer = finer_where_not_asked(volume, asked, taken, swept, links, context);
-    std::string tried;
-    if (finer) {
-        try {
-            require(finer->fidelity, finer->mesh.layers, fidelity_options(asked));
-            swept = std::move(*finer);
-        } catch (const NotSweepable& error) {
-            tried = ". Tried in vain: " + finer->defaults.back() + "; then " + error.what();
-        }
-    }
-    try {
-        require(swept.fidelity, swept.mesh.layers, fidelity_options(asked));
-    } catch (const NotSweepable& error) {
-        if (tried.empty()) throw;
-        throw NotSweepable(error.code(), error.what() + tried);
-    }
+    if (!finer) throw NotSweepable("sweep.deviation", found);
+    const std::string left = misfit_in_words(finer->fidelity, finer->mesh.layers, fidelity_options(asked));
+    if (left.empty()) return std::move(*finer);
+    throw NotSweepable("sweep.deviation",
+                       found + ". Tried in vain: " + finer->defaults.back() + "; then " + left);
 }
 
 /// With more sides for a full turn as long as too much volume is lost.
@@ -333,7 +324,7 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, Kn
             break;
         }
     }
-    require_or_refine(volume, options, taken, best, links, context);
+    best = require_or_refine(volume, options, taken, std::move(best), links, context);
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
