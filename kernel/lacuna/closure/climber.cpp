@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/climber.h>
+
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/use_places.h>
 

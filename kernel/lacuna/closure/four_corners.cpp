@@ -50,12 +50,19 @@ bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
     return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
 }
 
-std::vector<std::vector<EdgeUse>> four_corners(const Model& model, const Loop& loop)
+std::vector<std::size_t> sharp_corners(const Model& model, const Loop& loop)
 {
     const std::size_t uses = loop.uses.size();
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < uses; ++i)
         if (turns_sharply(model, loop.uses[(i + uses - 1) % uses], loop.uses[i])) corners.push_back(i);
+    return corners;
+}
+
+std::vector<std::vector<EdgeUse>> four_corners(const Model& model, const Loop& loop)
+{
+    const std::size_t uses = loop.uses.size();
+    const std::vector<std::size_t> corners = sharp_corners(model, loop);
     if (corners.size() != 4) return {};
     std::vector<std::vector<EdgeUse>> sides(4);
     for (std::size_t c = 0; c < 4; ++c) {

@@ -68,15 +68,6 @@ bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
     return false;
 }
 
-std::size_t corners_of(const Model& model, const Loop& loop)
-{
-    const std::size_t uses = loop.uses.size();
-    std::size_t corners = 0;
-    for (std::size_t i = 0; i < uses; ++i)
-        corners += turns_sharply(model, loop.uses[(i + uses - 1) % uses], loop.uses[i]) ? 1 : 0;
-    return corners;
-}
-
 /// Whether a void face is bent between its sides and not by its heights over its plane.
 bool is_stretched(const Model& model, FaceId face)
 {
@@ -90,7 +81,7 @@ bool is_open(const Sealed& sealed, FaceId face)
     if (!is_far_off_plane(sealed, face) || bends_as_rim(model, face)) return false;
     const std::vector<Loop>& loops = model[face].loops;
     return !membranes(model, {face}).empty() ||
-           (is_stretched(model, face) && loops.size() == 1 && corners_of(model, loops.front()) > 4);
+           (is_stretched(model, face) && loops.size() == 1 && sharp_corners(model, loops.front()).size() > 4);
 }
 
 /// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
@@ -100,7 +91,7 @@ bool leaves_plane(const Model& model, FaceId face)
     return is_stretched(model, face) && std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
                const bool given = std::ranges::none_of(
                    loop.uses, [&](const EdgeUse& use) { return is_void(model, use.edge); });
-               if (given && corners_of(model, loop) <= 4) return false;
+               if (given && sharp_corners(model, loop).size() <= 4) return false;
                for (std::size_t first = 0; first < loop.uses.size(); ++first)
                    if (goes_round_plane(model, loop, first)) return true;
                return false;
@@ -124,15 +115,22 @@ std::string in_words(const std::set<int>& tags)
     return text;
 }
 
+/// The faces that have an edge in common with a face.
+std::set<FaceId> faces_round(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face)
+{
+    std::set<FaceId> round;
+    for (const Loop& loop : model[face].loops)
+        for (const EdgeUse& use : loop.uses)
+            for (const FaceUse& by : uses[use.edge.index()])
+                if (by.face != face) round.insert(by.face);
+    return round;
+}
+
 /// The given face in whose plane a void face closes a hole of it, if it does.
 std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                       FaceId filler)
 {
-    std::set<FaceId> round;
-    for (const Loop& loop : model[filler].loops)
-        for (const EdgeUse& use : loop.uses)
-            for (const FaceUse& by : uses[use.edge.index()])
-                if (by.face != filler) round.insert(by.face);
+    const std::set<FaceId> round = faces_round(model, uses, filler);
     if (round.size() != 1 || model[*round.begin()].loops.size() < 2) return std::nullopt;
     const auto plane = plane_of(model, *round.begin());
     if (!plane || !lies_in_plane(model, filler, *plane)) return std::nullopt;
@@ -168,27 +166,25 @@ bool look_inward(const Model& model, const std::vector<FaceId>& given, const Mod
     return true;
 }
 
-std::string guess_of_bent(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+/// @param uses  of each edge of the sealed model, as `edge_uses()` has them
+std::string guess_of_bent(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed,
+                          const std::vector<std::vector<FaceUse>>& uses)
 {
-    const Model& own = sealed.volume.model;
-    const auto uses = edge_uses(own);
     for (const FaceId face : sealed.closure.void_faces) {
-        if (!is_untold(sealed, face) || !is_far_off_plane(sealed, face)) continue;
-        std::set<int> round;
-        for (const Loop& loop : own[face].loops)
-            for (const EdgeUse& use : loop.uses)
-                for (const FaceUse& by : uses[use.edge.index()])
-                    if (by.face.index() < given.size()) round.insert(model[given[by.face.index()]].tag);
-        return "nothing given tells how what is missing beside " + in_words(round) +
+        if (!is_far_off_plane(sealed, face) || !is_untold(sealed, face)) continue;
+        std::set<int> tags;
+        for (const FaceId other : faces_round(sealed.volume.model, uses, face))
+            if (other.index() < given.size()) tags.insert(model[given[other.index()]].tag);
+        return "nothing given tells how what is missing beside " + in_words(tags) +
                " bends: its rim lies in no plane";
     }
     return {};
 }
 
-std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed,
+                           const std::vector<std::vector<FaceUse>>& uses)
 {
     const Model& own = sealed.volume.model;
-    const auto uses = edge_uses(own);
     for (const FaceId face : sealed.closure.void_faces) {
         const auto round = face_round_hole(own, uses, face);
         if (!round || round->index() >= given.size()) continue;
@@ -210,8 +206,9 @@ bool bends_untold(const Sealed& sealed)
 
 std::string guess_of(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
 {
-    const std::string bent = guess_of_bent(model, given, sealed);
-    return bent.empty() ? guess_of_holes(model, given, sealed) : bent;
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(sealed.volume.model);
+    const std::string bent = guess_of_bent(model, given, sealed, uses);
+    return bent.empty() ? guess_of_holes(model, given, sealed, uses) : bent;
 }
 
 } // namespace lacuna::closure

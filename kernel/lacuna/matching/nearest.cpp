@@ -6,6 +6,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,16 +43,13 @@ Ends ends_of(const Model& model, const std::vector<Rim>& loops)
     Ends ends;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         ends.first.push_back(ends.vertex.size());
-        std::vector<Vec3> outline;
         for (const EdgeUse& use : loops[l].uses) {
             const VertexId v = use_from(model, use);
             ends.vertex.push_back(v);
             ends.at.push_back(model.at(model[v].point));
             ends.loop.push_back(l);
-            const std::vector<Index> chain = use_points(model, use);
-            for (std::size_t i = 0; i + 1 < chain.size(); ++i) outline.push_back(model.at(chain[i]));
         }
-        ends.area.push_back(geometry::newell_vector(outline));
+        ends.area.push_back(geometry::newell_vector(loop_places(model, loops[l].uses)));
     }
     ends.first.push_back(ends.vertex.size());
     return ends;

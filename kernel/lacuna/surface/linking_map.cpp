@@ -158,9 +158,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     }
     for (const LinkingLine& line : link.lines) {
         const std::vector<Index> points = use_points(model, line.line.uses);
-        std::vector<Vec3> way;
-        for (const Index p : points) way.push_back(model.at(p));
-        const std::vector<double> at = geometry::arc_lengths(way);
+        const std::vector<double> at = geometry::arc_lengths(places_at(model, points));
         for (std::size_t i = 0; i < points.size(); ++i)
             fixed[points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
     }

@@ -9,6 +9,7 @@
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/detail/patches.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,8 @@ constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
 /// Of sharp edges among the walls that hang together and do not lead from end to end, and of a window in
-/// them. A choice: a bore with a
-/// step is read as an end at two heights before it is read as a wall that runs in and out.
+/// them. A choice: a bore with a step is read as an end at two heights before it is read as a wall that runs
+/// in and out.
 constexpr double kLoose = 0.3;
 /// And of walls that face along the way from end to end, by the mean square of the cosine: the walls of a
 /// straight sweep do not at all, those of a bend by 90° by a quarter or less. A choice, made on 277 voids of
@@ -408,13 +409,9 @@ private:
         std::vector<Vec3> centre;
         std::vector<double> size;
         for (const Rim* rim : {&first, &second}) {
-            std::vector<Vec3> points;
+            const std::vector<Vec3> points = loop_places(model_, rim->uses);
             double length = 0;
-            for (const EdgeUse& use : rim->uses) {
-                const std::vector<Index> chain = use_points(model_, use);
-                for (std::size_t i = 0; i + 1 < chain.size(); ++i) points.push_back(model_.at(chain[i]));
-                length += edge_length(model_, use.edge);
-            }
+            for (const EdgeUse& use : rim->uses) length += edge_length(model_, use.edge);
             Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
             for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
             for (std::size_t i = 0; i < points.size(); ++i)

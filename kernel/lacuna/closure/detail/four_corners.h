@@ -10,6 +10,9 @@ namespace lacuna::closure {
 /// Whether a loop turns sharply where one use goes over into the next.
 bool turns_sharply(const topology::Model& model, topology::EdgeUse before, topology::EdgeUse after);
 
+/// The uses of a loop that begin where it turns sharply, rising.
+std::vector<std::size_t> sharp_corners(const topology::Model& model, const topology::Loop& loop);
+
 /// The four sides of a loop that turns sharply at four of its vertices, in walking order; empty where it
 /// turns at more or fewer.
 ///
