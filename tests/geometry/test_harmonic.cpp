@@ -145,6 +145,31 @@ TEST_CASE("linear functions come back from more points than are solved for direc
     }
 }
 
+TEST_CASE("values between free borders are the same in any unit, solved for directly or not")
+{
+    for (const int n : {20, 180}) {
+        for (const double unit : {0x1p-8, 0x1p8}) {
+            CAPTURE(n);
+            CAPTURE(unit);
+            Sheet bumpy = sheet(3, n, 0.25, 0.1 / n);
+            HarmonicProblem problem = square_problem(bumpy);
+            const auto is_end = [&](std::size_t i) { return std::fmod(bumpy.rim_place[i].y(), 1) == 0; };
+            std::vector<double> ends;
+            problem.fixed.clear();
+            for (std::size_t i = 0; i < bumpy.rim.size(); ++i) {
+                if (!is_end(i)) continue;
+                problem.fixed.push_back(bumpy.rim[i]);
+                ends.push_back(bumpy.rim_place[i].y());
+            }
+            problem.fixed_values = Eigen::Map<Eigen::VectorXd>(ends.data(), Eigen::Index(ends.size()));
+            const Eigen::MatrixXd values = solve_harmonic(problem);
+            for (Vec3& point : bumpy.points) point *= unit;
+            problem.points = bumpy.points;
+            CHECK(solve_harmonic(problem) == values);
+        }
+    }
+}
+
 TEST_CASE("a bumpy sheet maps one to one onto the unit square, its rim bit for bit")
 {
     for (unsigned seed = 0; seed < 40; ++seed) {
