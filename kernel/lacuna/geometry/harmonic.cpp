@@ -26,9 +26,10 @@ const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 constexpr Index kFree = -1, kUnused = -2;
 
 /// tan(angle / 2) between two sides, kept away from 0 and from infinity.
-double half_tangent(const Vec3& a, const Vec3& b)
+/// @param product  of their lengths
+double half_tangent(const Vec3& a, const Vec3& b, double product)
 {
-    const double product = a.norm() * b.norm(), cosine = a.dot(b), sine = a.cross(b).norm();
+    const double cosine = a.dot(b), sine = a.cross(b).norm();
     // Two forms of one function, each free of cancellation on its own side.
     const double numerator = cosine > 0 ? sine : product - cosine;
     const double denominator = cosine > 0 ? product + cosine : sine;
@@ -93,7 +94,7 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::ve
                     {triangle[i], triangle[k], turns[k] - turns[i], cotangent(p[i] - p[j], p[k] - p[j])});
                 continue;
             }
-            const double tangent = half_tangent(p[j] - p[i], p[k] - p[i]);
+            const double tangent = half_tangent(p[j] - p[i], p[k] - p[i], side[k] * side[j]);
             // Three points in one place are as near to each other as to anything.
             const auto add = [&](std::size_t to, double distance) {
                 const double length = longest > 0 ? std::max(distance, kHalfDigits * longest) : 1;
@@ -227,7 +228,9 @@ std::optional<Eigen::MatrixXd> solve_by_multigrid(const std::vector<Eigen::Tripl
 {
     Multigrid::Matrix matrix(right.rows(), right.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
-    matrix = factors.asDiagonal() * matrix;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+        for (Multigrid::Matrix::InnerIterator entry(matrix, row); entry; ++entry)
+            entry.valueRef() *= factors[row];
     const Multigrid solver(std::move(matrix), context);
     Eigen::MatrixXd solution(right.rows(), right.cols());
     Eigen::VectorXd x;

@@ -115,16 +115,44 @@ Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index co
     return up;
 }
 
-/// One sweep over the rows from the first to the last, or back.
-template <bool Forward>
-void sweep_rows(const Matrix& matrix, const Vector& right, Vector& x)
+/// One sweep over the rows from the first to the last, where `x` was 0 before: columns behind the row count
+/// nothing, so they are left out.
+void first_sweep(const Matrix& matrix, const Vector& right, Vector& x)
 {
-    const Eigen::Index rows = matrix.rows();
+    const auto* start = matrix.outerIndexPtr();
+    const auto* column = matrix.innerIndexPtr(); // rising in each row
+    const double* value = matrix.valuePtr();
+    x.resize(matrix.rows());
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        double sum = right[row];
+        auto k = start[row];
+        for (; k < start[row + 1] && column[k] < row; ++k) sum -= value[k] * x[column[k]];
+        x[row] = k < start[row + 1] && column[k] == row ? sum / value[k] : sum;
+    }
+}
+
+/// What the first sweep left: the columns behind each row, which it took for 0.
+void residual_of_first(const Matrix& matrix, const Vector& x, Vector& residual)
+{
     const auto* start = matrix.outerIndexPtr();
     const auto* column = matrix.innerIndexPtr();
     const double* value = matrix.valuePtr();
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const Eigen::Index row = Forward ? i : rows - 1 - i;
+    residual.resize(matrix.rows());
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+        double sum = 0;
+        for (auto k = start[row + 1]; k > start[row] && column[k - 1] > row; --k)
+            sum -= value[k - 1] * x[column[k - 1]];
+        residual[row] = sum;
+    }
+}
+
+/// One sweep over the rows from the last to the first.
+void sweep_back(const Matrix& matrix, const Vector& right, Vector& x)
+{
+    const auto* start = matrix.outerIndexPtr();
+    const auto* column = matrix.innerIndexPtr();
+    const double* value = matrix.valuePtr();
+    for (Eigen::Index row = matrix.rows() - 1; row >= 0; --row) {
         double sum = right[row], centre = 1;
         for (auto k = start[row]; k < start[row + 1]; ++k) {
             if (column[k] == row)
@@ -138,9 +166,9 @@ void sweep_rows(const Matrix& matrix, const Vector& right, Vector& x)
 
 } // namespace
 
-Multigrid::Multigrid(Matrix matrix, const RunContext& context)
+Multigrid::Multigrid(Matrix&& matrix, const RunContext& context)
 {
-    levels_.push_back({std::move(matrix), {}, {}});
+    levels_.emplace_back().matrix.swap(matrix);
     while (levels_.back().matrix.rows() > kCoarsest) {
         check_cancelled(context);
         Level& fine = levels_.back();
@@ -155,7 +183,7 @@ Multigrid::Multigrid(Matrix matrix, const RunContext& context)
         fine.down = fine.up.transpose();
         Matrix coarse = fine.down * Matrix(fine.matrix * fine.up);
         coarse.makeCompressed();
-        levels_.push_back({std::move(coarse), {}, {}});
+        levels_.emplace_back().matrix.swap(coarse);
     }
     coarsest_.compute(Eigen::MatrixXd(levels_.back().matrix));
 }
@@ -167,14 +195,12 @@ void Multigrid::cycle(std::size_t level, const Vector& right, Vector& x) const
         x = coarsest_.solve(right);
         return;
     }
-    x.setZero(right.size());
-    sweep_rows<true>(here.matrix, right, x);
-    const Vector residual = right - here.matrix * x;
-    const Vector below = here.down * residual;
-    Vector step;
-    cycle(level + 1, below, step);
+    Vector residual, step;
+    first_sweep(here.matrix, right, x);
+    residual_of_first(here.matrix, x, residual);
+    cycle(level + 1, here.down * residual, step);
     x += here.up * step;
-    sweep_rows<false>(here.matrix, right, x);
+    sweep_back(here.matrix, right, x);
 }
 
 bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context) const

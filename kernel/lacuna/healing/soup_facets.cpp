@@ -75,12 +75,16 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     for (const Quad& q : soup.quads)
         for (const Index p : q) used[index(p)] = true;
     std::vector<Index> number(soup.points.size(), -1);
-    std::vector<Vec3> points;
+    std::vector<Vec3> some; // those in use, where not all are
+    const auto count = static_cast<std::size_t>(std::ranges::count(used, true));
+    if (count < used.size()) some.reserve(count);
+    Index next = 0;
     for (std::size_t p = 0; p < used.size(); ++p) {
         if (!used[p]) continue;
-        number[p] = static_cast<Index>(points.size());
-        points.push_back(soup.points[p]);
+        number[p] = next++;
+        if (count < used.size()) some.push_back(soup.points[p]);
     }
+    const std::vector<Vec3>& points = count < used.size() ? some : soup.points;
     Vec3 low = points.front();
     Vec3 high = low;
     for (const Vec3& p : points) {
@@ -194,6 +198,10 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
     check_cells(soup, soup.triangles, soup.triangle_label, "triangle");
     check_cells(soup, soup.quads, soup.quad_label, "quad");
     Facets facets;
+    const std::size_t most = soup.triangles.size() + 2 * soup.quads.size();
+    facets.corner.reserve(most);
+    facets.label.reserve(most);
+    facets.quad.reserve(most);
     const std::vector<Index> number = weld_used(soup, tolerance, facets, context);
     const auto add = [&](const Triangle& t, int label, Index quad) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;

@@ -30,8 +30,9 @@ std::uint64_t hash_of(const Cell& cell)
 /// Points by the cell they lie in, chained where hashes fall together.
 class CellTable {
 public:
-    explicit CellTable(std::size_t points)
-        : first_(std::bit_ceil(points + points / 2 + 1), -1), next_(points, -1)
+    /// @param points  numbers lie in [0, points). @param cells  about as many are expected to be taken
+    CellTable(std::size_t points, std::size_t cells)
+        : first_(std::bit_ceil(cells + cells / 2 + 1), -1), next_(points, -1)
     {
     }
 
@@ -56,8 +57,9 @@ private:
 /// Join equal points: facets as STL holds them repeat each about six times, and this is the cheap way.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
+    constexpr std::size_t kRepeats = 4; // a choice: where nothing repeats, four points share a slot
     std::vector<Index> result(points.size());
-    CellTable table(points.size());
+    CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {
         Cell bits;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -73,9 +75,9 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     return result;
 }
 
-// Cells this many tolerances wide: most points then need to look into few neighbours, and few points share
-// one.
-constexpr double kCellWidth = 8;
+/// Cells this many tolerances wide: most points then need to look into no neighbour, and few points share
+/// one. A choice, which changes nothing but time.
+constexpr double kCellWidth = 32;
 /// Points between two looks at the context. A choice, not a measurement.
 constexpr std::size_t kPointsBetweenPolls = 4096;
 
@@ -94,7 +96,9 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     // A tolerance below what the coordinates resolve would overflow the cells' numbers; such cells may be
     // wider.
     const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
-    CellTable table(points.size());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) different += result[i] == static_cast<Index>(i) ? 1 : 0;
+    CellTable table(points.size(), different);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (i % kPointsBetweenPolls == 0) check_cancelled(context);
         if (result[i] != static_cast<Index>(i)) continue;

@@ -4,6 +4,7 @@
 #include <lacuna/io/detail/deck_facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/healing/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_entities.h>
@@ -349,6 +350,7 @@ private:
     {
         healing::FacetSoup& soup = file_.soup;
         std::vector<Index> number(deck_.points.size(), -1);
+        reserve_large(soup.points, deck_.points.size());
         const auto meet = [&](auto& cell) {
             for (Index& p : cell) {
                 if (number[index(p)] < 0) {

@@ -53,7 +53,10 @@ void split_quads(healing::FacetSoup& soup)
 template <class T>
 void move_in(std::vector<T>& to, std::vector<T>& from)
 {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    if (to.empty())
+        to.swap(from);
+    else
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
 template <class Entities>
@@ -275,7 +278,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         else
             append(loaded.model, std::move(more.model));
     }
-    topology::build_loops(loaded.model);
+    if (!other.empty()) topology::build_loops(loaded.model);
     stitch(loaded.model, context);
     return loaded;
 }

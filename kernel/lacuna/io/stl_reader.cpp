@@ -2,9 +2,11 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace lacuna::io {
 namespace {
@@ -45,8 +47,7 @@ public:
             const std::uint32_t count = count_at(cursor_.bytes(4));
             cursor_.plausible(count, kFacet, 0);
             begin_solid(name_in(header));
-            into_.points().reserve(into_.points().size() + 3 * std::size_t(count));
-            for (std::uint32_t f = 0; f < count; ++f) read_binary_facet(cursor_.bytes(kFacet));
+            if (count > 0) read_binary_facets(count);
         }
         const std::string_view rest = cursor_.rest();
         if (std::ranges::any_of(rest, [](char c) { return c != 0 && c != '\n' && !is_blank(c); }))
@@ -79,25 +80,45 @@ private:
         add(corner);
     }
 
-    void read_binary_facet(std::string_view bytes)
+    void read_binary_facets(std::size_t count)
     {
-        std::array<Vec3, 3> corner;
-        for (Index i = 0; i < 9; ++i)
-            corner[index(i / 3)][i % 3] = from_bytes<float>(bytes.data() + 12 + 4 * i, false);
-        for (const Vec3& p : corner)
-            if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is none");
-        add(corner);
+        check_room(count);
+        std::vector<Vec3>& points = into_.points();
+        const auto first = static_cast<Index>(points.size());
+        reserve_large(points, points.size() + 3 * count);
+        for (std::size_t f = 0; f < count; ++f) {
+            const std::string_view bytes = cursor_.bytes(kFacet);
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                Vec3& p = points.emplace_back();
+                for (std::size_t i = 0; i < 3; ++i)
+                    p[Index(i)] = from_bytes<float>(bytes.data() + 12 + 4 * (3 * corner + i), false);
+                if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is none");
+            }
+        }
+        const auto room = into_.add_elements(into_.block_of(DeckShape::tri3, ""), count, label());
+        std::iota(room.nodes, room.nodes + 3 * count, first);
     }
 
     void add(const std::array<Vec3, 3>& corner)
     {
+        check_room(1);
         std::vector<Vec3>& points = into_.points();
-        if (points.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()) - 3)
-            cursor_.fail("too many facets");
         const auto first = static_cast<Index>(points.size());
         points.insert(points.end(), corner.begin(), corner.end());
+        into_.add_face(Triangle{first, first + 1, first + 2}, label(), cursor_);
+    }
+
+    void check_room(std::size_t facets)
+    {
+        if (into_.points().size() + 3 * facets > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+            cursor_.fail("too many facets");
+    }
+
+    /// The region of the solid at hand, which is there from its first facet on.
+    int label()
+    {
         if (label_ < 0) label_ = into_.add_region(solids_, name_);
-        into_.add_face(Triangle{first, first + 1, first + 2}, label_, cursor_);
+        return label_;
     }
 
     Cursor& cursor_;

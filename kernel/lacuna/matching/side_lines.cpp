@@ -79,8 +79,9 @@ std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector
 
 enum class Digits { all, nine };
 
-std::vector<double> heights_of(const OpenVolume& volume, const std::vector<SideLine>& lines, Digits digits,
-                               const RunContext& context)
+/// wall_heights() of some parts of the walls.
+std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
+                               const std::vector<SideLine>& lines, Digits digits, const RunContext& context)
 {
     const Model& model = volume.model;
     std::vector<double> heights(model.points.size(), kNaN);
@@ -88,7 +89,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<SideL
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
     std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
-    for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
+    for (const std::vector<FaceId>& part : parts) {
         std::vector<Triangle> triangles;
         for (const FaceId face : part)
             triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
@@ -175,6 +176,21 @@ bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
     return false;
 }
 
+/// The parts of the walls that have some of these edges: heights of the others tell nothing of them.
+std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const std::set<EdgeId>& edges)
+{
+    std::vector<std::vector<FaceId>> parts = connected_parts(volume.model, volume.faces(Role::wall));
+    std::erase_if(parts, [&](const std::vector<FaceId>& part) {
+        return std::ranges::none_of(part, [&](FaceId face) {
+            return std::ranges::any_of(volume.model[face].loops, [&](const Loop& loop) {
+                return std::ranges::any_of(loop.uses,
+                                           [&](const EdgeUse& use) { return edges.contains(use.edge); });
+            });
+        });
+    });
+    return parts;
+}
+
 /// How steeply each of some edges climbs.
 std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edges,
                            const std::vector<double>& heights)
@@ -193,12 +209,13 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     const Model& model = volume.model;
     const std::set<EdgeId> between = edges_between(volume);
     if (between.empty()) return {};
+    const std::vector<std::vector<FaceId>> parts = wall_parts_with(volume, between);
     std::vector<double> up;
     const auto in_doubt = [](double u) { return std::abs(std::abs(u) - kLevel) <= kDoubt; };
     if (!has_choices(volume, between))
-        up = climbs(volume, between, heights_of(volume, {}, Digits::nine, context));
+        up = climbs(volume, between, heights_of(volume, parts, {}, Digits::nine, context));
     if (up.empty() || std::any_of(up.begin(), up.end(), in_doubt))
-        up = climbs(volume, between, wall_heights(volume, {}, context));
+        up = climbs(volume, between, heights_of(volume, parts, {}, Digits::all, context));
     Rises result;
     auto climb = up.begin();
     for (const EdgeId edge : between) {
@@ -256,7 +273,8 @@ std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::se
 std::vector<double> wall_heights(const OpenVolume& volume, const std::vector<SideLine>& lines,
                                  const RunContext& context)
 {
-    return heights_of(volume, lines, Digits::all, context);
+    const auto parts = connected_parts(volume.model, volume.faces(Role::wall));
+    return heights_of(volume, parts, lines, Digits::all, context);
 }
 
 std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<double>& heights)

@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
 
-#include <vector>
+#include <deque>
 
 namespace lacuna::geometry {
 
@@ -20,9 +20,10 @@ class Multigrid {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    /// @param matrix  compressed; diagonal above 0, the rest of a row not above 0 and no larger in sum.
+    /// @param matrix  taken; compressed; diagonal above 0, the rest of a row not above 0 and no larger in
+    ///                sum.
     /// @throw Cancelled
-    Multigrid(Matrix matrix, const RunContext& context);
+    Multigrid(Matrix&& matrix, const RunContext& context);
 
     /// False where the matrix does not grow smaller by aggregation: solve() then finds nothing.
     [[nodiscard]] bool good() const { return good_; }
@@ -39,7 +40,7 @@ private:
     };
     void cycle(std::size_t level, const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
-    std::vector<Level> levels_; ///< the last has no `up` and `down`
+    std::deque<Level> levels_; ///< never moved, which would copy; the last has no `up` and `down`
     Eigen::PartialPivLU<Eigen::MatrixXd> coarsest_;
     bool good_ = true;
 };
