@@ -234,96 +234,6 @@ CellBatch<1> batch_of(std::span<const Vec3, 8> corners)
     return batch;
 }
 
-/// The halves of a cell's coefficients, and what is to be known of them.
-struct Halves {
-    Coefficients low, high;
-    double least_low, least_high; ///< least coefficients
-    double least_cut;             ///< least Jacobian at the four corners the halves share
-};
-
-/// Cut along the direction of `kStride` at its middle (de Casteljau).
-template <int kStride>
-void split(const Coefficients& whole, Halves& halves)
-{
-    constexpr int kSlow = kStride == 9 ? 3 : 9;
-    constexpr int kFast = kStride == 1 ? 3 : 1;
-    const auto lesser = [](double a, double b) { return a < b ? a : b; };
-    double low[9];
-    double high[9];
-    double cut[9];
-    for (int row = 0; row < 9; ++row) {
-        const int at = (row / 3) * kSlow + (row % 3) * kFast;
-        const double a = whole[at];
-        const double b = whole[at + kStride];
-        const double c = whole[at + 2 * kStride];
-        const double ab = 0.5 * (a + b);
-        const double bc = 0.5 * (b + c);
-        const double abc = 0.5 * (ab + bc);
-        halves.low[at] = a;
-        halves.low[at + kStride] = ab;
-        halves.low[at + 2 * kStride] = halves.high[at] = abc;
-        halves.high[at + kStride] = bc;
-        halves.high[at + 2 * kStride] = c;
-        low[row] = lesser(lesser(a, ab), abc);
-        high[row] = lesser(lesser(c, bc), abc);
-        cut[row] = abc;
-    }
-    const auto least = [&](const double(&v)[9]) {
-        return lesser(lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
-                             lesser(lesser(v[4], v[5]), lesser(v[6], v[7]))),
-                      v[8]);
-    };
-    halves.least_low = least(low);
-    halves.least_high = least(high);
-    halves.least_cut = lesser(lesser(cut[0], cut[2]), lesser(cut[6], cut[8]));
-}
-
-/// Least of the nine coefficients in the middle along `kStride`.
-template <int kStride>
-double least_middle(const Coefficients& c)
-{
-    constexpr int kSlow = kStride == 9 ? 3 : 9;
-    constexpr int kFast = kStride == 1 ? 3 : 1;
-    double rows[3];
-    for (int i = 0; i < 3; ++i) {
-        const int at = kStride + i * kSlow;
-        rows[i] = std::min(std::min(c[at], c[at + 2 * kFast]), c[at + kFast]);
-    }
-    return std::min(std::min(rows[0], rows[2]), rows[1]);
-}
-
-/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with
-/// cuts left; -1 where none is left.
-int best_cut(const Coefficients& c, const std::array<int, 3>& cuts_left)
-{
-    const double middles[3] = {least_middle<1>(c), least_middle<3>(c), least_middle<9>(c)};
-    int best = -1;
-    for (int d = 0; d < 3; ++d)
-        if (cuts_left[d] > 0 && (best < 0 || middles[d] < middles[best])) best = d;
-    return best;
-}
-
-/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold
-/// cutting to the same depth finds positive is found so here, as what is cut further only rises (convex
-/// hull).
-/// @pre  `whole` is positive at its corners, and finite
-bool positive_parts(const Coefficients& whole, std::array<int, 3> cuts_left)
-{
-    const int direction = best_cut(whole, cuts_left);
-    if (direction < 0) return false;
-    --cuts_left[static_cast<std::size_t>(direction)];
-    Halves halves;
-    if (direction == 0)
-        split<1>(whole, halves);
-    else if (direction == 1)
-        split<3>(whole, halves);
-    else
-        split<9>(whole, halves);
-    if (!(halves.least_cut > 0)) return false;
-    return (halves.least_low > 0 || positive_parts(halves.low, cuts_left)) &&
-           (halves.least_high > 0 || positive_parts(halves.high, cuts_left));
-}
-
 } // namespace
 
 void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
@@ -340,22 +250,6 @@ void evaluate_scaled(const CellBatch<kLanes>& batch, double (&scaled)[kLanes])
 
 void evaluate(const CellBatch<1>& batch, CellValues<1>& values) { evaluate_lanes<1>(batch, values); }
 
-bool positive_everywhere(const Coefficients& bezier, int max_depth)
-{
-    constexpr double kLargest = std::numeric_limits<double>::max();
-    int not_positive = 0;
-    int not_finite = 0;
-    for (const double value : bezier) {
-        not_positive += value > 0 ? 0 : 1;
-        not_finite += std::abs(value) <= kLargest ? 0 : 1;
-    }
-    if (not_finite > 0) return false;
-    if (not_positive == 0) return true;
-    for (const int corner : {0, 2, 6, 8, 18, 20, 24, 26})
-        if (!(bezier[static_cast<std::size_t>(corner)] > 0)) return false;
-    return positive_parts(bezier, {max_depth, max_depth, max_depth});
-}
-
 double scaled_jacobian(std::span<const Vec3, 8> corners)
 {
     CellValues<1> values;
@@ -367,9 +261,7 @@ bool certified_positive(std::span<const Vec3, 8> corners, int max_depth)
 {
     CellValues<1> values;
     evaluate(batch_of(corners), values);
-    Coefficients bezier;
-    for (std::size_t i = 0; i < 27; ++i) bezier[i] = values.bezier[i][0];
-    return positive_everywhere(bezier, max_depth);
+    return positive_everywhere(view_of(values, 0), max_depth);
 }
 
 } // namespace lacuna::quality

@@ -11,6 +11,7 @@
 namespace lacuna::quality {
 namespace {
 
+constexpr int kDepth = 6;          ///< as `certified_positive()`
 constexpr std::size_t kWorst = 10; ///< as `Quality::worst` promises
 
 struct Ranked {
@@ -58,25 +59,21 @@ void add_values(Partial& partial, double scaled, double volume, std::size_t cell
     partial.worst.offer({scaled, cell});
 }
 
-/// @param bezier  gives the coefficients, where the smallest of them leaves the question open.
-template <class Bezier>
+/// @param positive  tells whether the cell is, where the smallest coefficient leaves the question open.
+template <class Positive>
 void add_cell(Partial& partial, double scaled, double smallest, double volume, std::size_t cell,
-              const Bezier& bezier)
+              const Positive& positive)
 {
     add_values(partial, scaled, volume, cell);
     if (scaled > 0 && smallest > 0) return;
     if (!(scaled > 0)) ++partial.inverted;
-    constexpr int kDepth = 6; ///< as `certified_positive()`
-    if (!(scaled > 0) || !positive_everywhere(bezier(), kDepth)) ++partial.uncertified;
+    if (!(scaled > 0) || !positive()) ++partial.uncertified;
 }
 
 void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, std::size_t cell)
 {
-    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell, [&] {
-        Coefficients bezier;
-        for (std::size_t c = 0; c < 27; ++c) bezier[c] = values.bezier[c][lane];
-        return bezier;
-    });
+    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell,
+             [&] { return positive_everywhere(view_of(values, lane), kDepth); });
 }
 
 /// @return  the scaled Jacobian.
@@ -84,7 +81,8 @@ double add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell
 {
     const WedgeValues values = evaluate_wedge(corners);
     ++partial.wedges;
-    add_cell(partial, values.scaled, values.smallest, values.volume, cell, [&] { return over_cube(values); });
+    add_cell(partial, values.scaled, values.smallest, values.volume, cell,
+             [&] { return positive_everywhere(view_of(over_cube(values)), kDepth); });
     return values.scaled;
 }
 

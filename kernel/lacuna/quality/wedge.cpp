@@ -95,7 +95,7 @@ bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth)
     WedgeCorners copy;
     std::copy(corners.begin(), corners.end(), copy.begin());
     const WedgeValues values = evaluate_wedge(copy);
-    return values.smallest > 0 || positive_everywhere(over_cube(values), max_depth);
+    return values.smallest > 0 || positive_everywhere(view_of(over_cube(values)), max_depth);
 }
 
 } // namespace lacuna::quality

@@ -53,7 +53,21 @@ void evaluate(const CellBatch<1>& batch, CellValues<1>& values);
 /// Of one cell, (a, b, c) at a + 3b + 9c.
 using Coefficients = std::array<double, 27>;
 
+/// Those of one cell where they lie, alone or in a batch.
+struct CoefficientsView {
+    const double* first;
+    std::size_t apart; ///< from one to the next [numbers]
+
+    [[nodiscard]] double at(std::size_t number) const { return first[apart * number]; }
+};
+inline CoefficientsView view_of(const Coefficients& cell) { return {cell.data(), 1}; }
+template <int N>
+CoefficientsView view_of(const CellValues<N>& values, int lane)
+{
+    return {&values.bezier[0][lane], N};
+}
+
 /// Whether J is positive everywhere, from its Bézier coefficients. See `certified_positive()`.
-bool positive_everywhere(const Coefficients& bezier, int max_depth);
+bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 
 } // namespace lacuna::quality

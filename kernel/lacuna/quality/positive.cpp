@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+//
+// positive_everywhere(): a cell's coefficients are cut in two until all of a part are positive, three
+// coefficients at a time. All of it is compiled into who calls it, for the processor that is compiled for
+// there. No vector is handed on by value: how that is done depends on the processor.
+#include <lacuna/quality/detail/cell_batch.h>
+#include <lacuna/quality/detail/lanes.h>
+
+#include <limits>
+
+namespace lacuna::quality {
+namespace {
+
+/// Three coefficients along u, the last of them twice: so the whole of a row can be asked.
+using Row = double __attribute__((vector_size(32)));
+
+/// The coefficients of a part of a cell: (a, b, c) is number a of row b + 3c.
+struct Part {
+    Row row[9];
+};
+
+/// Cuts that are left along u, v and w.
+using CutsLeft = std::array<int, 3>;
+
+LACUNA_INLINE void lower(Row& least, const Row& other) { least = other < least ? other : least; }
+
+LACUNA_INLINE double least_of(const Row& row)
+{
+    Row least = row;
+    lower(least, __builtin_shufflevector(least, least, 2, 3, 0, 1));
+    return least[1] < least[0] ? least[1] : least[0];
+}
+
+LACUNA_INLINE Part part_of(const CoefficientsView& c)
+{
+    Part part;
+    for (std::size_t r = 0; r < 9; ++r)
+        part.row[r] = Row{c.at(3 * r), c.at(3 * r + 1), c.at(3 * r + 2), c.at(3 * r + 2)};
+    return part;
+}
+
+LACUNA_INLINE bool all_positive(const Part& part)
+{
+    Row least = part.row[0];
+    for (int r = 1; r < 9; ++r) lower(least, part.row[r]);
+    return least_of(least) > 0;
+}
+
+/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with
+/// cuts left; -1 where none is left.
+LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
+{
+    const Row* row = part.row;
+    Row along_v = row[1], along_w = row[3];
+    for (const int r : {4, 7}) lower(along_v, row[r]);
+    for (const int r : {4, 5}) lower(along_w, row[r]);
+    Row all = along_v;
+    for (const int r : {0, 2, 3, 5, 6, 8}) lower(all, row[r]);
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto middle = [&](std::size_t d, double least) { return cuts_left[d] > 0 ? least : kNone; };
+    const double u = middle(0, all[1]), v = middle(1, least_of(along_v)), w = middle(2, least_of(along_w));
+    const double uv = v < u ? v : u;
+    const int best = w < uv ? 2 : v < u ? 1 : 0;
+    return (w < uv ? w : uv) < kNone ? best : -1;
+}
+
+/// Cut across rows at the middle (de Casteljau). @param kStep  rows from one coefficient to the next along
+/// the cut direction. @return  the least Jacobian at the four corners the halves share.
+template <std::size_t kStep>
+LACUNA_INLINE double split_rows(const Part& whole, Part& low, Part& high)
+{
+    constexpr std::size_t kOther = kStep == 1 ? 3 : 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t at = i * kOther;
+        const Row& a = whole.row[at];
+        const Row& b = whole.row[at + kStep];
+        const Row& c = whole.row[at + 2 * kStep];
+        const Row ab = 0.5 * (a + b), bc = 0.5 * (b + c), abc = 0.5 * (ab + bc);
+        low.row[at] = a;
+        low.row[at + kStep] = ab;
+        low.row[at + 2 * kStep] = high.row[at] = abc;
+        high.row[at + kStep] = bc;
+        high.row[at + 2 * kStep] = c;
+    }
+    Row corners = high.row[0];
+    lower(corners, high.row[2 * kOther]);
+    return corners[2] < corners[0] ? corners[2] : corners[0];
+}
+
+/// The same along rows.
+LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
+{
+    for (int r = 0; r < 9; ++r) {
+        const Row& row = whole.row[r];
+        const Row once = 0.5 * (row + __builtin_shufflevector(row, row, 1, 2, 2, 2));
+        const Row twice = 0.5 * (once + __builtin_shufflevector(once, once, 1, 1, 1, 1));
+        const Row first = __builtin_shufflevector(once, once, 0, 0, 0, 0);
+        const Row middle = __builtin_shufflevector(twice, twice, 0, 0, 0, 0);
+        const Row begin = __builtin_shufflevector(row, first, 0, 5, 2, 3);
+        const Row end = __builtin_shufflevector(once, row, 0, 1, 6, 7);
+        low.row[r] = __builtin_shufflevector(begin, middle, 0, 1, 6, 7);
+        high.row[r] = __builtin_shufflevector(middle, end, 0, 5, 6, 7);
+    }
+    Row corners = high.row[0];
+    for (const int r : {2, 6, 8}) lower(corners, high.row[r]);
+    return corners[0];
+}
+
+using Further = bool (*)(const Part& part, const CutsLeft& cuts_left);
+
+/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold
+/// cutting to the same depth finds positive is found so here, as what is cut further only rises (convex
+/// hull).
+/// @param further  this for a half; the last one left open is gone on with here
+/// @pre  `given` is positive at its corners, and finite
+LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left, Further further)
+{
+    Part halves[2][2]; // of this cut and the one before
+    const Part* whole = &given;
+    for (std::size_t now = 0;; now = 1 - now) {
+        const int direction = best_cut(*whole, cuts_left);
+        if (direction < 0) return false;
+        --cuts_left[static_cast<std::size_t>(direction)];
+        Part &low = halves[now][0], &high = halves[now][1];
+        const double least_cut = direction == 0   ? split_along(*whole, low, high)
+                                 : direction == 1 ? split_rows<1>(*whole, low, high)
+                                                  : split_rows<3>(*whole, low, high);
+        if (!(least_cut > 0)) return false;
+        const bool low_done = all_positive(low), high_done = all_positive(high);
+        if (low_done && high_done) return true;
+        if (!low_done && !high_done && !further(low, cuts_left)) return false;
+        whole = high_done ? &low : &high;
+    }
+}
+
+bool positive_plain(const Part& part, const CutsLeft& cuts_left)
+{
+    return positive_parts(part, cuts_left, positive_plain);
+}
+
+/// Whether all are numbers: what is none leaves none when it is taken from itself.
+LACUNA_INLINE bool all_finite(const Part& part)
+{
+    Row off = part.row[0] - part.row[0];
+    for (int r = 1; r < 9; ++r) off += part.row[r] - part.row[r];
+    return off[0] + off[1] + off[2] == 0;
+}
+
+LACUNA_INLINE double least_corner(const Part& part)
+{
+    Row least = part.row[0];
+    for (const int r : {2, 6, 8}) lower(least, part.row[r]);
+    return least[2] < least[0] ? least[2] : least[0];
+}
+
+LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth, Further further)
+{
+    const Part whole = part_of(bezier);
+    if (!all_finite(whole)) return false;
+    if (all_positive(whole)) return true;
+    return least_corner(whole) > 0 && further(whole, {max_depth, max_depth, max_depth});
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+[[gnu::target("avx2")]] bool positive_avx2(const Part& part, const CutsLeft& cuts_left)
+{
+    return positive_parts(part, cuts_left, positive_avx2);
+}
+
+[[gnu::target("avx2")]] bool whole_avx2(const CoefficientsView& bezier, int max_depth)
+{
+    return positive_whole(bezier, max_depth, positive_avx2);
+}
+#endif
+
+} // namespace
+
+bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (avx2) return whole_avx2(bezier, max_depth);
+#endif
+    return positive_whole(bezier, max_depth, positive_plain);
+}
+
+} // namespace lacuna::quality
