@@ -215,6 +215,7 @@ int cut(lua_State* L)
             own.volume = std::move(piece.volume);
             own.classification = topology::classify(own.volume);
             own.material = state.material;
+            own.take_guess = state.take_guess;
             own.decks = state.decks;
             own.scale = state.scale;
             own.level = std::max(state.level, piece.level);

@@ -179,6 +179,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         if (arguments.override_class) state.as_read.reset();
         state.classification = topology::classify(state.volume);
     }
+    state.take_guess = !arguments.roles_named || arguments.reading == 1;
     state.name = arguments.name;
     state.material = arguments.material;
     return state;
@@ -197,9 +198,9 @@ int open_volume(lua_State* L)
     if (arguments.roles_named && arguments.faces_named)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
-    if (arguments.roles_named && arguments.reading > 0)
-        fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is none "
-                "to choose");
+    if (arguments.roles_named && arguments.reading > 1)
+        fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is one, "
+                "and reading = 1 takes it where its shape is a guess");
     if (arguments.full_turn &&
         (arguments.auto_walls || !arguments.roles.source.empty() || !arguments.roles.target.empty() ||
          arguments.override_class || arguments.reading > 0))

@@ -160,7 +160,9 @@ void close_volume(VolumeState& state, const closure::CloseOptions& options, cons
         return;
     }
     topology::OpenVolume sealed = state.volume;
-    state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), options, context);
+    closure::CloseOptions asked = options;
+    asked.take_guess = state.take_guess;
+    state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), asked, context);
     state.volume = std::move(sealed);
 }
 

@@ -67,8 +67,9 @@ struct VolumeState {
     std::optional<closure::SealedVolume> as_read; ///< where its roles were found: how it is closed by default
     /// Of found roles: other ways to sweep what is enclosed, for where this one fails.
     std::shared_ptr<const closure::OtherSweeps> others;
-    std::string name; ///< of the region its cells are; empty: the default
-    int level = 0;    ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
+    std::string name;        ///< of the region its cells are; empty: the default
+    bool take_guess = false; ///< whether a shape that nothing given tells is taken as it closes
+    int level = 0; ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
     std::string turn_of;               ///< of a piece of a full turn: the region that all of it is
     std::string material;              ///< name or number of its material; empty: none was said

@@ -30,6 +30,11 @@ bool holes_and_target(const test::Part& part)
     return part.role == Role::target || (part.role == Role::wall && part.loop > 0);
 }
 
+bool is_upper_wall(const test::Part& part, int side)
+{
+    return part.role == Role::wall && part.loop == 0 && part.row == 1 && part.side == side;
+}
+
 std::string refusal_of(const Model& model)
 {
     return test::refusal([&] { (void)closure::find_reading(model, all_faces(model)); });
@@ -64,6 +69,100 @@ TEST_CASE("a hole without walls is refused where an end is missing to which it m
                     flip_faces(model, all_faces(model));
                     CHECK(refusal_of(model) == "done");
                 }
+            }
+        }
+    }
+}
+
+TEST_CASE("named roles do not settle how a missing end bends: it is refused unless a guess is asked for")
+{
+    for (const int sides : {4, 5, 6}) {
+        for (int missing = 0; missing < sides; ++missing) {
+            const int next = (missing + 1) % sides;
+            const auto stack = test::prism({.sides = sides, .rows = 2, .drop = [=](const test::Part& p) {
+                                                return p.role == Role::target || is_upper_wall(p, missing) ||
+                                                       is_upper_wall(p, next);
+                                            }});
+            CAPTURE(sides);
+            CAPTURE(missing);
+            OpenVolume named = stack.open();
+            const std::size_t given = named.model.faces.size();
+            CHECK(test::refusal([&] { test::seal(named); }, {"beside the faces"}) == "closure.shape_open");
+            CHECK(named.model.faces.size() == given);
+            const closure::CloseOptions guess{.take_guess = true}, flat{.cap = closure::Cap::flat};
+            for (const closure::CloseOptions& asked : {guess, flat}) {
+                OpenVolume taken = stack.open();
+                test::seal(taken, asked);
+                test::check_sealed(taken);
+            }
+        }
+    }
+}
+
+TEST_CASE("an end that named roles leave out with walls beside it is closed by flat faces")
+{
+    struct Shape {
+        double taper = 1;
+        test::End target = test::End::planar;
+        int holes = 0;
+    };
+    for (const int sides : {3, 4, 5, 7}) {
+        for (const Shape& shape : {Shape{}, Shape{.taper = 0.7}, Shape{.target = test::End::tilted},
+                                   Shape{.holes = 1}, Shape{.taper = 1.2, .holes = 1}}) {
+            for (int missing = 0; missing < sides; ++missing) {
+                for (const int apart : {0, 2}) { // one wall, or two that have no edge in common
+                    if (apart > sides - 2) continue;
+                    const int other = (missing + apart) % sides;
+                    const auto stack = test::prism({.sides = sides,
+                                                    .holes = shape.holes,
+                                                    .rows = 2,
+                                                    .taper = shape.taper,
+                                                    .target = shape.target,
+                                                    .drop = [=](const test::Part& p) {
+                                                        return p.role == Role::target ||
+                                                               is_upper_wall(p, missing) ||
+                                                               is_upper_wall(p, other);
+                                                    }});
+                    CAPTURE(sides);
+                    CAPTURE(shape.taper);
+                    CAPTURE(int(shape.target));
+                    CAPTURE(shape.holes);
+                    CAPTURE(missing);
+                    CAPTURE(apart);
+                    OpenVolume volume = stack.open();
+                    test::seal(volume);
+                    test::check_sealed(volume);
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(stack.facet_volume).epsilon(1e-9));
+                    CHECK(volume.faces(Role::target).size() == 1);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("the sector of a ring without its ends and a round wall is not closed along a chord")
+{
+    constexpr int kSteps = 10;
+    for (const double inner : {1.5, 2.0}) {
+        for (const double turn : {0.8, 1.6, 2.6}) {
+            for (const bool outside : {false, true}) { // the round wall that is missing
+                std::vector<Vec2> outline;
+                for (const double radius : {inner, 3.0})
+                    for (int k = 0; k <= kSteps; ++k) {
+                        const double angle = turn * (radius == inner ? kSteps - k : k) / kSteps;
+                        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+                    }
+                const auto is_missing = [=](const test::Part& p) {
+                    const bool round = outside ? p.side > kSteps && p.side <= 2 * kSteps : p.side < kSteps;
+                    return p.role != Role::wall || round;
+                };
+                const auto sector = test::prism({.height = 2, .outline = outline, .drop = is_missing});
+                CAPTURE(inner);
+                CAPTURE(turn);
+                CAPTURE(outside);
+                const auto reading = closure::find_reading(sector.model, all_faces(sector.model));
+                CHECK(test::closed_volume(reading) == doctest::Approx(sector.facet_volume).epsilon(0.025));
             }
         }
     }

@@ -78,13 +78,13 @@ check.fails(function()
   end
 end, "intervals")
 
--- A block on an L without its top, whose rim bends in no plane, lacks that top: it is not read across.
-for _, bends in ipairs { { 0.4, 1.5, 1.2 }, { 0.3, 2.5, 2 }, { 0.5, 1, 2 } } do
-  local up, along, over = table.unpack(bends)
+--- A block on an L without its top, whose rim bends in no plane.
+local function ell(up, along, over)
   local function top(x, y) return { x, y, 3 + up * math.sin(along * x) * math.cos(over * y) } end
   local rim = { { -1.5, -1, 0 }, { 1.5, -1, 0 }, { 1.5, 0, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, { -1.5, 1, 0 } }
-  local ell = lacuna.model()
-  ell:add_face { name = "low", points = rim, cells = { { 1, 3, 2 }, { 1, 4, 3 }, { 1, 6, 4 }, { 4, 6, 5 } } }
+  local found = lacuna.model()
+  local cells = { { 1, 3, 2 }, { 1, 4, 3 }, { 1, 6, 4 }, { 4, 6, 5 } }
+  found:add_face { name = "low", points = rim, cells = cells }
   for i, a in ipairs(rim) do
     local b = rim[i % #rim + 1]
     local points, cells = { a, b }, { { 1, 2, 3 } }
@@ -92,13 +92,32 @@ for _, bends in ipairs { { 0.4, 1.5, 1.2 }, { 0.3, 2.5, 2 }, { 0.5, 1, 2 } } do
       points[#points + 1] = top(a[1] + (b[1] - a[1]) * k / 8, a[2] + (b[2] - a[2]) * k / 8)
       if k > 0 then cells[#cells + 1] = { 1, #points, #points + 1 } end
     end
-    ell:add_face { name = "side_" .. i, points = points, cells = cells }
+    found:add_face { name = "side_" .. i, points = points, cells = cells }
   end
-  local read = ell:open_volume {}
+  return found
+end
+
+-- What it lacks is that top: it is not read across.
+for _, bends in ipairs { { 0.4, 1.5, 1.2 }, { 0.3, 2.5, 2 }, { 0.5, 1, 2 } } do
+  local read = ell(table.unpack(bends)):open_volume {}
   read:close()
   check.that(read.class == "III" or read.class == "IV", read.class)
   check.that(read:describe():find("as a membrane does", 1, true), "what is open is told")
   check.that(read:sweep { layers = 4, size = 0.3 }.hexes > 0)
+end
+
+-- Where that leaves much of the volume open, naming the roles does not tell it: who asks for a guess gets it.
+for _, bends in ipairs { { 1.6, 1.5, 1.2 }, { 1.4, 2.5, 2 } } do
+  local function open(reading)
+    return ell(table.unpack(bends)):open_volume { source = "low",
+      walls = { "side_1", "side_2", "side_3", "side_4", "side_5", "side_6" }, reading = reading }
+  end
+  local refused = open()
+  check.fails(function() refused:close() end, "closure.shape_open")
+  check.fails(function() refused:sweep { layers = 4, size = 0.3 } end, "reading = 1")
+  check.that(refused:close { cap = "flat" }.watertight)
+  check.that(open(1):sweep { layers = 4, size = 0.3 }.hexes > 0)
+  check.fails(function() open(2) end, "with roles named there is one")
 end
 
 -- Sizes and layers by default.

@@ -2,6 +2,8 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
@@ -35,6 +37,7 @@ void note(Closure& closure, const std::string& algorithm)
 struct Way {
     EdgeShape edges = EdgeShape::straight; ///< not automatic
     Cap cap = Cap::flat;                   ///< not automatic
+    bool planes = false; ///< whether a missing end that lies in several planes is a flat face in each
 };
 
 /// What every way of closing needs.
@@ -191,6 +194,14 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
                                                    std::to_string(loops.size()) +
                                                    " free loops for the target; a sweep needs as many on "
                                                    "both ends: check the walls, or name the target");
+    }
+    if (tools.way.planes) {
+        if (auto filled = fill_missing_end(volume, tools.context)) {
+            closure.void_edges = std::move(filled->void_edges);
+            closure.void_faces = std::move(filled->void_faces);
+            note(closure, "Algorithm 4");
+            return;
+        }
     }
     if (tools.way.cap == Cap::flat) {
         add_face(volume, closure, loops, Role::target, tools);
@@ -374,11 +385,10 @@ private:
     /// what is given or encloses nothing.
     std::vector<Way> wanted(const matching::Match& match) const
     {
-        const bool flat_first = options_.cap != Cap::parallel;
         if (value_ == VolumeClass::IV) {
-            std::vector<Way> ways{{EdgeShape::straight, flat_first ? Cap::flat : Cap::parallel}};
-            if (options_.cap == Cap::automatic) ways.push_back({EdgeShape::straight, Cap::parallel});
-            return ways;
+            if (options_.cap == Cap::automatic)
+                return {{EdgeShape::straight, Cap::flat, true}, {EdgeShape::straight, Cap::parallel}};
+            return {{EdgeShape::straight, options_.cap}};
         }
         if (options_.edge_shape != EdgeShape::automatic) return {{options_.edge_shape}};
         if (!has_two_ends(value_)) return {{EdgeShape::straight}};
@@ -501,13 +511,30 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
     });
 }
 
+/// @throw NotClosed  the shape that was sealed is a guess which nobody asked for.
+void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseOptions& options)
+{
+    if (options.take_guess || options.edge_shape != EdgeShape::automatic || !options.void_edges.empty() ||
+        options.cap != Cap::automatic)
+        return;
+    const std::string guess = guess_of_bent(sealed, closure);
+    if (guess.empty()) return;
+    throw NotClosed("closure.shape_open", guess +
+                                              "; give the missing face, or take what was assumed, which "
+                                              "encloses " +
+                                              with_digits(enclosed_volume(sealed), 4) +
+                                              ", by open_volume{ …, reading = 1 }");
+}
+
 /// Seal a volume as one of a class, and prove it.
 Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
              const RunContext& context)
 {
     Sealer sealer(volume, match.side_lines, value, options, context);
     Closure closure = sealer.seal(match);
-    volume = sealer.take();
+    OpenVolume sealed = sealer.take();
+    refuse_guess(sealed, closure, options);
+    volume = std::move(sealed);
     return closure;
 }
 

@@ -39,6 +39,7 @@ struct CloseOptions {
     std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
     Cap cap = Cap::automatic;
     bool hints = true; ///< whether a refusal says what would seal, which takes as long as sealing once more
+    bool take_guess = false; ///< take what nothing given tells as it closes; an option above takes it as well
 };
 
 /// What was added to seal the volume, and how.
@@ -59,7 +60,8 @@ struct Closure {
 /// @param volume  out: with the void entities added.
 /// @param match   of source and target; not read for classes IV and V, which have no two ends to match.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why; and another shape or
-///         direction that was found to seal it.
+///         direction that was found to seal it. "closure.shape_open": nothing given tells the shape of
+///         what is missing, and neither a shape nor a guess was asked for; names the faces round it.
 /// @throw InvalidInput  a void edge given by hand that cannot be one; names its vertices.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lacuna::closure {
 
@@ -96,6 +97,24 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
+/// A made face that is turned against the one that faces the source best by more than this is a wall
+/// [degrees]. A choice: chamfers and the slopes of a roof belong to the end.
+constexpr double kSlope = 60;
+
+/// Give the faces that were made their roles.
+void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
+{
+    const Model& model = filling.volume.model;
+    Vec3 way = Vec3::Zero();
+    for (const FaceId face : source) way -= face_area_vector(model, face);
+    const auto normal = [&](FaceId face) { return face_area_vector(model, face).stableNormalized(); };
+    const FaceId best = *std::ranges::max_element(filling.closure.void_faces, {},
+                                                  [&](FaceId face) { return normal(face).dot(way); });
+    for (const FaceId face : filling.closure.void_faces)
+        if (normal(face).dot(normal(best)) >= std::cos(kSlope * std::numbers::pi / 180))
+            filling.volume.role[face.index()] = Role::target;
+}
+
 } // namespace
 
 bool is_flat(const Model& model, const Rim& rim)
@@ -142,6 +161,24 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     if (!is_watertight(volume) || first_crossing(volume, context)) return std::nullopt;
     result.closure.watertight = true;
     return result;
+}
+
+std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& context)
+{
+    auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
+    if (!filled || filled->each_alone || filled->channel) return std::nullopt;
+    const bool flat = std::ranges::all_of(
+        filled->closure.void_faces, [&](FaceId face) { return has_flat_loops(filled->volume.model, face); });
+    if (!flat) return std::nullopt;
+    const std::vector<FaceId> source = volume.faces(Role::source);
+    std::ranges::copy(volume.role, filled->volume.role.begin());
+    part_end_from_walls(*filled, source);
+    const Model& model = filled->volume.model;
+    if (rims(model, filled->volume.faces(Role::target)).size() != rims(model, source).size())
+        return std::nullopt;
+    volume.model = std::move(filled->volume.model);
+    volume.role = std::move(filled->volume.role);
+    return std::move(filled->closure);
 }
 
 } // namespace lacuna::closure

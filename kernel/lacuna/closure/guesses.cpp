@@ -35,9 +35,9 @@ double beside_plane(const Model& model, FaceId face)
     return sum;
 }
 
-bool is_far_off_plane(const Sealed& sealed, FaceId face)
+bool is_far_off_plane(const OpenVolume& sealed, FaceId face)
 {
-    return beside_plane(sealed.volume.model, face) >= kDoubt * sealed.enclosed;
+    return beside_plane(sealed.model, face) >= kDoubt * enclosed_volume(sealed);
 }
 
 bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
@@ -75,9 +75,9 @@ bool is_stretched(const Model& model, FaceId face)
 }
 
 /// Whether a void face is bent and its rim does not tell how.
-bool is_open(const Sealed& sealed, FaceId face)
+bool is_open(const OpenVolume& sealed, FaceId face)
 {
-    const Model& model = sealed.volume.model;
+    const Model& model = sealed.model;
     if (!is_far_off_plane(sealed, face) || bends_as_rim(model, face)) return false;
     const std::vector<Loop>& loops = model[face].loops;
     return !membranes(model, {face}).empty() ||
@@ -98,9 +98,9 @@ bool leaves_plane(const Model& model, FaceId face)
            });
 }
 
-bool is_untold(const Sealed& sealed, FaceId face)
+bool is_untold(const OpenVolume& sealed, FaceId face)
 {
-    return leaves_plane(sealed.volume.model, face) || is_open(sealed, face);
+    return leaves_plane(sealed.model, face) || is_open(sealed, face);
 }
 
 /// The tags of some faces, the first of many.
@@ -166,29 +166,14 @@ bool look_inward(const Model& model, const std::vector<FaceId>& given, const Mod
     return true;
 }
 
-/// @param uses  of each edge of the sealed model, as `edge_uses()` has them
-std::string guess_of_bent(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed,
-                          const std::vector<std::vector<FaceUse>>& uses)
+std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
+                           const std::vector<FaceId>& void_faces)
 {
-    for (const FaceId face : sealed.closure.void_faces) {
-        if (!is_far_off_plane(sealed, face) || !is_untold(sealed, face)) continue;
-        std::set<int> tags;
-        for (const FaceId other : faces_round(sealed.volume.model, uses, face))
-            if (other.index() < given.size()) tags.insert(model[given[other.index()]].tag);
-        return "nothing given tells how what is missing beside " + in_words(tags) +
-               " bends: its rim lies in no plane";
-    }
-    return {};
-}
-
-std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed,
-                           const std::vector<std::vector<FaceUse>>& uses)
-{
-    const Model& own = sealed.volume.model;
-    for (const FaceId face : sealed.closure.void_faces) {
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(own);
+    for (const FaceId face : void_faces) {
         const auto round = face_round_hole(own, uses, face);
         if (!round || round->index() >= given.size()) continue;
-        if (!is_end_away_from(own, sealed.closure.void_faces, *round)) continue;
+        if (!is_end_away_from(own, void_faces, *round)) continue;
         if (look_inward(model, given, own)) continue;
         return "nothing given tells what is behind the hole of " + name_of(model, given[round->index()]) +
                ": its walls are missing, and so is an end to which it may go through";
@@ -198,17 +183,31 @@ std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given,
 
 } // namespace
 
-bool bends_untold(const Sealed& sealed)
+bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
-    return std::ranges::any_of(sealed.closure.void_faces,
-                               [&](FaceId face) { return is_untold(sealed, face); });
+    return std::ranges::any_of(closure.void_faces, [&](FaceId face) { return is_untold(sealed, face); });
 }
 
-std::string guess_of(const Model& model, const std::vector<FaceId>& given, const Sealed& sealed)
+std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure)
 {
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(sealed.volume.model);
-    const std::string bent = guess_of_bent(model, given, sealed, uses);
-    return bent.empty() ? guess_of_holes(model, given, sealed, uses) : bent;
+    const Model& model = sealed.model;
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    for (const FaceId face : closure.void_faces) {
+        if (!is_far_off_plane(sealed, face) || !is_untold(sealed, face)) continue;
+        std::set<int> tags;
+        for (const FaceId other : faces_round(model, uses, face))
+            if (model[other].origin == Origin::given) tags.insert(model[other].tag);
+        return "nothing given tells how what is missing beside " + in_words(tags) +
+               " bends: its rim lies in no plane";
+    }
+    return {};
+}
+
+std::string guess_of(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
+                     const Closure& closure)
+{
+    const std::string bent = guess_of_bent(sealed, closure);
+    return bent.empty() ? guess_of_holes(model, given, sealed.model, closure.void_faces) : bent;
 }
 
 } // namespace lacuna::closure

@@ -71,7 +71,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.volume = sealed->volume;
     reading.closure = sealed->closure;
     reading.enclosed = sealed->enclosed;
-    reading.guess = guess_of(model, faces, *sealed);
+    reading.guess = guess_of(model, faces, sealed->volume, sealed->closure);
     if (low.empty()) {
         for (Role& role : reading.volume.role)
             role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;

@@ -397,7 +397,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
         mover.move(context);
         MovedEnd result{std::move(mover.volume()), {}, end, 0, false};
         const matching::Match match = matching::match(result.volume, {}, context);
-        result.closure = close(result.volume, match, {.hints = false}, context);
+        result.closure = close(result.volume, match, {.hints = false, .take_guess = true}, context);
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());

@@ -141,7 +141,7 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
     now.cost = cost_of(candidate, sealed);
     now.first = candidate;
     now.ways.push_back(candidate);
-    now.untold = bends_untold(sealed);
+    now.untold = bends_untold(sealed.volume, sealed.closure);
     now.fills_flat_loops = fills_flat;
     now.sealed = std::move(sealed);
     const auto same = std::ranges::find_if(
@@ -187,7 +187,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
         sealed.volume = open_volume(model, roles, context);
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
             sealed.match = matching::match(sealed.volume, {}, context);
-        sealed.closure = close(sealed.volume, sealed.match, {.hints = false}, context);
+        sealed.closure = close(sealed.volume, sealed.match, {.hints = false, .take_guess = true}, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     } catch (const InvalidInput&) {

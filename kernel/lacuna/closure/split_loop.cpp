@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/split_loop.h>
 
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
@@ -132,8 +133,31 @@ std::size_t turns(const std::vector<Vec3>& chain)
     return count;
 }
 
+/// Whether a run of a loop or what is left of it shows that a flat face is missing there: two straight edges
+/// lie in a plane wherever they meet.
+bool tells_plane(const Model& model, const Rim& rim, const Run& run)
+{
+    const auto tells = [&](const Run& part) { return turns(use_places(model, uses_of(rim, part))) >= 2; };
+    return tells(run) || tells(between(rim, {run}, 0));
+}
+
+/// Whether some uses bend from one corner to the next, as along a side of the sector of a ring: what is
+/// missing across from it may bend as it does.
+bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    std::optional<std::size_t> corner;
+    for (std::size_t k = 1; k < uses.size(); ++k) {
+        if (!turns_sharply(model, uses[k - 1], uses[k])) continue;
+        if (corner && turns(use_places(model, {uses.begin() + static_cast<std::ptrdiff_t>(*corner),
+                                               uses.begin() + static_cast<std::ptrdiff_t>(k)})) > 0)
+            return true;
+        corner = k;
+    }
+    return false;
+}
+
 /// The ends of a groove: runs of a loop that lie in planes of their own, where no given face does, and are no
-/// mere corners, which two straight edges are.
+/// mere corners, which two straight edges are, and no sides of a ring.
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();
@@ -144,7 +168,7 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
         if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
         const std::vector<std::vector<Vec3>> points{use_places(model, own)};
-        if (turns(points.front()) < 2) continue;
+        if (turns(points.front()) < 2 || is_of_ring(model, own)) continue;
         const geometry::Plane plane = geometry::newell_plane(points);
         const bool given = std::ranges::all_of(
             own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
@@ -220,22 +244,36 @@ bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<
     return way && all_go_along(model, *way);
 }
 
+/// Cut the ends of a straight groove off its loop. What lies in the plane of its mouth is no end but a part
+/// of that. @return  nothing where it is no such groove; the model is as it was then
+std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
+{
+    if (!ends_straight_groove(model, rim, ends)) return std::nullopt;
+    Model tried = model;
+    std::vector<Loop> parts = cut_off(tried, rim, ends);
+    if (!is_flat(tried, {parts.back().uses})) return std::nullopt;
+    const std::vector<std::vector<Vec3>> mouth{use_places(tried, parts.back().uses)};
+    const geometry::Plane plane = geometry::newell_plane(mouth);
+    const auto in_mouth = [&](const Run& run) {
+        return std::ranges::all_of(use_places(model, uses_of(rim, run)), [&](const Vec3& p) {
+            return std::abs(geometry::height(plane, p)) <= model.tolerance;
+        });
+    };
+    if (std::erase_if(ends, in_mouth) > 0) return part_groove(model, rim, std::move(ends));
+    model = std::move(tried);
+    return parts;
+}
+
 } // namespace
 
 std::optional<SplitLoop> split_loop(Model& model, const Rim& rim)
 {
     std::vector<std::size_t> run;
     for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
-    if (const auto half = half_run(run)) return SplitLoop{cut_off(model, rim, {*half})};
+    if (const auto half = half_run(run); half && tells_plane(model, rim, *half))
+        return SplitLoop{cut_off(model, rim, {*half})};
     const std::vector<Run> ends = groove_ends(model, rim, run);
-    if (ends_straight_groove(model, rim, ends)) {
-        Model tried = model;
-        std::vector<Loop> parts = cut_off(tried, rim, ends);
-        if (is_flat(tried, {parts.back().uses})) {
-            model = std::move(tried);
-            return SplitLoop{std::move(parts)};
-        }
-    }
+    if (auto parts = part_groove(model, rim, ends)) return SplitLoop{std::move(*parts)};
     const std::vector<Run> alike = channel_ends(model, rim, ends);
     if (alike.empty()) return std::nullopt;
     return SplitLoop{cut_off(model, rim, alike), true};

@@ -181,7 +181,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
-    reading.guess = guess_of(model, as_named(found.first.roles), found.sealed);
+    reading.guess = guess_of(model, as_named(found.first.roles), found.sealed.volume, found.sealed.closure);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = as_named(first.roles);

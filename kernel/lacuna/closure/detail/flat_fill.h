@@ -28,6 +28,13 @@ struct FlatFilling {
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);
 
+/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. Of the faces made those that
+/// face the source as its best one does, but for a slope, are the target, others are walls.
+/// @param volume  out: sealed.
+/// @return  nothing where each loop is flat by itself, where what fills them is no flat face, and where the
+///          target would not have the source's loops.
+std::optional<Closure> fill_missing_end(topology::OpenVolume& volume, const RunContext& context);
+
 /// Whether a loop is flat.
 bool is_flat(const topology::Model& model, const topology::Rim& rim);
 

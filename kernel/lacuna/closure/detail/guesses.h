@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/detail/sealed_voids.h>
+#include <lacuna/closure/close.h>
 
 #include <string>
 #include <vector>
 
 namespace lacuna::closure {
 
-/// Whether a void face is bent in a way that nothing given tells, as `guess_of()` says.
-bool bends_untold(const Sealed& sealed);
+/// Whether a void face is bent in a way that nothing given tells, as `guess_of_bent()` says.
+/// @param sealed  with what `closure` added
+bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 
-/// What of a sealed volume's shape nothing given tells, in words; empty where all is told.
+/// Where a sealed volume bends as nothing given tells, in words; empty where all is told.
 ///
 /// - A bent void face whose rim says nothing of its inside: a membrane, or one with more than four corners.
 /// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
 ///   there.
-/// - A hole of a given face that is closed in its plane, though an end away from it is missing as well: the
-///   hole may go through. Faces that look into the void, as those of a counterbore do, leave no such doubt.
+std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure);
+
+/// What of a volume sealed by roles that were found nothing given tells, in words; empty where all is told:
+/// what `guess_of_bent()` says, or a hole of a given face that is closed in its plane, though an end away
+/// from it is missing as well. The hole may go through. Faces that look into the void, as those of a
+/// counterbore do, leave no such doubt.
 /// @param given  the faces of `model` that are the volume's first
-std::string guess_of(const topology::Model& model, const std::vector<FaceId>& given, const Sealed& sealed);
+std::string guess_of(const topology::Model& model, const std::vector<FaceId>& given,
+                     const topology::OpenVolume& sealed, const Closure& closure);
 
 } // namespace lacuna::closure
