@@ -293,6 +293,31 @@ TEST_CASE("a corner cut off at 45 degrees takes one irregular node, and no quad 
     }
 }
 
+TEST_CASE("a pointed notch is a slit of the grid: no irregular node, however deep and wherever it is")
+{
+    constexpr double kSide = 0.2;
+    for (const int deep : {1, 2, 4}) {
+        for (const int place : {3, 6, 11}) {
+            CAPTURE(deep);
+            CAPTURE(place);
+            Outline outline;
+            const auto add = [&](const Vec2& from, const Vec2& to, int sides) {
+                for (int i = 0; i < sides; ++i) outline.emplace_back(from + (to - from) * i / sides);
+            };
+            const double middle = kSide * place;
+            const Vec2 tip(middle, kSide * deep), half(kSide * deep / 3, 0);
+            add({0, 0}, Vec2(middle, 0) - half, place);
+            add(Vec2(middle, 0) - half, tip, deep);
+            add(tip, Vec2(middle, 0) + half, deep);
+            add(Vec2(middle, 0) + half, {3, 0}, 15 - place);
+            add({3, 0}, {3, 2}, 10);
+            add({3, 2}, {0, 2}, 15);
+            add({0, 2}, {0, 0}, 10);
+            check_pattern(region_of({outline}, kSide), 0, 0.6);
+        }
+    }
+}
+
 TEST_CASE("holes take four irregular nodes each, in straight grids and in rings")
 {
     std::vector<Outline> plate{rounded({3, 1}, {0, 0, 0, 0}, 0.1)};

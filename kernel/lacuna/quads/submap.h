@@ -19,8 +19,9 @@ namespace lacuna::quads {
 ///
 /// Follows White, Mingwu, Benzley & Sjaardema (1995). The departure: numbers of edges are taken as they are,
 /// for a region's nodes are given.
-/// @return nothing where the region is no such polygon, its counts do not close, its grid overlaps or touches
-///         itself, or a quad would fold.
+/// The two sides of a pointed notch may lie on one line of the grid, as a slit.
+/// @return nothing where the region is no such polygon, its counts do not close, its grid overlaps itself, or
+///         a quad would fold.
 /// @pre   loops as `pave()` demands them.
 /// @note  Deterministic. O(quads), and O(outer nodes × hole nodes) for holes.
 std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& context = {});

@@ -137,18 +137,22 @@ bool SubmapGrid::is_walk(const std::vector<GridLoop>& loops) const
     return true;
 }
 
-bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
+std::optional<std::size_t> SubmapGrid::cell_at(int x, int y, std::size_t k) const
 {
-    if (width_ <= 0 || height_ <= 0 || !is_walk(loops)) return false;
-    node_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
+    if (k == 1 || k == 2) --x;
+    if (k > 1) --y;
+    if (period_ > 0 && x < 0) x += period_;
+    if (x < 0 || x >= columns() || y < 0 || y + 1 >= height_) return std::nullopt;
+    return index(x, y);
+}
+
+bool SubmapGrid::find_cells(const std::vector<GridLoop>& loops)
+{
     // The winding number of each cell, summed up its column over the sides that run along it.
-    std::vector<int> change(node_.size(), 0);
+    std::vector<int> change(in_.size(), 0);
     for (const GridLoop& loop : loops) {
         for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
             const GridPosition &a = loop.positions[i], &b = loop.positions[(i + 1) % n];
-            Index& here = node_[slot(a)];
-            if (here >= 0) return false;
-            here = loop.nodes[i];
             if (a[1] != b[1]) continue;
             // The region lies on the left of a side, so it ends at one that runs back. On a loop about the
             // period the last step goes from the highest coordinate to 0, or from 0 to the highest.
@@ -159,7 +163,6 @@ bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
                 --change[slot(b)];
         }
     }
-    in_.assign(node_.size(), 0);
     for (int x = 0; x < width_; ++x) {
         int around = 0;
         for (int y = 0; y < height_; ++y) {
@@ -173,14 +176,56 @@ bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
     return true;
 }
 
+bool SubmapGrid::give_corners(const GridLoop& loop, std::size_t i)
+{
+    const std::size_t n = loop.nodes.size();
+    const GridPosition &at = loop.positions[i], &next = loop.positions[(i + 1) % n],
+                       &last = loop.positions[(i + n - 1) % n];
+    const auto direction = [&](const GridPosition& to) -> std::size_t {
+        if (to[1] != at[1]) return to[1] > at[1] ? 1 : 3;
+        return slot(to) == index(at[0] - low_[0] + 1, at[1] - low_[1]) ? 0 : 2;
+    };
+    // The region lies between the side out and the side back, all round where they are one.
+    const std::size_t out = direction(next), back = direction(last);
+    const std::size_t quads = back == out ? 4 : (back + 4 - out) % 4;
+    for (std::size_t q = 0; q < quads; ++q) {
+        const std::size_t k = (out + q) % 4;
+        const auto cell = cell_at(at[0] - low_[0], at[1] - low_[1], k);
+        if (!cell || !in_[*cell] || corner_[*cell][k] >= 0) return false;
+        corner_[*cell][k] = loop.nodes[i];
+    }
+    return true;
+}
+
+bool SubmapGrid::enclose(const std::vector<GridLoop>& loops)
+{
+    if (width_ <= 0 || height_ <= 0 || !is_walk(loops)) return false;
+    in_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    corner_.assign(in_.size(), {-1, -1, -1, -1});
+    if (!find_cells(loops)) return false;
+    for (const GridLoop& loop : loops) {
+        for (std::size_t i = 0; i < loop.nodes.size(); ++i) {
+            if (!give_corners(loop, i)) return false;
+        }
+    }
+    return true;
+}
+
 Index SubmapGrid::number_inner(Index first)
 {
     const Index start = first;
     for (int y = 0; y + 1 < height_; ++y) {
         for (int x = 0; x < columns(); ++x) {
             if (!in_[index(x, y)]) continue;
-            for (const std::size_t c : {index(x, y), index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)})
-                if (node_[c] < 0) node_[c] = first++;
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (corner_[index(x, y)][k] >= 0) continue;
+                const int right = k == 1 || k == 2 ? 1 : 0, up = k > 1 ? 1 : 0;
+                for (std::size_t around = 0; around < 4; ++around) {
+                    const int column = x + right == period_ ? 0 : x + right;
+                    corner_[*cell_at(column, y + up, around)][around] = first;
+                }
+                ++first;
+            }
         }
     }
     return first - start;
@@ -189,32 +234,39 @@ Index SubmapGrid::number_inner(Index first)
 std::vector<Quad> SubmapGrid::quads() const
 {
     std::vector<Quad> result;
-    for (int y = 0; y + 1 < height_; ++y) {
-        for (int x = 0; x < columns(); ++x) {
-            if (in_[index(x, y)])
-                result.push_back({node_[index(x, y)], node_[index(x + 1, y)], node_[index(x + 1, y + 1)],
-                                  node_[index(x, y + 1)]});
-        }
+    for (std::size_t c = 0; c < in_.size(); ++c) {
+        if (in_[c]) result.push_back(corner_[c]);
     }
     return result;
+}
+
+Index SubmapGrid::node_at(int x, int y, const std::array<std::size_t, 2>& corners) const
+{
+    for (const std::size_t k : corners) {
+        const auto cell = cell_at(x, y, k);
+        if (cell && in_[*cell]) return corner_[*cell][k];
+    }
+    return -1;
 }
 
 void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());
-    const auto along = [&](int lines, int length, const auto& at) {
+    // `ahead` and `behind`: the node of a line as the cells on its far side and on its near side have it.
+    const auto along = [&](int lines, int length, const auto& ahead, const auto& behind) {
         for (int l = 0; l < lines; ++l) {
             for (int a = 0; a < length; ++a) {
-                if (at(l, a) < 0 || at(l, a) >= fixed) continue;
+                const Index start = ahead(l, a);
+                if (start < 0 || start >= fixed) continue;
                 int b = a + 1;
-                while (b < length && at(l, b) >= fixed) ++b;
-                if (b == length || at(l, b) < 0) continue;
-                const Vec2 &from = points[static_cast<std::size_t>(at(l, a))],
-                           &to = points[static_cast<std::size_t>(at(l, b))];
+                while (b < length && behind(l, b) >= fixed) ++b;
+                if (b == length || behind(l, b) < 0) continue;
+                const Vec2 &from = points[static_cast<std::size_t>(start)],
+                           &to = points[static_cast<std::size_t>(behind(l, b))];
                 for (int k = a + 1; k < b; ++k) {
                     const double t = static_cast<double>(k - a) / (b - a), w = 1.0 / ((b - a) * (b - a));
-                    const auto p = static_cast<std::size_t>(at(l, k));
+                    const auto p = static_cast<std::size_t>(behind(l, k));
                     sum[p] += w * ((1 - t) * from + t * to);
                     weight[p] += w;
                 }
@@ -222,8 +274,24 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
         }
     };
     // A row about the period would be cut short across what it goes round.
-    if (period_ == 0) along(height_, width_, [&](int y, int x) { return node_[index(x, y)]; });
-    along(width_, height_, [&](int x, int y) { return node_[index(x, y)]; });
+    if (period_ == 0) {
+        along(
+            height_, width_,
+            [&](int y, int x) {
+                return node_at(x, y, {0, 3});
+            },
+            [&](int y, int x) {
+                return node_at(x, y, {1, 2});
+            });
+    }
+    along(
+        width_, height_,
+        [&](int x, int y) {
+            return node_at(x, y, {0, 1});
+        },
+        [&](int x, int y) {
+            return node_at(x, y, {2, 3});
+        });
     for (auto p = static_cast<std::size_t>(fixed); p < points.size(); ++p) {
         if (weight[p] > 0) points[p] = sum[p] / weight[p];
     }

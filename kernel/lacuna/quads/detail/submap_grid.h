@@ -34,13 +34,15 @@ Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer,
 /// @param goal  the outline's coordinates, interpolated at the hole's nodes.
 void place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
 
-/// The grid that loops enclose: which cells are inside, and the node at every grid point.
+/// The grid that loops enclose: which cells are inside, and the nodes at their corners.
+///
+/// A cell keeps its own corners, for the two sides of a slit have a node each at one grid point.
 class SubmapGrid {
 public:
     /// @param period  > 0: the first coordinate counts round a ring, and those of loops are below it.
     explicit SubmapGrid(const std::vector<GridLoop>& loops, int period = 0);
 
-    /// @return false where the loops touch or overlap in the grid, or do not go from line to line.
+    /// @return false where the loops overlap in the grid, or do not go from line to line.
     bool enclose(const std::vector<GridLoop>& loops);
     /// Number the inner grid points from `first` on. @return how many there are.
     Index number_inner(Index first);
@@ -50,6 +52,8 @@ public:
     void place_inner(std::vector<Vec2>& points, Index fixed) const;
 
 private:
+    using Corners = std::array<Index, 4>;
+
     [[nodiscard]] std::size_t index(int x, int y) const
     {
         if (x == period_) x = 0;
@@ -65,11 +69,21 @@ private:
 
     [[nodiscard]] int columns() const { return period_ > 0 ? width_ : width_ - 1; }
 
+    /// The cell that has corner k at a grid point; nothing beyond the grid.
+    [[nodiscard]] std::optional<std::size_t> cell_at(int x, int y, std::size_t k) const;
+    /// Find the cells inside, those of winding number 1. @return false where a cell has another than 0 or 1
+    bool find_cells(const std::vector<GridLoop>& loops);
+    /// Give node i of a loop to the corners of cells that the region has there.
+    /// @return false where another node has one of them.
+    bool give_corners(const GridLoop& loop, std::size_t i);
+    /// The node at a grid point for a cell that has one of two corners there; -1: none.
+    [[nodiscard]] Index node_at(int x, int y, const std::array<std::size_t, 2>& corners) const;
+
     GridPosition low_{};
     int period_ = 0;
     int width_ = 0, height_ = 0;
-    std::vector<Index> node_; ///< at each grid point, -1: none
-    std::vector<char> in_;    ///< whether the cell up and right of each grid point is in
+    std::vector<Corners> corner_; ///< of the cell up and right of each grid point, from there; -1: none
+    std::vector<char> in_;        ///< whether that cell is in
 };
 
 } // namespace lacuna::quads
