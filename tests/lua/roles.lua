@@ -13,6 +13,12 @@ local function lines(mesh, start)
   return found
 end
 
+local function only(mesh, start)
+  local found = lines(mesh, start)
+  check.equal(#found, 1, start)
+  return found[1]
+end
+
 --- A block of flat faces; `facets` along each edge.
 local function block(x, y, z, facets)
   local model = lacuna.model()
@@ -120,12 +126,31 @@ for _, bends in ipairs { { 1.6, 1.5, 1.2 }, { 1.4, 2.5, 2 } } do
   check.fails(function() open(2) end, "with roles named there is one")
 end
 
--- Sizes and layers by default.
-local function only(mesh, start)
-  local found = lines(mesh, start)
-  check.equal(#found, 1, start)
-  return found[1]
+-- A pocket that is missing whole leaves a hole, which is closed in its plane: the report says so.
+for _, inset in ipairs { 0.5, 1 } do
+  local pocketed = block(4, 3, 2)
+  local lid = {}
+  for _, off in ipairs { 0, inset } do
+    for _, p in ipairs { { off, off }, { 4 - off, off }, { 4 - off, 3 - off }, { off, 3 - off } } do
+      lid[#lid + 1] = { p[1], p[2], 2 }
+    end
+  end
+  local cells = {}
+  for i = 1, 4 do
+    local j = i % 4 + 1
+    cells[#cells + 1] = { i, j, j + 4 }
+    cells[#cells + 1] = { i, j + 4, i + 4 }
+  end
+  pocketed:add_face { name = "lid", points = lid, cells = cells }
+  for _, roles in ipairs { { faces = { "low", "front", "back", "left", "right", "lid" } },
+      { source = "front", target = "back", walls = { "low", "left", "right", "lid" } } } do
+    local mesh = pocketed:open_volume(roles):sweep { size = 0.5, layers = 4 }
+    check.that(only(mesh, "closed: "):find("a hole of face %d+ \"lid\" is closed in its plane"))
+    check.that(math.abs(mesh:quality().volume - 24) < 1e-9)
+  end
 end
+
+-- Sizes and layers by default.
 local counts = {}
 for _, facets in ipairs { 20, 40, 80 } do
   local mesh = block(4, 3, 2, facets):open_volume({}):sweep()

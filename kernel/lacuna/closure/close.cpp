@@ -419,7 +419,7 @@ private:
         log_line(context_, closure.notes.back());
     }
 
-    /// Void faces whose inside the rim does not tell.
+    /// Void faces whose inside the rim does not tell, and those that fill what may lie behind them.
     void say_what_is_open(Closure& closure) const
     {
         for (const FaceId face : membranes(sealed_.model, closure.void_faces)) {
@@ -427,6 +427,10 @@ private:
                                     " spans a rim that lies in no plane, as a membrane does: the rim leaves "
                                     "open how the inside bends; give the face where it bulges");
             log_line(context_, closure.notes.back());
+        }
+        for (std::string& note : notes_of_holes(volume_.model, all_faces(volume_.model), sealed_, closure)) {
+            closure.notes.push_back(std::move(note));
+            if (options_.hints) log_line(context_, closure.notes.back()); // not of trials
         }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/flat_fill.h>
 
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
@@ -160,6 +161,7 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     orient_consistently(volume.model);
     if (!is_watertight(volume) || first_crossing(volume, context)) return std::nullopt;
     result.closure.watertight = true;
+    result.closure.notes = notes_of_holes(model, faces, volume, result.closure);
     return result;
 }
 

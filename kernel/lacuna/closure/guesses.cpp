@@ -166,16 +166,31 @@ bool look_inward(const Model& model, const std::vector<FaceId>& given, const Mod
     return true;
 }
 
-std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
-                           const std::vector<FaceId>& void_faces)
+/// A hole of a given face that a void face closes in its plane.
+struct ClosedHole {
+    FaceId round, filler;
+};
+
+/// The holes that are closed so; none where the given faces look into the void, as those of a counterbore do.
+std::vector<ClosedHole> closed_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
+                                     const std::vector<FaceId>& void_faces)
 {
+    std::vector<ClosedHole> holes;
     const std::vector<std::vector<FaceUse>> uses = edge_uses(own);
     for (const FaceId face : void_faces) {
         const auto round = face_round_hole(own, uses, face);
-        if (!round || round->index() >= given.size()) continue;
-        if (!is_end_away_from(own, void_faces, *round)) continue;
-        if (look_inward(model, given, own)) continue;
-        return "nothing given tells what is behind the hole of " + name_of(model, given[round->index()]) +
+        if (round && round->index() < given.size()) holes.push_back({*round, face});
+    }
+    if (!holes.empty() && look_inward(model, given, own)) holes.clear();
+    return holes;
+}
+
+std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
+                           const std::vector<FaceId>& void_faces)
+{
+    for (const auto& [round, filler] : closed_holes(model, given, own, void_faces)) {
+        if (!is_end_away_from(own, void_faces, round)) continue;
+        return "nothing given tells what is behind the hole of " + name_of(model, given[round.index()]) +
                ": its walls are missing, and so is an end to which it may go through";
     }
     return {};
@@ -208,6 +223,19 @@ std::string guess_of(const Model& model, const std::vector<FaceId>& given, const
 {
     const std::string bent = guess_of_bent(sealed, closure);
     return bent.empty() ? guess_of_holes(model, given, sealed.model, closure.void_faces) : bent;
+}
+
+std::vector<std::string> notes_of_holes(const Model& model, const std::vector<FaceId>& given,
+                                        const OpenVolume& sealed, const Closure& closure)
+{
+    std::vector<std::string> notes;
+    for (const auto& [round, filler] : closed_holes(model, given, sealed.model, closure.void_faces)) {
+        if (sealed.role[filler.index()] != Role::wall) continue;
+        notes.push_back("a hole of " + name_of(model, given[round.index()]) +
+                        " is closed in its plane: a pocket that begins there is filled; give its faces where "
+                        "there is one");
+    }
+    return notes;
 }
 
 } // namespace lacuna::closure

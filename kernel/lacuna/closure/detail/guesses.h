@@ -27,4 +27,9 @@ std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& clo
 std::string guess_of(const topology::Model& model, const std::vector<FaceId>& given,
                      const topology::OpenVolume& sealed, const Closure& closure);
 
+/// What is said of holes of given faces that void walls close in their planes: a pocket that is missing whole
+/// leaves no other trace.
+std::vector<std::string> notes_of_holes(const topology::Model& model, const std::vector<FaceId>& given,
+                                        const topology::OpenVolume& sealed, const Closure& closure);
+
 } // namespace lacuna::closure
