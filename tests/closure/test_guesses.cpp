@@ -168,6 +168,29 @@ TEST_CASE("the sector of a ring without its ends and a round wall is not closed 
     }
 }
 
+TEST_CASE("a bar with a round top that lacks its ends and the bottom between parallel sides has a flat one")
+{
+    constexpr int kSteps = 8;
+    for (const double bulge : {-0.6, 0.6}) {
+        for (const double height : {1.5, 3.0}) {
+            for (const int missing : {0, 1}) { // the bottom, or a side beside the round top
+                std::vector<Vec2> outline{{-1, 0}, {1, 0}};
+                for (int k = 0; k <= kSteps; ++k) {
+                    const double x = 1 - 2.0 * k / kSteps;
+                    outline.emplace_back(x, height + bulge * (1 - x * x));
+                }
+                const auto bar = test::prism(
+                    {.height = 4, .outline = outline, .drop = test::without(true, true, false, {missing})});
+                CAPTURE(bulge);
+                CAPTURE(height);
+                CAPTURE(missing);
+                const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
+                CHECK(test::closed_volume(reading) == doctest::Approx(bar.facet_volume).epsilon(1e-9));
+            }
+        }
+    }
+}
+
 TEST_CASE("a channel without its ends and a wall has flat ends that are alike")
 {
     for (const int sides : {5, 6, 8}) {

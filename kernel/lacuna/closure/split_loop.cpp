@@ -141,16 +141,22 @@ bool tells_plane(const Model& model, const Rim& rim, const Run& run)
     return tells(run) || tells(between(rim, {run}, 0));
 }
 
-/// Whether some uses bend from one corner to the next, as along a side of the sector of a ring: what is
-/// missing across from it may bend as it does.
+/// Whether some uses bend from one corner to the next and those beside are not parallel, as along a side of
+/// the sector of a ring: what is missing across from it may bend as it does.
 bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
 {
+    const auto way = [&](EdgeUse use) {
+        const std::vector<Vec3> chain = use_places(model, use);
+        return (chain.back() - chain.front()).stableNormalized();
+    };
     std::optional<std::size_t> corner;
     for (std::size_t k = 1; k < uses.size(); ++k) {
         if (!turns_sharply(model, uses[k - 1], uses[k])) continue;
-        if (corner && turns(use_places(model, {uses.begin() + static_cast<std::ptrdiff_t>(*corner),
-                                               uses.begin() + static_cast<std::ptrdiff_t>(k)})) > 0)
-            return true;
+        if (corner && way(uses[*corner - 1]).cross(way(uses[k])).norm() > kParallel) {
+            const auto first = uses.begin() + static_cast<std::ptrdiff_t>(*corner);
+            if (turns(use_places(model, {first, uses.begin() + static_cast<std::ptrdiff_t>(k)})) > 0)
+                return true;
+        }
         corner = k;
     }
     return false;
