@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/side_lines.h>
 
+#include <lacuna/core/parallel.h>
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/use_places.h>
@@ -79,6 +80,46 @@ std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector
 
 enum class Digits { all, nine };
 
+/// A wall part as one to find heights in.
+struct PartHeights {
+    std::vector<Index> used;         ///< points of the model, rising
+    std::vector<Triangle> triangles; ///< numbered as `used`
+    std::vector<Index> fixed;        ///< of `used`
+    std::vector<double> values;      ///< their heights
+    bool joins = false;              ///< both rims: else there are no heights
+};
+
+/// @param local  -1 for every point of the model, before and after
+PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, const std::vector<Index>& low,
+                         const std::vector<Index>& high, const std::map<Index, double>& on_lines,
+                         std::vector<Index>& local)
+{
+    PartHeights result;
+    std::vector<Triangle>& triangles = result.triangles;
+    for (const FaceId face : part)
+        triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
+    result.used = points_of(triangles, local);
+    const auto fix = [&](Index p, double value) {
+        if (local[index(p)] < 0) return false;
+        result.fixed.push_back(local[index(p)]);
+        result.values.push_back(value);
+        return true;
+    };
+    const auto fix_all = [&](const std::vector<Index>& points, double value) {
+        bool any = false;
+        for (const Index p : points) any = fix(p, value) || any;
+        return any;
+    };
+    const bool joins_source = fix_all(low, 0);
+    const bool joins_target = fix_all(high, 1);
+    result.joins = joins_source && joins_target;
+    for (const auto& [p, height] : on_lines) fix(p, height);
+    for (Triangle& t : triangles)
+        for (Index& p : t) p = local[index(p)];
+    for (const Index p : result.used) local[index(p)] = -1;
+    return result;
+}
+
 /// wall_heights() of some parts of the walls.
 std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                const std::vector<SideLine>& lines, Digits digits, const RunContext& context)
@@ -89,47 +130,30 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
     std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
-    for (const std::vector<FaceId>& part : parts) {
-        std::vector<Triangle> triangles;
-        for (const FaceId face : part)
-            triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
-        const std::vector<Index> used = points_of(triangles, local);
-        const auto cleared = [&] {
-            for (const Index p : used) local[index(p)] = -1;
-        };
-        geometry::HarmonicProblem problem;
-        problem.nine_digits = digits == Digits::nine;
-        std::vector<double> values;
-        const auto fix = [&](Index p, double value) {
-            if (local[index(p)] < 0) return false;
-            problem.fixed.push_back(local[index(p)]);
-            values.push_back(value);
-            return true;
-        };
-        const auto fix_all = [&](const std::vector<Index>& points, double value) {
-            bool any = false;
-            for (const Index p : points) any = fix(p, value) || any;
-            return any;
-        };
-        const bool joins_source = fix_all(low, 0);
-        const bool joins_target = fix_all(high, 1);
-        if (!joins_source || !joins_target) {
-            cleared();
-            continue;
+    std::vector<PartHeights> found;
+    found.reserve(parts.size());
+    for (const std::vector<FaceId>& part : parts)
+        found.push_back(part_heights(model, part, low, high, on_lines, local));
+    std::vector<Eigen::MatrixXd> solved(found.size());
+    parallel_for(context, found.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PartHeights& part = found[i];
+            if (!part.joins) continue;
+            const std::vector<Vec3> points = places_at(model, part.used);
+            geometry::HarmonicProblem problem;
+            problem.nine_digits = digits == Digits::nine;
+            problem.points = points;
+            problem.triangles = part.triangles;
+            problem.fixed = part.fixed;
+            problem.fixed_values = Eigen::Map<const Eigen::VectorXd>(
+                part.values.data(), static_cast<Eigen::Index>(part.values.size()));
+            solved[i] = geometry::solve_harmonic(problem, context);
         }
-        for (const auto& [p, height] : on_lines) fix(p, height);
-        std::vector<Vec3> points;
-        points.reserve(used.size());
-        for (const Index p : used) points.push_back(model.at(p));
-        for (Triangle& t : triangles)
-            for (Index& p : t) p = local[index(p)];
-        problem.points = points;
-        problem.triangles = triangles;
-        problem.fixed_values = Eigen::Map<const Eigen::MatrixXd>(values.data(),
-                                                                 static_cast<Eigen::Index>(values.size()), 1);
-        const Eigen::MatrixXd solution = geometry::solve_harmonic(problem, context);
-        for (const Index p : used) heights[index(p)] = solution(local[index(p)], 0);
-        cleared();
+    });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!found[i].joins) continue;
+        for (std::size_t p = 0; p < found[i].used.size(); ++p)
+            heights[index(found[i].used[p])] = solved[i](static_cast<Eigen::Index>(p), 0);
     }
     return heights;
 }
