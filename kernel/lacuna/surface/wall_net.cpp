@@ -112,8 +112,8 @@ private:
     {
         refuse_wall_edge(model_, edge,
                          "is round or slanted where it runs, neither along the layers nor from source to "
-                         "target, so layers and columns would cut across it; bound the patch by edges that "
-                         "run round the walls and up them, or join the two faces to one");
+                         "target, so layers and columns would cut across it; name other faces as source and "
+                         "target, cut the volume where its section changes, or join the two faces to one");
     }
 
     /// Where the ends of a ring's edges lie in the strip.
