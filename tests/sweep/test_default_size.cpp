@@ -6,6 +6,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/surface/default_size.h>
 #include <lacuna/surface/shape_size.h>
+#include <lacuna/sweep/detail/finer_by_default.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>
@@ -240,6 +241,55 @@ TEST_CASE("where finer numbers that nobody asked for do not do, the refusal is t
         CHECK(advice != std::string::npos);
         CHECK(tried != std::string::npos);
         CHECK(advice < tried);
+    }
+}
+
+TEST_CASE("a finer size is kept though it makes fewer cells, and one that changes nothing is not tried again")
+{
+    const auto made_of = [](std::size_t quads, bool follows) {
+        Swept swept;
+        swept.mesh.quads.resize(quads);
+        swept.mesh.layers = 1;
+        sweep::FaceFidelity face;
+        face.name = "face 1";
+        if (!follows) face.misfit = sweep::Misfit::straight;
+        face.found = face.side = face.source_side = 1;
+        face.allowed = 0.5;
+        swept.fidelity.faces.push_back(face);
+        return swept;
+    };
+    for (const std::size_t quads : {80, 90, 120}) {
+        int sweeps = 0;
+        const auto again = [&](const SweepOptions& finer) {
+            CHECK(finer.size(Vec3::Zero()) < 1);
+            ++sweeps;
+            return made_of(quads + (sweeps == 2 ? 1 : 0), sweeps == 2);
+        };
+        const Swept finer = sweep::require_or_refine({}, {}, made_of(100, false), again, {});
+        CHECK(finer.mesh.quads.size() == quads + 1);
+        CHECK(finer.defaults.size() == 2);
+    }
+    int sweeps = 0;
+    const auto same = [&](const SweepOptions&) {
+        ++sweeps;
+        return made_of(100, false);
+    };
+    CHECK_THROWS_AS(sweep::require_or_refine({}, {}, made_of(100, false), same, {}), NotSweepable);
+    CHECK(sweeps == 1);
+}
+
+TEST_CASE("poor cells are told where nobody asked for a size, and only there")
+{
+    for (const double tip : {0.1, 0.2, 3.0}) {
+        const auto volume = test::sealed({.outline = {{0, 0}, {4, 0}, {4, tip}}, .cuts = 4});
+        const Swept swept = swept_by_default(volume);
+        CAPTURE(tip);
+        CHECK((swept.min_scaled_jacobian < 0.1) == (tip < 1));
+        CHECK(says(swept, "quality: ", "with the size by default") == (tip < 1));
+        CHECK(swept.defaults.size() == (tip < 1 ? 3 : 2));
+        SweepOptions asked;
+        asked.size = [](const Vec3&) { return 0.5; };
+        CHECK(!says(sweep::sweep(volume, asked), "quality: ", ""));
     }
 }
 

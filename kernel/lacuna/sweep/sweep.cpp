@@ -8,7 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
-#include <lacuna/sweep/detail/finer_sides.h>
+#include <lacuna/sweep/detail/finer_by_default.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -93,11 +93,6 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
-FidelityOptions fidelity_options(const SweepOptions& options)
-{
-    return {options.max_deviation, options.beside.between, options.size};
-}
-
 /// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
 /// are off by a quarter of what the quad's own straight sides would be, at most.
 void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
@@ -153,10 +148,11 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
     return std::move(swept);
 }
 
-/// Of order 2, a cell whose least scaled Jacobian is below this is worth a sweep with more sides for a turn.
-/// A quad with two sides on a round rim opens by nearly half a turn between them: it came out at 0.002, and
-/// with a few sides more the rim had none. All else in the cases tried was above 0.5. A choice.
-constexpr double kPoorCurved = 0.1;
+/// Cells whose least scaled Jacobian is below this are poor. Of order 2 they are worth a sweep with more
+/// sides for a turn: a quad with two sides on a round rim opens by nearly half a turn between them. It came
+/// out at 0.002, and with a few sides more the rim had none. All else in the cases tried was above 0.5. A
+/// choice.
+constexpr double kPoor = 0.1;
 /// Sides for a full turn tried at most for that. A choice, not a measurement.
 constexpr int kMostForCurved = 32;
 
@@ -177,7 +173,7 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, Know
                     "order 2: " + std::to_string(rest.curvature) + " sides for a full turn instead of " +
                     std::to_string(options.curvature) + ", by which cells were poor or not valid");
             if (!best || next.min_scaled_jacobian > best->min_scaled_jacobian) best = std::move(next);
-            if (best->min_scaled_jacobian >= kPoorCurved) break;
+            if (best->min_scaled_jacobian >= kPoor) break;
         } catch (const NotSweepable& error) {
             if (!refused) refused = error;
             if (!best && refused->code() != "sweep.second_order") throw;
@@ -210,95 +206,6 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// How often numbers that nobody asked for are made finer, at most, and the cells that this may lead to: what
-/// is asked for by nobody must not take minutes. Choices, not measurements.
-constexpr int kMostFiner = 4;
-constexpr double kMostFinerCells = 300000;
-
-/// The options with a size or a number of layers, where nobody asked for one and the mesh is too coarse for a
-/// face that bends.
-std::optional<SweepOptions> finer_than_default(const Swept& swept, const SweepOptions& asked,
-                                               const SweepOptions& taken)
-{
-    const FaceFidelity* worst = worst_misfit(swept.fidelity);
-    if (worst == nullptr || worst->misfit != Misfit::straight) return std::nullopt;
-    const int layers = swept.mesh.layers;
-    const FinerSides finer = finer_sides(*worst, layers, fidelity_options(taken));
-    const bool no_layers = asked.layers.count == 0 && asked.layers.heights.empty();
-    SweepOptions rest = taken;
-    double times = 1;
-    if (finer.layers > 0 && no_layers) {
-        rest.layers.count = finer.layers;
-        times = static_cast<double>(finer.layers) / layers;
-    } else if (finer.layers == 0 && !asked.size) {
-        rest.size = [size = finer.size](const Vec3&) { return size; };
-        times = std::pow(worst->source_side / finer.size, 2);
-        // Without a size some layers were taken at least; they stay.
-        if (no_layers) rest.layers.count = layers;
-    } else {
-        return std::nullopt;
-    }
-    if (times * static_cast<double>(swept.mesh.cell_count()) > kMostFinerCells) return std::nullopt;
-    return rest;
-}
-
-/// What became finer, and why.
-std::string finer_in_words(const Swept& coarse, const SweepOptions& before, const SweepOptions& after)
-{
-    const FaceFidelity& worst = *worst_misfit(coarse.fidelity);
-    const std::string what =
-        after.layers.count > coarse.mesh.layers
-            ? "layer count: " + std::to_string(after.layers.count) + " instead of " +
-                  std::to_string(coarse.mesh.layers)
-            : "size: " + in_short(after.size(worst.found_at)) + " [model length] instead of " +
-                  in_short(before.size ? before.size(worst.found_at) : worst.source_side);
-    return what + " by default, with which the skin of the mesh was " + in_short(worst.found) + " off " +
-           worst.name;
-}
-
-/// Finer sizes and more layers where nobody asked for any, as long as a face bends away between nodes.
-/// @return  nothing where there is nothing to make finer.
-std::optional<Swept> finer_where_not_asked(const OpenVolume& volume, const SweepOptions& asked,
-                                           SweepOptions taken, const Swept& coarse, KnownLinks& links,
-                                           const RunContext& context)
-{
-    std::vector<std::string> why;
-    std::optional<Swept> swept;
-    for (int k = 0; k < kMostFiner; ++k) {
-        const Swept& now = swept ? *swept : coarse;
-        const std::optional<SweepOptions> finer = finer_than_default(now, asked, taken);
-        if (!finer) break;
-        why.push_back(finer_in_words(now, taken, *finer));
-        try {
-            Swept next = sweep_compared(volume, *finer, links, context);
-            if (next.mesh.cell_count() <= now.mesh.cell_count()) break; // given nodes leave no more
-            swept = std::move(next);
-        } catch (const NotSweepable& error) {
-            log_line(context, why.back() + ": " + error.what());
-            break;
-        }
-        taken = *finer;
-        swept->report.insert(swept->report.end(), why.begin(), why.end());
-        swept->defaults = why;
-    }
-    return swept;
-}
-
-/// A mesh that follows every face, or a finer one that does where nobody asked for its size and layers.
-/// @throw NotSweepable "sweep.deviation"  what is wrong with the mesh as asked for, and with the finest tried
-Swept require_or_refine(const OpenVolume& volume, const SweepOptions& asked, const SweepOptions& taken,
-                        Swept swept, KnownLinks& links, const RunContext& context)
-{
-    const std::string found = misfit_in_words(swept.fidelity, swept.mesh.layers, fidelity_options(asked));
-    if (found.empty()) return swept;
-    std::optional<Swept> finer = finer_where_not_asked(volume, asked, taken, swept, links, context);
-    if (!finer) throw NotSweepable("sweep.deviation", found);
-    const std::string left = misfit_in_words(finer->fidelity, finer->mesh.layers, fidelity_options(asked));
-    if (left.empty()) return std::move(*finer);
-    throw NotSweepable("sweep.deviation",
-                       found + ". Tried in vain: " + finer->defaults.back() + "; then " + left);
-}
-
 /// With more sides for a full turn as long as too much volume is lost.
 Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
@@ -324,7 +231,10 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, Kn
             break;
         }
     }
-    best = require_or_refine(volume, options, taken, std::move(best), links, context);
+    const SweepBy again = [&](const SweepOptions& finer) {
+        return sweep_compared(volume, finer, links, context);
+    };
+    best = require_or_refine(options, taken, std::move(best), again, context);
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
     return best;
@@ -386,11 +296,23 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     std::rethrow_exception(why);
 }
 
+/// What a size that nobody asked for has led to.
+std::string poor_in_words(double least)
+{
+    return "quality: the least scaled Jacobian is " + in_short(least) +
+           " with the size by default; look whether the shape has corners as sharp as that there, ask for "
+           "another 'size', or have such meshes refused by 'min_scaled_jacobian'";
+}
+
 } // namespace
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     Swept swept = sweep_or_with_wedges(volume, asked, context);
+    if (!asked.size && swept.min_scaled_jacobian < kPoor) {
+        swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
+        swept.report.push_back(swept.defaults.back());
+    }
     if (!asked.beside.settle)
         for (const std::string& line : swept.defaults) log_line(context, line);
     return swept;

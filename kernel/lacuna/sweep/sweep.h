@@ -144,7 +144,8 @@ struct Swept {
     std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin
     std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
     /// Those lines of the report that say which size and number of layers were taken where none was asked
-    /// for. They are logged as well, once, of an assembly by whoever sweeps the whole.
+    /// for, and that cells are poor with it. They are logged as well, once, of an assembly by whoever sweeps
+    /// the whole.
     std::vector<std::string> defaults;
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
