@@ -141,7 +141,7 @@ std::optional<std::size_t> SubmapGrid::cell_at(int x, int y, std::size_t k) cons
 {
     if (k == 1 || k == 2) --x;
     if (k > 1) --y;
-    if (period_ > 0 && x < 0) x += period_;
+    if (period_ > 0) x = (x + period_) % period_;
     if (x < 0 || x >= columns() || y < 0 || y + 1 >= height_) return std::nullopt;
     return index(x, y);
 }
@@ -220,10 +220,8 @@ Index SubmapGrid::number_inner(Index first)
             for (std::size_t k = 0; k < 4; ++k) {
                 if (corner_[index(x, y)][k] >= 0) continue;
                 const int right = k == 1 || k == 2 ? 1 : 0, up = k > 1 ? 1 : 0;
-                for (std::size_t around = 0; around < 4; ++around) {
-                    const int column = x + right == period_ ? 0 : x + right;
-                    corner_[*cell_at(column, y + up, around)][around] = first;
-                }
+                for (std::size_t around = 0; around < 4; ++around)
+                    corner_[*cell_at(x + right, y + up, around)][around] = first;
                 ++first;
             }
         }
