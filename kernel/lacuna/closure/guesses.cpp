@@ -35,9 +35,9 @@ double beside_plane(const Model& model, FaceId face)
     return sum;
 }
 
-bool is_far_off_plane(const OpenVolume& sealed, FaceId face)
+bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
 {
-    return beside_plane(sealed.model, face) >= kDoubt * enclosed_volume(sealed);
+    return beside_plane(model, face) >= kDoubt * enclosed;
 }
 
 bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
@@ -75,10 +75,9 @@ bool is_stretched(const Model& model, FaceId face)
 }
 
 /// Whether a void face is bent and its rim does not tell how.
-bool is_open(const OpenVolume& sealed, FaceId face)
+bool is_open(const Model& model, double enclosed, FaceId face)
 {
-    const Model& model = sealed.model;
-    if (!is_far_off_plane(sealed, face) || bends_as_rim(model, face)) return false;
+    if (!is_far_off_plane(model, enclosed, face) || bends_as_rim(model, face)) return false;
     const std::vector<Loop>& loops = model[face].loops;
     return !membranes(model, {face}).empty() ||
            (is_stretched(model, face) && loops.size() == 1 && sharp_corners(model, loops.front()).size() > 4);
@@ -98,9 +97,9 @@ bool leaves_plane(const Model& model, FaceId face)
            });
 }
 
-bool is_untold(const OpenVolume& sealed, FaceId face)
+bool is_untold(const Model& model, double enclosed, FaceId face)
 {
-    return leaves_plane(sealed.model, face) || is_open(sealed, face);
+    return leaves_plane(model, face) || is_open(model, enclosed, face);
 }
 
 /// The tags of some faces, the first of many.
@@ -200,17 +199,19 @@ std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given,
 
 bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
-    return std::ranges::any_of(closure.void_faces, [&](FaceId face) { return is_untold(sealed, face); });
+    const double enclosed = enclosed_volume(sealed);
+    return std::ranges::any_of(closure.void_faces,
+                               [&](FaceId face) { return is_untold(sealed.model, enclosed, face); });
 }
 
 std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure)
 {
     const Model& model = sealed.model;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : closure.void_faces) {
-        if (!is_far_off_plane(sealed, face) || !is_untold(sealed, face)) continue;
+        if (!is_far_off_plane(model, enclosed, face) || !is_untold(model, enclosed, face)) continue;
         std::set<int> tags;
-        for (const FaceId other : faces_round(model, uses, face))
+        for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
         return "nothing given tells how what is missing beside " + in_words(tags) +
                " bends: its rim lies in no plane";
