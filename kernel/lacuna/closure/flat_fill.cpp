@@ -98,22 +98,35 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
-/// A made face that is turned against the one that faces the source best by more than this is a wall
-/// [degrees]. A choice: chamfers and the slopes of a roof belong to the end.
+/// A made face that is turned against the way from the source by more than this is a wall, where another is
+/// less so [degrees]. A choice: chamfers and the slopes of a roof belong to the end, the risers of steps do
+/// not.
 constexpr double kSlope = 60;
 
 /// Give the faces that were made their roles.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
+    constexpr double kAsSteep = 1e-6; ///< cosines that differ by less are the same: both slopes of a roof
     const Model& model = filling.volume.model;
     Vec3 way = Vec3::Zero();
     for (const FaceId face : source) way -= face_area_vector(model, face);
-    const auto normal = [&](FaceId face) { return face_area_vector(model, face).stableNormalized(); };
-    const FaceId best = *std::ranges::max_element(filling.closure.void_faces, {},
-                                                  [&](FaceId face) { return normal(face).dot(way); });
+    way = way.stableNormalized();
+    const auto facing = [&](FaceId face) {
+        return face_area_vector(model, face).stableNormalized().dot(way);
+    };
+    double most = -1;
+    for (const FaceId face : filling.closure.void_faces) most = std::max(most, facing(face));
+    const double enough = std::min(most - kAsSteep, std::cos(kSlope * std::numbers::pi / 180));
     for (const FaceId face : filling.closure.void_faces)
-        if (normal(face).dot(normal(best)) >= std::cos(kSlope * std::numbers::pi / 180))
-            filling.volume.role[face.index()] = Role::target;
+        if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
+}
+
+/// Whether the target can be one of this source: it has as many loops, or lies at several heights.
+bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source)
+{
+    const std::vector<FaceId> target = volume.faces(Role::target);
+    return rims(volume.model, target).size() == rims(volume.model, source).size() ||
+           connected_parts(volume.model, target).size() > 1;
 }
 
 } // namespace
@@ -175,9 +188,7 @@ std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& co
     const std::vector<FaceId> source = volume.faces(Role::source);
     std::ranges::copy(volume.role, filled->volume.role.begin());
     part_end_from_walls(*filled, source);
-    const Model& model = filled->volume.model;
-    if (rims(model, filled->volume.faces(Role::target)).size() != rims(model, source).size())
-        return std::nullopt;
+    if (!can_be_swept_to(filled->volume, source)) return std::nullopt;
     volume.model = std::move(filled->volume.model);
     volume.role = std::move(filled->volume.role);
     return std::move(filled->closure);

@@ -29,10 +29,11 @@ std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const s
                                            const RunContext& context);
 
 /// Fill the free loops of a volume without a target as `fill_flat_loops()` does. Of the faces made those that
-/// face the source as its best one does, but for a slope, are the target, others are walls.
+/// face away from the source, or slope by 60° at most, are the target, others are walls: risers, where the
+/// target lies at several heights.
 /// @param volume  out: sealed.
 /// @return  nothing where each loop is flat by itself, where what fills them is no flat face, and where the
-///          target would not have the source's loops.
+///          target has neither the source's loops nor several heights.
 std::optional<Closure> fill_missing_end(topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.
