@@ -4,11 +4,13 @@
 #include "support/volumes.h"
 
 #include <lacuna/closure/readings.h>
+#include <lacuna/closure/steps.h>
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 using namespace lacuna;
@@ -137,6 +139,44 @@ TEST_CASE("an end that named roles leave out with walls beside it is closed by f
                     CHECK(volume.faces(Role::target).size() == 1);
                 }
             }
+        }
+    }
+}
+
+TEST_CASE(
+    "a missing end with steps, valleys and ridges is a flat face in each plane, and can be cut into pieces")
+{
+    // Heights over x of the end that is missing, above a floor from 0 to 2.
+    using Profile = std::vector<Vec2>;
+    const std::vector<std::pair<Profile, std::size_t>> ends{
+        {{{2, 1}, {1, 1}, {1, 1.5}, {0, 1.5}}, 2}, // a step, and its heights
+        {{{2, 1}, {1.1, 1}, {0.9, 2}, {0, 2}}, 2}, // a steep slope between them
+        {{{2, 1}, {1.3, 1}, {0.7, 2}, {0, 2}}, 1}, // a slope
+        {{{2, 1.6}, {1, 1}, {0, 1.6}}, 1},         // a valley
+        {{{2, 2.7}, {1, 1}, {0, 2.7}}, 1},         {{{2, 1}, {1, 2}, {0, 1}}, 1}}; // a ridge
+    for (const auto& [profile, heights] : ends) {
+        for (const double depth : {1.0, 3.0}) {
+            std::vector<Vec2> outline{{0, 0}, {2, 0}};
+            outline.insert(outline.end(), profile.begin(), profile.end());
+            const int last = static_cast<int>(outline.size()) - 1; // the wall down from the end
+            const auto part = test::prism(
+                {.height = depth, .outline = outline, .drop = [=](const test::Part& p) {
+                     return p.role == Role::wall && p.side > 1 && p.side < last;
+                 }});
+            Roles roles;
+            for (std::size_t f = 0; f < part.part.size(); ++f) {
+                const bool floor = part.part[f].role == Role::wall && part.part[f].side == 0;
+                (floor ? roles.source : roles.walls).emplace_back(f);
+            }
+            CAPTURE(profile.size());
+            CAPTURE(profile[1].y());
+            CAPTURE(depth);
+            OpenVolume volume = open_volume(part.model, roles);
+            test::seal(volume);
+            test::check_sealed(volume);
+            CHECK(closure::enclosed_volume(volume) == doctest::Approx(part.facet_volume).epsilon(1e-9));
+            CHECK(connected_parts(volume.model, volume.faces(Role::target)).size() == heights);
+            CHECK(closure::cut_steps(volume).size() == heights);
         }
     }
 }

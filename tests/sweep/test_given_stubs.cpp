@@ -204,6 +204,7 @@ void fill(const Hull& hull, const Partial& partial, const Map& map, const Ends& 
     } catch (const Error& error) {
         const std::string text = error.what();
         const bool names = text.find("face ") != std::string::npos ||
+                           text.find("faces ") != std::string::npos ||
                            text.find("edge ") != std::string::npos ||
                            text.find("cells") != std::string::npos || text.find("loops") != std::string::npos;
         CAPTURE(text);

@@ -523,11 +523,11 @@ void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseO
         return;
     const std::string guess = guess_of_bent(sealed, closure);
     if (guess.empty()) return;
-    throw NotClosed("closure.shape_open", guess +
-                                              "; give the missing face, or take what was assumed, which "
-                                              "encloses " +
-                                              with_digits(enclosed_volume(sealed), 4) +
-                                              ", by open_volume{ …, reading = 1 }");
+    throw NotClosed("closure.shape_open",
+                    guess +
+                        "; give the missing face, ask for a shape by close{ cap = … } or "
+                        "close{ edge_shape = … }, or take what was assumed, which encloses " +
+                        with_digits(enclosed_volume(sealed), 4) + ", by open_volume{ …, reading = 1 }");
 }
 
 /// Seal a volume as one of a class, and prove it.

@@ -214,7 +214,7 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure)
         for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
         return "nothing given tells how what is missing beside " + in_words(tags) +
-               " bends: its rim lies in no plane";
+               " bends: its rim does not lie in one plane";
     }
     return {};
 }
