@@ -521,7 +521,7 @@ void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseO
     if (options.take_guess || options.edge_shape != EdgeShape::automatic || !options.void_edges.empty() ||
         options.cap != Cap::automatic)
         return;
-    const std::string guess = guess_of_bent(sealed, closure);
+    const std::string guess = guess_of_bent(sealed, closure, RolesBy::person);
     if (guess.empty()) return;
     throw NotClosed("closure.shape_open",
                     guess +

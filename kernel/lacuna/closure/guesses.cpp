@@ -74,13 +74,18 @@ bool is_stretched(const Model& model, FaceId face)
     return model[face].geometry != Geometry::newell && !is_about_flat(model, face);
 }
 
-/// Whether a void face is bent and its rim does not tell how.
-bool is_open(const Model& model, double enclosed, FaceId face)
+bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corners(model, loop).size() > 4; }
+
+/// Whether a void face is bent and its rim does not tell how. Where the roles are named, a face over a rim
+/// without corners is the end that was said to be missing, and other faces are not.
+bool is_open(const Model& model, double enclosed, FaceId face, RolesBy by)
 {
     if (!is_far_off_plane(model, enclosed, face) || bends_as_rim(model, face)) return false;
     const std::vector<Loop>& loops = model[face].loops;
-    return !membranes(model, {face}).empty() ||
-           (is_stretched(model, face) && loops.size() == 1 && sharp_corners(model, loops.front()).size() > 4);
+    const bool cornered = std::ranges::any_of(
+        loops, [&](const Loop& loop) { return has_many_corners(model, loop); });
+    if (!membranes(model, {face}).empty()) return by == RolesBy::finding || cornered;
+    return is_stretched(model, face) && loops.size() == 1 && cornered;
 }
 
 /// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
@@ -90,16 +95,16 @@ bool leaves_plane(const Model& model, FaceId face)
     return is_stretched(model, face) && std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
                const bool given = std::ranges::none_of(
                    loop.uses, [&](const EdgeUse& use) { return is_void(model, use.edge); });
-               if (given && sharp_corners(model, loop).size() <= 4) return false;
+               if (given && !has_many_corners(model, loop)) return false;
                for (std::size_t first = 0; first < loop.uses.size(); ++first)
                    if (goes_round_plane(model, loop, first)) return true;
                return false;
            });
 }
 
-bool is_untold(const Model& model, double enclosed, FaceId face)
+bool is_untold(const Model& model, double enclosed, FaceId face, RolesBy by)
 {
-    return leaves_plane(model, face) || is_open(model, enclosed, face);
+    return leaves_plane(model, face) || is_open(model, enclosed, face, by);
 }
 
 /// The tags of some faces, the first of many.
@@ -200,16 +205,17 @@ std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given,
 bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
     const double enclosed = enclosed_volume(sealed);
-    return std::ranges::any_of(closure.void_faces,
-                               [&](FaceId face) { return is_untold(sealed.model, enclosed, face); });
+    return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
+        return is_untold(sealed.model, enclosed, face, RolesBy::finding);
+    });
 }
 
-std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure)
+std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, RolesBy by)
 {
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : closure.void_faces) {
-        if (!is_far_off_plane(model, enclosed, face) || !is_untold(model, enclosed, face)) continue;
+        if (!is_far_off_plane(model, enclosed, face) || !is_untold(model, enclosed, face, by)) continue;
         std::set<int> tags;
         for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
@@ -222,7 +228,7 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure)
 std::string guess_of(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
                      const Closure& closure)
 {
-    const std::string bent = guess_of_bent(sealed, closure);
+    const std::string bent = guess_of_bent(sealed, closure, RolesBy::finding);
     return bent.empty() ? guess_of_holes(model, given, sealed.model, closure.void_faces) : bent;
 }
 

@@ -8,6 +8,9 @@
 
 namespace lacuna::closure {
 
+/// Who said what each face is to the sweep.
+enum class RolesBy { person, finding };
+
 /// Whether a void face is bent in a way that nothing given tells, as `guess_of_bent()` says.
 /// @param sealed  with what `closure` added
 bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
@@ -15,9 +18,11 @@ bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 /// Where a sealed volume bends as nothing given tells, in words; empty where all is told.
 ///
 /// - A bent void face whose rim says nothing of its inside: a membrane, or one with more than four corners.
+///   Where a person named the roles a membrane over a rim with fewer is the end that is missing
+///   (Algorithm 4); closing tells what it leaves open.
 /// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
 ///   there.
-std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure);
+std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
 /// What of a volume sealed by roles that were found nothing given tells, in words; empty where all is told:
 /// what `guess_of_bent()` says, or a hole of a given face that is closed in its plane, though an end away
