@@ -206,10 +206,6 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// What a mesh that loses less volume keeps of the least scaled Jacobian. A choice: corners of the shape set
-/// it in both, and it differs by little more than rounding.
-constexpr double kKeptOfLeast = 0.9;
-
 /// With more sides for a full turn as long as too much volume is lost.
 Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
@@ -220,8 +216,7 @@ Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, Kn
         rest.curvature = *sides;
         try {
             Swept next = sweep_compared(volume, rest, links, context);
-            const double enough = kKeptOfLeast *
-                                  std::min(best.min_scaled_jacobian, options.improving.good_enough);
+            const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
             if (!is_closer(volume_lost(next.fidelity), volume_lost(best.fidelity)) ||
                 next.min_scaled_jacobian < enough)
                 break;
