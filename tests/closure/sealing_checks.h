@@ -42,6 +42,13 @@ inline double closed_volume(closure::Reading reading)
     return closure::enclosed_volume(reading.volume);
 }
 
+/// The faces of a part that are left, read without roles and closed, enclose what the whole part does.
+inline void check_found(const Prism& part, double epsilon)
+{
+    const auto reading = closure::find_reading(part.model, topology::all_faces(part.model));
+    CHECK(closed_volume(reading) == doctest::Approx(part.facet_volume).epsilon(epsilon));
+}
+
 /// Watertight, told without the kernel's own check: every facet side is met by one other, run the other
 /// way, and within a face the facets' border is exactly the loops'.
 inline void check_sealed(const topology::OpenVolume& volume)

@@ -201,8 +201,7 @@ TEST_CASE("the sector of a ring without its ends and a round wall is not closed 
                 CAPTURE(inner);
                 CAPTURE(turn);
                 CAPTURE(outside);
-                const auto reading = closure::find_reading(sector.model, all_faces(sector.model));
-                CHECK(test::closed_volume(reading) == doctest::Approx(sector.facet_volume).epsilon(0.025));
+                test::check_found(sector, 0.025);
             }
         }
     }
@@ -224,8 +223,7 @@ TEST_CASE("a bar with a round top that lacks its ends and the bottom between par
                 CAPTURE(bulge);
                 CAPTURE(height);
                 CAPTURE(missing);
-                const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
-                CHECK(test::closed_volume(reading) == doctest::Approx(bar.facet_volume).epsilon(1e-9));
+                test::check_found(bar, 1e-9);
             }
         }
     }
@@ -244,8 +242,7 @@ TEST_CASE("a channel without its ends and a wall has flat ends that are alike")
                 CAPTURE(sides);
                 CAPTURE(bend);
                 CAPTURE(missing);
-                const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
-                CHECK(test::closed_volume(reading) == doctest::Approx(bar.facet_volume).epsilon(0.02));
+                test::check_found(bar, 0.02);
             }
         }
     }
@@ -264,8 +261,7 @@ TEST_CASE("two walls of a frustum that are missing side by side are flat, whiche
                 CAPTURE(sides);
                 CAPTURE(taper);
                 CAPTURE(missing);
-                const auto reading = closure::find_reading(frustum.model, all_faces(frustum.model));
-                CHECK(test::closed_volume(reading) == doctest::Approx(frustum.facet_volume).epsilon(1e-9));
+                test::check_found(frustum, 1e-9);
             }
         }
     }
@@ -287,8 +283,7 @@ TEST_CASE("a chamfer and the wall beside it that are missing are two flat faces,
                     CAPTURE(depth);
                     CAPTURE(chamfer);
                     CAPTURE(missing);
-                    const auto reading = closure::find_reading(block.model, all_faces(block.model));
-                    CHECK(test::closed_volume(reading) == doctest::Approx(block.facet_volume).epsilon(1e-9));
+                    test::check_found(block, 1e-9);
                 }
             }
         }
@@ -316,9 +311,7 @@ TEST_CASE("what two missing faces make of a bent bar is right or refused")
                         CAPTURE(end);
                         CAPTURE(next);
                         try {
-                            const auto reading = closure::find_reading(bar.model, all_faces(bar.model));
-                            CHECK(test::closed_volume(reading) ==
-                                  doctest::Approx(bar.facet_volume).epsilon(0.025));
+                            test::check_found(bar, 0.025);
                             ++right;
                         } catch (const InvalidInput&) {
                             ++refused;

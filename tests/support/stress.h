@@ -41,7 +41,8 @@ std::vector<StressMember> stress_family(int count, unsigned seed = 1);
 
 /// The open volume of a member.
 topology::OpenVolume stress_volume(const StressMember& member);
-/// The same, matched and closed.
+/// The same, matched and closed; nothing given tells how a lifted end that is missing bends, so what closing
+/// assumes is taken.
 topology::OpenVolume sealed_stress_volume(const StressMember& member);
 
 /// What is asked of the sweep.

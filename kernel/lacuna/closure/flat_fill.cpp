@@ -98,6 +98,39 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
+/// `fill_flat_loops()`, not proved yet.
+std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces,
+                                      const RunContext& context)
+{
+    FlatFilling result;
+    OpenVolume& volume = result.volume;
+    volume.model = extract(model, faces);
+    orient_consistently(volume.model);
+    volume.role.assign(faces.size(), Role::wall);
+    const std::optional<ToFill> loops = loops_to_fill(result);
+    if (!loops) return std::nullopt;
+    fill_flat(result, loops->flat, context);
+    try {
+        for (const Loop& loop : loops->bent) {
+            VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
+            result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
+        }
+    } catch (const NotClosed&) {
+        return std::nullopt;
+    }
+    return result;
+}
+
+/// Whether a filling is sealed and does not cross itself.
+bool prove(FlatFilling& filling, const RunContext& context)
+{
+    OpenVolume& volume = filling.volume;
+    build_loops(volume.model);
+    orient_consistently(volume.model);
+    filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
+    return filling.closure.watertight;
+}
+
 /// A made face that is turned against the way from the source by more than this is a wall, where another is
 /// less so [degrees]. A choice: chamfers and the slopes of a roof belong to the end, the risers of steps do
 /// not.
@@ -154,34 +187,16 @@ bool has_flat_loops(const Model& model, FaceId face)
 std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context)
 {
-    FlatFilling result;
-    OpenVolume& volume = result.volume;
-    volume.model = extract(model, faces);
-    orient_consistently(volume.model);
-    volume.role.assign(faces.size(), Role::wall);
-    const std::optional<ToFill> loops = loops_to_fill(result);
-    if (!loops) return std::nullopt;
-    fill_flat(result, loops->flat, context);
-    try {
-        for (const Loop& loop : loops->bent) {
-            VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
-            result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
-        }
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
-    build_loops(volume.model);
-    orient_consistently(volume.model);
-    if (!is_watertight(volume) || first_crossing(volume, context)) return std::nullopt;
-    result.closure.watertight = true;
-    result.closure.notes = notes_of_holes(model, faces, volume, result.closure);
-    return result;
+    auto filled = fill_loops(model, faces, context);
+    if (!filled || !prove(*filled, context)) return std::nullopt;
+    filled->closure.notes = notes_of_holes(model, faces, filled->volume, filled->closure);
+    return filled;
 }
 
 std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& context)
 {
-    auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
-    if (!filled || filled->each_alone || filled->channel) return std::nullopt;
+    auto filled = fill_loops(volume.model, all_faces(volume.model), context);
+    if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;
     const bool flat = std::ranges::all_of(
         filled->closure.void_faces, [&](FaceId face) { return has_flat_loops(filled->volume.model, face); });
     if (!flat) return std::nullopt;

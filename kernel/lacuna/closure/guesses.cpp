@@ -78,9 +78,9 @@ bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corne
 
 /// Whether a void face is bent and its rim does not tell how. Where the roles are named, a face over a rim
 /// without corners is the end that was said to be missing, and other faces are not.
-bool is_open(const Model& model, double enclosed, FaceId face, RolesBy by)
+bool is_open(const Model& model, FaceId face, RolesBy by)
 {
-    if (!is_far_off_plane(model, enclosed, face) || bends_as_rim(model, face)) return false;
+    if (bends_as_rim(model, face)) return false;
     const std::vector<Loop>& loops = model[face].loops;
     const bool cornered = std::ranges::any_of(
         loops, [&](const Loop& loop) { return has_many_corners(model, loop); });
@@ -100,11 +100,6 @@ bool leaves_plane(const Model& model, FaceId face)
                    if (goes_round_plane(model, loop, first)) return true;
                return false;
            });
-}
-
-bool is_untold(const Model& model, double enclosed, FaceId face, RolesBy by)
-{
-    return leaves_plane(model, face) || is_open(model, enclosed, face, by);
 }
 
 /// The tags of some faces, the first of many.
@@ -206,7 +201,8 @@ bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
     const double enclosed = enclosed_volume(sealed);
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        return is_untold(sealed.model, enclosed, face, RolesBy::finding);
+        return leaves_plane(sealed.model, face) || (is_far_off_plane(sealed.model, enclosed, face) &&
+                                                    is_open(sealed.model, face, RolesBy::finding));
     });
 }
 
@@ -215,7 +211,8 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : closure.void_faces) {
-        if (!is_far_off_plane(model, enclosed, face) || !is_untold(model, enclosed, face, by)) continue;
+        if (!is_far_off_plane(model, enclosed, face)) continue;
+        if (!leaves_plane(model, face) && !is_open(model, face, by)) continue;
         std::set<int> tags;
         for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);

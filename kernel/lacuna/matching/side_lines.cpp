@@ -203,14 +203,13 @@ bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
 /// The parts of the walls that have some of these edges: heights of the others tell nothing of them.
 std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
+    std::set<FaceId> beside;
+    for (const EdgeId edge : edges)
+        for (const FaceUse& use : uses[edge.index()]) beside.insert(use.face);
     std::vector<std::vector<FaceId>> parts = connected_parts(volume.model, volume.faces(Role::wall));
     std::erase_if(parts, [&](const std::vector<FaceId>& part) {
-        return std::ranges::none_of(part, [&](FaceId face) {
-            return std::ranges::any_of(volume.model[face].loops, [&](const Loop& loop) {
-                return std::ranges::any_of(loop.uses,
-                                           [&](const EdgeUse& use) { return edges.contains(use.edge); });
-            });
-        });
+        return std::ranges::none_of(part, [&](FaceId face) { return beside.contains(face); });
     });
     return parts;
 }

@@ -238,7 +238,7 @@ std::vector<Quad> SubmapGrid::quads() const
     return result;
 }
 
-Index SubmapGrid::node_at(int x, int y, const std::array<std::size_t, 2>& corners) const
+Index SubmapGrid::node_at(int x, int y, const Sides& corners) const
 {
     for (const std::size_t k : corners) {
         const auto cell = cell_at(x, y, k);
@@ -251,8 +251,11 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());
-    // `ahead` and `behind`: the node of a line as the cells on its far side and on its near side have it.
-    const auto along = [&](int lines, int length, const auto& ahead, const auto& behind) {
+    // A node has corners of cells ahead of it on the line, and of those behind it: across a slit another node
+    // has them.
+    const auto along = [&](int lines, int length, const auto& node, const Sides& far, const Sides& near) {
+        const auto ahead = [&](int l, int i) { return node(l, i, far); };
+        const auto behind = [&](int l, int i) { return node(l, i, near); };
         for (int l = 0; l < lines; ++l) {
             for (int a = 0; a < length; ++a) {
                 const Index start = ahead(l, a);
@@ -273,23 +276,11 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
     };
     // A row about the period would be cut short across what it goes round.
     if (period_ == 0) {
-        along(
-            height_, width_,
-            [&](int y, int x) {
-                return node_at(x, y, {0, 3});
-            },
-            [&](int y, int x) {
-                return node_at(x, y, {1, 2});
-            });
+        along(height_, width_, [&](int y, int x, const Sides& side) { return node_at(x, y, side); }, {0, 3},
+              {1, 2});
     }
-    along(
-        width_, height_,
-        [&](int x, int y) {
-            return node_at(x, y, {0, 1});
-        },
-        [&](int x, int y) {
-            return node_at(x, y, {2, 3});
-        });
+    along(width_, height_, [&](int x, int y, const Sides& side) { return node_at(x, y, side); }, {0, 1},
+          {2, 3});
     for (auto p = static_cast<std::size_t>(fixed); p < points.size(); ++p) {
         if (weight[p] > 0) points[p] = sum[p] / weight[p];
     }

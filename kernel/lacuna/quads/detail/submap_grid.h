@@ -53,6 +53,7 @@ public:
 
 private:
     using Corners = std::array<Index, 4>;
+    using Sides = std::array<std::size_t, 2>; ///< numbers of corners, those of cells on one side of a node
 
     [[nodiscard]] std::size_t index(int x, int y) const
     {
@@ -77,7 +78,7 @@ private:
     /// @return false where another node has one of them.
     bool give_corners(const GridLoop& loop, std::size_t i);
     /// The node at a grid point for a cell that has one of two corners there; -1: none.
-    [[nodiscard]] Index node_at(int x, int y, const std::array<std::size_t, 2>& corners) const;
+    [[nodiscard]] Index node_at(int x, int y, const Sides& corners) const;
 
     GridPosition low_{};
     int period_ = 0;
