@@ -15,12 +15,45 @@ function(lacuna_folder name)
     target_link_libraries(lacuna_${name} PUBLIC lacuna::${folder})
   endforeach()
   lacuna_warnings(lacuna_${name})
+  lacuna_precompile(lacuna_${name} FROM lacuna_core)
+endfunction()
+
+# Sources whose inner loops run four at a time, which a square root that sets an error number and comparisons
+# that trap would stop. No product is fused with a sum: wider vectors change no bit.
+function(lacuna_vector_sources)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+      COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off")
+  endif()
+endfunction()
+
+# With LACUNA_PRECOMPILE, Eigen's headers and the standard's are read once for all targets that are compiled
+# alike, which halves the time of a build: the first of them makes what the others take. MORE: other headers
+# than those.
+#
+#   lacuna_precompile(<target> FROM <first target> [MORE <header>...])
+function(lacuna_precompile target)
+  cmake_parse_arguments(arg "" "FROM" "MORE" ${ARGN})
+  if(NOT LACUNA_PRECOMPILE)
+    return()
+  endif()
+  if(target STREQUAL arg_FROM)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry>
+      <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <numeric>
+      <optional> <set> <span> <string> <string_view> <unordered_map> <utility> <vector> ${arg_MORE})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
+  endif()
 endfunction()
 
 function(lacuna_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
-  # GCC 12 sees overlaps in the standard library's own string copies that are not there.
+  # GCC 12 sees overlaps in the standard library's own string copies that are not there, and bounds that are
+  # passed where these come out of a precompiled header.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
+    if(LACUNA_PRECOMPILE)
+      target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
+    endif()
   endif()
 endfunction()

@@ -223,7 +223,7 @@ TEST_CASE("numbers that nobody asked for get finer where a face bends between no
 TEST_CASE("where finer numbers that nobody asked for do not do, the refusal is that of the default and tells "
           "of them")
 {
-    for (const double belly : {2.0, 3.0, 4.0}) {
+    for (const double belly : {2.0, 2.1, 2.2}) {
         CAPTURE(belly);
         SweepOptions options;
         options.size = [](const Vec3&) { return 0.5; };
