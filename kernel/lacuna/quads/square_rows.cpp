@@ -311,7 +311,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, bool sizes, PlaneQua
 void square_rows(PlanarQuads& mesh, const PlanarRegion& region)
 {
     PlaneQuality quality = measure_plane(mesh, region);
-    if (quality.good_rows < quality.rows) improve(mesh, region, false, quality);
+    if (quality.good_rows < quality.possible_rows) improve(mesh, region, false, quality);
     if (quality.size_share() < kPromised) improve(mesh, region, true, quality);
 }
 
