@@ -3,7 +3,7 @@
 
 #include <lacuna/geometry/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/plane_stars.h>
+#include <lacuna/quads/detail/plane_energy.h>
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace {
 ///     a ---- b    on the boundary
 struct RowSide {
     Index a, b, c, d;
-    Vec2 along;                 ///< unit length, from a to b
-    std::array<Vec2, 4> corner; ///< cosine and sine of the angle wanted at each
-    double height;              ///< wanted [length]
+    Vec2 along;         ///< unit length, from a to b
+    Lanes cosine, sine; ///< of the angle wanted at each corner
+    double height;      ///< wanted [length]
 };
 
 class RowSquarer {
@@ -88,7 +88,7 @@ private:
             const Quad& quad = mesh_.quads[side / 4];
             const std::size_t k = side % 4;
             if (possible[index(quad[k])] == 0 || possible[index(quad[(k + 1) % 4])] == 0) continue;
-            RowSide row{quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4], quad[(k + 3) % 4], {}, {}, 0};
+            RowSide row{quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4], quad[(k + 3) % 4], {}, {}, {}, 0};
             const double length = (at(row.b) - at(row.a)).norm();
             row.along = (at(row.b) - at(row.a)) / length;
             row.height = length;
@@ -98,8 +98,8 @@ private:
                 row.height = std::clamp(asked, length / kLongestOfSize, length / kShortestOfSize);
             }
             const double first = wanted[index(row.a)], second = wanted[index(row.b)];
-            row.corner = {Vec2(std::cos(first), std::sin(first)), Vec2(std::cos(second), std::sin(second)),
-                          Vec2(-std::cos(second), std::sin(second)), Vec2(-std::cos(first), std::sin(first))};
+            row.cosine = Lanes{std::cos(first), std::cos(second), -std::cos(second), -std::cos(first)};
+            row.sine = Lanes{std::sin(first), std::sin(second), std::sin(second), std::sin(first)};
             for (const Index p : {row.c, row.d}) {
                 if (index(p) >= fixed_) of_node_[index(p)].push_back(static_cast<Index>(rows_.size()));
             }
@@ -107,25 +107,26 @@ private:
         }
     }
 
-    /// How far each corner is off what is wanted, as a sine; 1 where it is off by more than a right angle.
-    [[nodiscard]] std::array<double, 4> off_right(const RowSide& row) const
+    /// The square of how far each corner is off what is wanted beyond a limit, as a sine; of 1 where it is
+    /// off by more than a right angle.
+    LACUNA_LANES_INLINE void beyond_right(const RowSide& row, double limit, Lanes& beyond) const
     {
-        const std::array<Vec2, 4> p{at(row.a), at(row.b), at(row.c), at(row.d)};
-        std::array<double, 4> off{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Vec2 out = p[(k + 1) % 4] - p[k], back = p[(k + 3) % 4] - p[k];
-            const double lengths = std::sqrt(out.squaredNorm() * back.squaredNorm());
-            const double cosine = out.dot(back) / lengths, sine = cross(out, back) / lengths;
-            const Vec2& wanted = row.corner[k];
-            off[k] = sine * wanted.y() + cosine * wanted.x() > 0
-                         ? std::abs(sine * wanted.x() - cosine * wanted.y())
-                         : 1;
-        }
-        return off;
+        const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
+        const Lanes outx{b.x() - a.x(), c.x() - b.x(), d.x() - c.x(), a.x() - d.x()},
+            outy{b.y() - a.y(), c.y() - b.y(), d.y() - c.y(), a.y() - d.y()};
+        const Lanes lastx{outx[3], outx[0], outx[1], outx[2]}, lasty{outy[3], outy[0], outy[1], outy[2]};
+        const Lanes squared = (outx * outx + outy * outy) * (lastx * lastx + lasty * lasty);
+        const Lanes lengths{std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2]),
+                            std::sqrt(squared[3])};
+        const Lanes cosine = -(outx * lastx + outy * lasty) / lengths,
+                    sine = (outy * lastx - outx * lasty) / lengths;
+        const Lanes off = sine * row.cosine - cosine * row.sine, size = off < 0 ? -off : off;
+        const Lanes most = sine * row.sine + cosine * row.cosine > 0 ? size : Lanes{1, 1, 1, 1};
+        beyond = most > limit ? (most - limit) * (most - limit) : Lanes{};
     }
 
     /// How far the ends of the side above are off its height, of that.
-    [[nodiscard]] std::array<double, 2> off_height(const RowSide& row) const
+    [[nodiscard]] LACUNA_LANES_INLINE std::array<double, 2> off_height(const RowSide& row) const
     {
         const auto off = [&](Index p) {
             return std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
@@ -133,14 +134,17 @@ private:
         return {off(row.c), off(row.d)};
     }
 
-    [[nodiscard]] double cost_of(const RowSide& row) const
+    [[nodiscard]] LACUNA_LANES_INLINE double cost_of(const RowSide& row) const
     {
         double cost = 0;
         const auto beyond = [&](double x, double limit) {
             if (x > limit) cost += (x - limit) * (x - limit);
         };
-        for (const double x : off_right(row)) beyond(x, kOffRight);
+        Lanes right;
+        beyond_right(row, kOffRight, right);
+        for (std::size_t k = 0; k < 4; ++k) cost += right[k];
         for (const double x : off_height(row)) beyond(x, kOffHeight);
+        if (cost == 0) return 0;
         // Bounded: no row is spoilt to bring another, which stays off, a little nearer.
         return cost * kGivenUp / (cost + kGivenUp);
     }
@@ -193,6 +197,35 @@ private:
         return nodes;
     }
 
+    /// What the quads around the node at hand cost, where that is below a bound; else some number from there
+    /// up. With the widest vectors the machine has; they change no bit.
+    [[nodiscard]] double cost_above(Index p, double bound) const
+    {
+#if defined(__GNUC__) && defined(__x86_64__)
+        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+        if (avx2) return cost_avx2(p, bound);
+#endif
+        return sum_up(p, bound);
+    }
+
+    [[nodiscard]] LACUNA_LANES_INLINE double sum_up(Index p, double bound) const
+    {
+        double cost = cost_of_sizes(p);
+        for (const Index row : of_node_[index(p)]) {
+            if (cost >= bound) return cost;
+            cost += cost_of(rows_[index(row)]);
+        }
+        lanes_.add_shapes(cost, at(p), kShape, bound);
+        return cost;
+    }
+
+#if defined(__GNUC__) && defined(__x86_64__)
+    [[nodiscard, gnu::target("avx2")]] double cost_avx2(Index p, double bound) const
+    {
+        return sum_up(p, bound);
+    }
+#endif
+
     /// @return how far it went, of the mean length of its sides.
     double move(Index p)
     {
@@ -205,43 +238,25 @@ private:
         const Vec2 start = at(p);
         const double floor = std::min(floor_, least_sine(mesh_.points, star, start));
         Vec2& here = mesh_.points[index(p)];
-        const auto cost_above = [&](double bound) {
-            double cost = cost_of_sizes(p);
-            for (const Index row : of_node_[index(p)]) cost += cost_of(rows_[index(row)]);
-            for (std::size_t i = 0; i < star.size() && cost < bound; ++i)
-                cost += kShape * shape_of(p, star[i]);
-            return cost;
-        };
+        lanes_.set(mesh_.points, star, index(p), {});
         const auto value = [&](const Vec2& to, double least) {
             const Vec2 kept = here;
             here = to;
-            const double cost = cost_above(-least);
+            const double cost = cost_above(p, -least);
             here = kept;
             return cost < -least && least_sine(mesh_.points, star, to) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, -cost_above(std::numeric_limits<double>::infinity()),
+        geometry::pattern_search(x, -cost_above(p, std::numeric_limits<double>::infinity()),
                                  {side, kFirst, kLast, 0}, value);
         here = x;
         return (x - start).norm() / side;
     }
 
-    /// Sum over the corners of a quad that change when `p` moves of (|a|² + |b|²) / 2 (a × b) - 1: none for a
-    /// square.
-    [[nodiscard]] double shape_of(Index p, const Spoke& spoke) const
-    {
-        const std::array<Vec2, 4> q{at(p), at(spoke.next), at(spoke.across), at(spoke.before)};
-        double sum = 0;
-        for (const std::size_t k : {0U, 1U, 3U}) {
-            const Vec2 a = q[(k + 1) % 4] - q[k], b = q[(k + 3) % 4] - q[k];
-            sum += (a.squaredNorm() + b.squaredNorm()) / (2 * cross(a, b)) - 1;
-        }
-        return sum;
-    }
-
     PlanarQuads& mesh_;
     std::size_t fixed_;
     Stars stars_;
+    StarLanes lanes_; ///< the star of the node at hand
     std::vector<RowSide> rows_;
     std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
     std::vector<double> asked_;               ///< size at each node, where sizes count
@@ -296,7 +311,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, bool sizes, PlaneQua
 void square_rows(PlanarQuads& mesh, const PlanarRegion& region)
 {
     PlaneQuality quality = measure_plane(mesh, region);
-    if (quality.good_rows < quality.rows) improve(mesh, region, false, quality);
+    if (quality.good_rows < quality.possible_rows) improve(mesh, region, false, quality);
     if (quality.size_share() < kPromised) improve(mesh, region, true, quality);
 }
 

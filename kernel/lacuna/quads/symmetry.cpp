@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/symmetry.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
 
 namespace lacuna::quads {
 namespace {
@@ -24,58 +22,89 @@ public:
     {
         std::vector<Symmetry> found, outline = outline_symmetries(region_);
         if (outline.empty()) return found;
-        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
-            for (std::size_t k = 0; k < 4; ++k)
-                side_[directed_key(mesh_.quads[q][k], mesh_.quads[q][(k + 1) % 4])] = 4 * q + k;
+        opposite_ = mesh::opposite_sides(mesh_.quads, static_cast<Index>(mesh_.points.size()));
+        rim_.assign(mesh_.points.size(), -1);
+        for (std::size_t side = 0; side < opposite_.size(); ++side) {
+            if (opposite_[side] == mesh::kRimSide)
+                rim_[index(mesh_.quads[side / 4][side % 4])] = static_cast<Index>(side);
         }
         for (Symmetry& symmetry : outline) {
             symmetry.to.resize(mesh_.points.size(), -1);
-            if (maps_quads(symmetry)) found.push_back(std::move(symmetry));
+            if (is_product(symmetry, found) || maps_quads(symmetry)) found.push_back(std::move(symmetry));
         }
         return found;
     }
 
 private:
+    /// A side and that it is mapped to.
+    struct SidePair {
+        Index own, image;
+    };
+
+    /// Whether a symmetry is one of those found followed by the first of them. Then it need not be searched
+    /// for, and rings have hundreds.
+    [[nodiscard]] bool is_product(Symmetry& symmetry, const std::vector<Symmetry>& found) const
+    {
+        const auto& loop = region_.loops[0];
+        const auto product = std::find_if(found.begin(), found.end(), [&](const Symmetry& other) {
+            return std::all_of(loop.begin(), loop.begin() + 2, [&](Index p) { // one side tells all
+                return found[0].to[index(other.to[index(p)])] == symmetry.to[index(p)];
+            });
+        });
+        if (product == found.end()) return false;
+        for (std::size_t p = 0; p < symmetry.to.size(); ++p)
+            symmetry.to[p] = found[0].to[index(product->to[p])];
+        return true;
+    }
+
     /// Follow the quads from the boundary inward. @return false where one has no image
     [[nodiscard]] bool maps_quads(Symmetry& symmetry) const
     {
-        const bool mirrors = symmetry.map.mirrors;
         std::vector<char> seen(mesh_.quads.size(), 0);
-        std::vector<std::size_t> next;
-        const auto follow = [&](Index a, Index b) { // a side whose ends have images
-            const auto own = side_.find(directed_key(a, b));
-            if (own == side_.end() || seen[own->second / 4]) return true;
-            const Index to_a = symmetry.to[index(a)], to_b = symmetry.to[index(b)];
-            const auto image = side_.find(mirrors ? directed_key(to_b, to_a) : directed_key(to_a, to_b));
-            if (image == side_.end()) return false;
-            const std::size_t q = own->second / 4, k = own->second % 4;
-            const Quad &quad = mesh_.quads[q], &onto = mesh_.quads[image->second / 4];
-            const std::size_t start = image->second % 4;
-            for (std::size_t i = 0; i < 4; ++i) {
-                const Index to = onto[mirrors ? (start + 5 - i) % 4 : (start + i) % 4];
-                Index& known = symmetry.to[index(quad[(k + i) % 4])];
-                if (known >= 0 && known != to) return false;
-                known = to;
-            }
-            seen[q] = 1;
-            next.push_back(q);
+        std::vector<SidePair> next;
+        const auto follow = [&](const SidePair& side) {
+            if (side.own < 0 || seen[index(side.own) / 4]) return true;
+            if (side.image < 0 || !maps_corners(symmetry, side)) return false;
+            seen[index(side.own) / 4] = 1;
+            next.push_back(side);
             return true;
         };
         const auto& loop = region_.loops[0];
-        if (!follow(loop[0], loop[1])) return false;
+        const Index image = symmetry.to[index(loop[symmetry.map.mirrors ? 1 : 0])];
+        if (!follow({rim_[index(loop[0])], rim_[index(image)]})) return false;
         while (!next.empty()) {
-            const Quad& quad = mesh_.quads[next.back()];
+            const SidePair side = next.back();
             next.pop_back();
-            for (std::size_t k = 0; k < 4; ++k) {
-                if (!follow(quad[(k + 1) % 4], quad[k])) return false;
+            for (Index i = 1; i < 4; ++i) {
+                const SidePair beside{beyond(side.own, i),
+                                      beyond(side.image, symmetry.map.mirrors ? 4 - i : i)};
+                if (!follow({opposite_[index(beside.own)], opposite_[index(beside.image)]})) return false;
             }
+        }
+        return true;
+    }
+
+    /// The side of the same quad so many sides on.
+    static Index beyond(Index side, Index by) { return (side & ~3) + ((side + by) & 3); }
+
+    /// Map the corners of a quad with a side of it. @return false where one is mapped otherwise already
+    bool maps_corners(Symmetry& symmetry, const SidePair& side) const
+    {
+        for (Index i = 0; i < 4; ++i) {
+            const auto own = index(beyond(side.own, i)),
+                       image = index(beyond(side.image, symmetry.map.mirrors ? 5 - i : i));
+            const Index to = mesh_.quads[image / 4][image % 4];
+            Index& known = symmetry.to[index(mesh_.quads[own / 4][own % 4])];
+            if (known >= 0 && known != to) return false;
+            known = to;
         }
         return true;
     }
 
     const PlanarQuads& mesh_;
     const PlanarRegion& region_;
-    std::unordered_map<std::uint64_t, std::size_t> side_; ///< 4 × quad + place, by a side's ends
+    std::vector<Index> opposite_; ///< of each side, 4 × quad + place
+    std::vector<Index> rim_;      ///< the side on the boundary that starts at each node of it
 };
 
 } // namespace

@@ -135,6 +135,20 @@ public:
         return true;
     }
 
+    /// Add to a value, quad by quad until it reaches a bound, `weight` times the sum over the corners that
+    /// change of f - 1.
+    LACUNA_LANES_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
+    {
+        const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
+        const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
+        const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy,
+                    dd = dx * dx + dy * dy;
+        const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
+        const Lanes shape = weight * (((aa + bb) / (2 * det_p) - 1) + ((aa + cc) / (2 * det_n) - 1) +
+                                      ((bb + dd) / (2 * det_r) - 1));
+        for (std::size_t k = 0; k < kLanes && counts_[k] != 0 && value < bound; ++k) value += shape[k];
+    }
+
 private:
     struct Sums {
         Lanes value{}, gx{}, gy{}, xx{}, xy{}, yy{};
@@ -210,6 +224,12 @@ public:
             if (!lanes_[i].add_to(value, x, weight, least)) return std::numeric_limits<double>::infinity();
         }
         return value;
+    }
+
+    /// Add to a value, quad by quad until it reaches a bound, `weight` times the shapes of their corners.
+    LACUNA_LANES_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
+    {
+        for (std::size_t i = 0; i < count_; ++i) lanes_[i].add_shapes(value, x, weight, bound);
     }
 
 private:
