@@ -143,6 +143,36 @@ TEST_CASE(
     CHECK(deep > 10);
 }
 
+TEST_CASE("cells that need cutting are decided side by side as each is alone")
+{
+    std::mt19937 random(17);
+    std::vector<Vec3> nodes;
+    std::vector<Hex> hexes;
+    std::size_t refused = 0;
+    const auto decide = [&] {
+        CHECK(quality::measure_cells(nodes, hexes).uncertified == refused);
+        nodes.clear();
+        hexes.clear();
+        refused = 0;
+    };
+    int hard = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        Corners corners = shaken(random, 0.5);
+        if (quality::scaled_jacobian(corners) <= 0 || quality::certified_positive(corners, 0)) continue;
+        const double scale = ++hard % 50 == 0 ? 1e103 : 1; // whose coefficients are past the largest number
+        for (Vec3& corner : corners) corner *= scale;
+        hexes.emplace_back();
+        for (Index& node : hexes.back()) {
+            node = static_cast<Index>(nodes.size());
+            nodes.push_back(corners[nodes.size() % 8]);
+        }
+        refused += quality::certified_positive(corners) ? 0 : 1;
+        if (hexes.size() == 7) decide();
+    }
+    decide();
+    CHECK(hard > 1000);
+}
+
 TEST_CASE(
     "a cell valid at its corners and negative in a spot inside an edge, a side or its middle is refused")
 {

@@ -156,7 +156,7 @@ private:
         return sweep_points(range);
     }
 
-    LACUNA_LANES_INLINE std::size_t sweep_points(const Range& range)
+    LACUNA_INLINE std::size_t sweep_points(const Range& range)
     {
         const double floor = range.floor, overstep = range.overstep;
         std::size_t moved = 0;

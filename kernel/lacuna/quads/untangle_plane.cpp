@@ -142,7 +142,7 @@ private:
     }
 
     /// The corners of a cell are worked out side by side.
-    LACUNA_LANES_INLINE double sum_up(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
+    LACUNA_INLINE double sum_up(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
         gradient.setZero(x.size());
         const double least = epsilon * epsilon;

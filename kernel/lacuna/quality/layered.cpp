@@ -335,11 +335,18 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunConte
         if (pair && (!least || *pair < *least)) least = pair;
     };
     // A slab and the next one together: what it has in common with that before it was looked at with that.
+    nodes.clear();
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);
         const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
-        nodes.resize(static_cast<std::size_t>(last - first + 1) * row);
-        layered.nodes.place(first, last + 1, nodes, context);
+        const auto count = [&](int levels) { return static_cast<std::size_t>(levels) * row; };
+        if (!nodes.empty()) // this slab was the next one
+            nodes.erase(nodes.begin(),
+                        nodes.end() - static_cast<std::ptrdiff_t>(count(slabs[s].last - first + 1)));
+        const std::size_t there = nodes.size();
+        nodes.resize(count(last - first + 1));
+        layered.nodes.place(first + static_cast<int>(there / row), last + 1, std::span(nodes).subspan(there),
+                            context);
         if (auto pair = find_coincident(nodes, row, tolerance, bounds, context)) {
             const auto before = static_cast<Index>(static_cast<std::size_t>(first) * row);
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});

@@ -70,10 +70,12 @@ void add_cell(Partial& partial, double scaled, double smallest, double volume, s
     if (!(scaled > 0) || !positive()) ++partial.uncertified;
 }
 
-void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, std::size_t cell)
+void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, Sign sign, std::size_t cell)
 {
-    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell,
-             [&] { return positive_everywhere(view_of(values, lane), kDepth); });
+    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell, [&] {
+        return sign == Sign::positive ||
+               (sign == Sign::open && positive_everywhere(view_of(values, lane), kDepth));
+    });
 }
 
 /// @return  the scaled Jacobian.
@@ -113,6 +115,7 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
                 cells, c * width, std::min((c + 1) * width, cells.columns()),
                 [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
                     evaluate(batch, values);
+                    const std::array<Sign, kLanes> sign = signs_after_cut(values);
                     const std::size_t column = first % cells.columns();
                     std::array<Vec3, 27> nodes;
                     for (int lane = 0; lane < filled; ++lane) {
@@ -121,7 +124,7 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
                         if (curved(first + k, nodes))
                             add_cell(partials[c], judge(nodes), first + k);
                         else
-                            add_hex(partials[c], values, lane, first + k);
+                            add_hex(partials[c], values, lane, sign[k], first + k);
                     }
                     for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
                         values.scaled[lane] = add_wedge(partials[c], corners,

@@ -6,6 +6,7 @@
 #include <lacuna/quality/detail/cell_batch.h>
 #include <lacuna/quality/detail/lanes.h>
 
+#include <cmath>
 #include <limits>
 
 namespace lacuna::quality {
@@ -161,6 +162,60 @@ LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth,
     return least_corner(whole) > 0 && further(whole, {max_depth, max_depth, max_depth});
 }
 
+using Values = CellValues<kLanes>;
+
+/// The same coefficient of four cells side by side.
+LACUNA_INLINE const Row& four_of(const double (&lanes)[kLanes], int first)
+{
+    return *reinterpret_cast<const Row*>(lanes + first);
+}
+
+/// Of four cells, each cut along the same direction.
+struct FourCut {
+    Row least;  ///< coefficient of the two halves
+    Row middle; ///< J in the middle of the edges that are cut, times 4
+};
+
+/// @param kAlong  from a coefficient to the next along the cut; `kRow` and `kNextRow` across it.
+template <int kAlong, int kRow, int kNextRow>
+LACUNA_INLINE void cut_four(const Values& values, int first, FourCut& cut)
+{
+    cut.least = four_of(values.bezier[0], first);
+    cut.middle = Row{} + std::numeric_limits<double>::infinity();
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) {
+            const int at = i * kRow + j * kNextRow;
+            const Row& a = four_of(values.bezier[at], first);
+            const Row& b = four_of(values.bezier[at + kAlong], first);
+            const Row& c = four_of(values.bezier[at + 2 * kAlong], first);
+            const Row ab = a + b, bc = b + c;
+            for (const Row* one : {&a, &ab, &bc, &c}) lower(cut.least, *one);
+            if (i != 1 && j != 1) lower(cut.middle, ab + bc);
+        }
+    }
+}
+
+LACUNA_INLINE void find_signs(const Values& values, int first, Sign* sign)
+{
+    FourCut along[3];
+    cut_four<1, 3, 9>(values, first, along[0]);
+    cut_four<3, 1, 9>(values, first, along[1]);
+    cut_four<9, 1, 3>(values, first, along[2]);
+    for (int i = 0; i < 4; ++i) {
+        // What is no number or infinite is so in the sum as well.
+        const bool finite = std::isfinite(values.volume[first + i]);
+        const bool positive = along[0].least[i] > 0 || along[1].least[i] > 0 || along[2].least[i] > 0;
+        const bool crossed = !(along[0].middle[i] > 0 && along[1].middle[i] > 0 && along[2].middle[i] > 0);
+        if (finite && (positive || crossed)) sign[i] = positive ? Sign::positive : Sign::not_positive;
+    }
+}
+
+LACUNA_INLINE void find_signs(const Values& values, std::array<Sign, kLanes>& sign)
+{
+    for (int first = 0; first < kLanes; first += 4)
+        if (!(least_of(four_of(values.smallest, first)) > 0)) find_signs(values, first, &sign[index(first)]);
+}
+
 #if defined(__GNUC__) && defined(__x86_64__)
 [[gnu::target("avx2")]] bool positive_avx2(const Part& part, const CutsLeft& cuts_left)
 {
@@ -171,6 +226,17 @@ LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth,
 {
     return positive_whole(bezier, max_depth, positive_avx2);
 }
+
+[[gnu::target("avx2")]] void find_signs_avx2(const Values& values, std::array<Sign, kLanes>& sign)
+{
+    find_signs(values, sign);
+}
+
+bool has_avx2()
+{
+    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+    return avx2;
+}
 #endif
 
 } // namespace
@@ -178,10 +244,22 @@ LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth,
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx2) return whole_avx2(bezier, max_depth);
+    if (has_avx2()) return whole_avx2(bezier, max_depth);
 #endif
     return positive_whole(bezier, max_depth, positive_plain);
+}
+
+std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values)
+{
+    std::array<Sign, kLanes> sign{}; // all open
+#if defined(__GNUC__) && defined(__x86_64__)
+    if (has_avx2()) {
+        find_signs_avx2(values, sign);
+        return sign;
+    }
+#endif
+    find_signs(values, sign);
+    return sign;
 }
 
 } // namespace lacuna::quality

@@ -3,6 +3,7 @@
 
 /// The energy that smoothing in the plane lowers.
 
+#include <lacuna/core/vector_code.h>
 #include <lacuna/quads/detail/plane_stars.h>
 
 #include <algorithm>
@@ -31,17 +32,11 @@ struct StarEnergy {
     double sides = 0; ///< squared lengths of the sides at the point, each quad's two
 };
 
-#if defined(__GNUC__)
-#define LACUNA_LANES_INLINE [[gnu::always_inline]] inline
-#else
-#define LACUNA_LANES_INLINE inline
-#endif
-
 /// A number for each of four quads; the processor takes two or four at a time. They may lie anywhere.
 using Lanes = double __attribute__((vector_size(32), aligned(8)));
 
-LACUNA_LANES_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
-LACUNA_LANES_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
+LACUNA_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+LACUNA_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
 {
     const auto positive = (a > 0) & (b > 0) & (c > 0);
     return (positive[0] & positive[1] & positive[2] & positive[3]) != 0;
@@ -56,7 +51,7 @@ public:
     static constexpr std::size_t kLanes = 4;
 
     /// @param p  the point that the star is of
-    LACUNA_LANES_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
+    LACUNA_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
                                  std::size_t p, const TargetAreas& areas)
     {
         const std::size_t last = star.size() - 1;
@@ -86,7 +81,7 @@ public:
     }
 
     /// Add the energy of these quads and its derivatives. @return false where a corner is folded
-    LACUNA_LANES_INLINE bool add_to(StarEnergy& around, const Vec2& x, double weight) const
+    LACUNA_INLINE bool add_to(StarEnergy& around, const Vec2& x, double weight) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
@@ -111,7 +106,7 @@ public:
     }
 
     /// Add the energy alone. @return false where a corner is folded, or its sine squared is less than `least`
-    LACUNA_LANES_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
+    LACUNA_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
@@ -157,7 +152,7 @@ private:
         /// f² of a corner, f = sum / 2 det.
         /// @param d    determinant; linear in the point, slope `dx`, `dy`
         /// @param sum  squared lengths of its sides; slope `sx`, `sy`, curvature `curve` in x and in y
-        LACUNA_LANES_INLINE void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum,
+        LACUNA_INLINE void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum,
                                      const Lanes& sx, const Lanes& sy, double curve)
         {
             det = d;
@@ -173,7 +168,7 @@ private:
         }
 
         /// The size of the corner added last.
-        LACUNA_LANES_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
+        LACUNA_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
                                      const Lanes& dy)
         {
             const Lanes v = area * over;
@@ -197,7 +192,7 @@ private:
 class StarLanes {
 public:
     /// @pre the star is not empty
-    LACUNA_LANES_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
+    LACUNA_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
                                  const TargetAreas& areas)
     {
         count_ = (star.size() + SpokeLanes::kLanes - 1) / SpokeLanes::kLanes;
@@ -207,7 +202,7 @@ public:
     }
 
     /// The energy with its derivatives. @return false where a corner is folded
-    LACUNA_LANES_INLINE bool differentiate(const Vec2& x, double weight, StarEnergy& around) const
+    LACUNA_INLINE bool differentiate(const Vec2& x, double weight, StarEnergy& around) const
     {
         around = {};
         for (std::size_t i = 0; i < count_; ++i) {
@@ -217,7 +212,7 @@ public:
     }
 
     /// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
-    LACUNA_LANES_INLINE double energy(const Vec2& x, double weight, double least) const
+    LACUNA_INLINE double energy(const Vec2& x, double weight, double least) const
     {
         double value = 0;
         for (std::size_t i = 0; i < count_; ++i) {

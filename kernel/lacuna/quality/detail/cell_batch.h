@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 /// The arithmetic of one cell, for several cells at once. Internal to this folder.
 ///
@@ -69,5 +70,12 @@ CoefficientsView view_of(const CellValues<N>& values, int lane)
 
 /// Whether J is positive everywhere, from its Bézier coefficients. See `certified_positive()`.
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
+
+/// Whether J is positive everywhere, as far as a single cut tells.
+enum class Sign : std::uint8_t { open, positive, not_positive };
+
+/// The same of all cells of a batch at once, for one cut along u, v or w: which of the three does not matter.
+/// Most cells that their coefficients leave open are decided so. @return  as `positive_everywhere()` tells.
+std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values);
 
 } // namespace lacuna::quality

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include <lacuna/core/vector_code.h>
 
-#if defined(__GNUC__)
-#define LACUNA_INLINE [[gnu::always_inline]] inline
-#else
-#define LACUNA_INLINE inline
-#endif
+#include <cmath>
 
 /// A number in each of `N` cells, and vectors of such; plain loops of fixed length, which compilers turn into
 /// vector code. Internal to this folder.

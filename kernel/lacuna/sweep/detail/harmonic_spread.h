@@ -51,9 +51,6 @@ public:
     void solve(std::span<Vec3> load) const;
 
 private:
-    template <int width>
-    void substitute(std::vector<double>& block) const;
-
     struct RimSide {
         Index row, fixed; ///< place in the factor; position in `fixed`
         double weight;
