@@ -101,6 +101,38 @@ TEST_CASE("named roles do not settle how a missing end bends: it is refused unle
     }
 }
 
+TEST_CASE("a bent end that named roles leave out is closed where its rim tells it, and refused where not")
+{
+    const std::vector<Vec2> ell{{-0.8, -0.8}, {0.8, -0.8}, {0.8, -0.1},
+                                {-0.1, -0.1}, {-0.1, 0.8}, {-0.8, 0.8}};
+    const std::vector<Vec2> tee{{-1, 0.2},  {-0.4, 0.2}, {-0.4, -1}, {0.4, -1},
+                                {0.4, 0.2}, {1, 0.2},    {1, 0.9},   {-1, 0.9}};
+    for (const std::vector<Vec2>& outline : {polygon(5), polygon(6), polygon(8), ell, tee}) {
+        for (const double lift : {0.2, 0.35, 0.5}) {
+            for (const bool both_ends : {false, true}) {
+                for (const test::End end : {test::End::saddle, test::End::bowed}) {
+                    const auto stack = test::prism({.height = 1.2,
+                                                    .outline = outline,
+                                                    .cuts = 6,
+                                                    .target = end,
+                                                    .lift = lift,
+                                                    .drop = test::without(both_ends, true, false)});
+                    CAPTURE(outline.size());
+                    CAPTURE(lift);
+                    CAPTURE(both_ends);
+                    CAPTURE(int(end));
+                    OpenVolume volume = stack.open();
+                    const std::string refusal = test::refusal([&] { test::seal(volume); });
+                    OpenVolume taken = stack.open();
+                    test::seal(taken, {.take_guess = true});
+                    const double off = closure::enclosed_volume(taken) / stack.facet_volume - 1;
+                    CHECK(refusal == (std::abs(off) < 0.02 ? "done" : "closure.shape_open"));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("an end that named roles leave out with walls beside it is closed by flat faces")
 {
     struct Shape {
