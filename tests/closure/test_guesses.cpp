@@ -37,6 +37,17 @@ bool is_upper_wall(const test::Part& part, int side)
     return part.role == Role::wall && part.loop == 0 && part.row == 1 && part.side == side;
 }
 
+/// A bar of which the first side is the source and what else is left the walls.
+OpenVolume open_on_floor(const test::Prism& bar)
+{
+    Roles roles;
+    for (std::size_t f = 0; f < bar.part.size(); ++f) {
+        const bool floor = bar.part[f].role == Role::wall && bar.part[f].side == 0;
+        (floor ? roles.source : roles.walls).emplace_back(f);
+    }
+    return open_volume(bar.model, roles);
+}
+
 std::string refusal_of(const Model& model)
 {
     return test::refusal([&] { (void)closure::find_reading(model, all_faces(model)); });
@@ -133,6 +144,40 @@ TEST_CASE("a bent end that named roles leave out is closed where its rim tells i
     }
 }
 
+TEST_CASE("no lid is sealed over a slot in an end that named roles leave out")
+{
+    for (const double half : {0.2, 0.35, 0.6}) { // of the slot's width
+        for (const double floor : {0.4, 0.8}) {
+            for (const double depth : {1.0, 3.0}) {
+                for (const double lean : {0.0, 0.15}) { // of its sides
+                    const std::vector<Vec2> outline{{0, 0},
+                                                    {2, 0},
+                                                    {2, 1},
+                                                    {1 + half, 1},
+                                                    {1 + half - lean, floor},
+                                                    {1 - half + lean, floor},
+                                                    {1 - half, 1},
+                                                    {0, 1}};
+                    const auto part = test::prism(
+                        {.height = depth, .outline = outline, .drop = [](const test::Part& p) {
+                             return p.role == Role::wall && p.side > 1 && p.side < 7;
+                         }});
+                    CAPTURE(half);
+                    CAPTURE(floor);
+                    CAPTURE(depth);
+                    CAPTURE(lean);
+                    OpenVolume volume = open_on_floor(part);
+                    const bool refused = !test::refusal([&] { test::seal(volume); }).starts_with("done");
+                    if (lean == 0) CHECK(refused);
+                    if (refused) continue;
+                    CHECK(closure::enclosed_volume(volume) ==
+                          doctest::Approx(part.facet_volume).epsilon(0.02));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("an end that named roles leave out with walls beside it is closed by flat faces")
 {
     struct Shape {
@@ -195,15 +240,10 @@ TEST_CASE(
                 {.height = depth, .outline = outline, .drop = [=](const test::Part& p) {
                      return p.role == Role::wall && p.side > 1 && p.side < last;
                  }});
-            Roles roles;
-            for (std::size_t f = 0; f < part.part.size(); ++f) {
-                const bool floor = part.part[f].role == Role::wall && part.part[f].side == 0;
-                (floor ? roles.source : roles.walls).emplace_back(f);
-            }
             CAPTURE(profile.size());
             CAPTURE(profile[1].y());
             CAPTURE(depth);
-            OpenVolume volume = open_volume(part.model, roles);
+            OpenVolume volume = open_on_floor(part);
             test::seal(volume);
             test::check_sealed(volume);
             CHECK(closure::enclosed_volume(volume) == doctest::Approx(part.facet_volume).epsilon(1e-9));

@@ -97,7 +97,8 @@ bool is_straight_sided(const Model& model, const Loop& loop)
 }
 
 /// Whether a membrane over the rim of an end that was said to be missing is in doubt. Straight sides in
-/// several planes tell of several flat faces; what bent ones leave open lies between two smooth faces.
+/// several planes tell of several flat faces, as does a rim that folds in its plane, round the mouth of a
+/// slot; what bent ones leave open lies between two smooth faces.
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
     bool cornered = false;
@@ -106,7 +107,8 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
         if (is_straight_sided(model, loop) && is_far_off_plane(model, enclosed, face)) return true;
         cornered = true;
     }
-    return cornered && beside_thin_plate(model, face) >= kBendDoubt * enclosed;
+    return cornered && (model[face].geometry == Geometry::minimal ||
+                        beside_thin_plate(model, face) >= kBendDoubt * enclosed);
 }
 
 /// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
@@ -126,7 +128,7 @@ bool leaves_plane(const Model& model, FaceId face)
 /// Whether a void face leaves the shape of a sealed volume in doubt.
 bool is_in_doubt(const Model& model, double enclosed, FaceId face, RolesBy by)
 {
-    if (leaves_plane(model, face)) return is_far_off_plane(model, enclosed, face);
+    if (leaves_plane(model, face) && is_far_off_plane(model, enclosed, face)) return true;
     if (by == RolesBy::person && bends_off_quadratic(model, face))
         return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
                is_end_in_doubt(model, enclosed, face);
