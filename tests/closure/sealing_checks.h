@@ -36,7 +36,7 @@ inline double closed_volume(closure::Reading reading)
         if (!reading.volume.faces(topology::Role::source).empty() &&
             !reading.volume.faces(topology::Role::target).empty())
             match = matching::match(reading.volume);
-        closure::close(reading.volume, match);
+        closure::close(reading.volume, match, {.take_guess = true}); // as readings are closed
     }
     CHECK(closure::is_watertight(reading.volume));
     return closure::enclosed_volume(reading.volume);

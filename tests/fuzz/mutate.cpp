@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -174,7 +175,8 @@ void keep_at_work(int signal)
     std::raise(signal);
 }
 
-Arguments read_arguments(int count, char** words)
+/// Nothing where the words are not understood.
+std::optional<Arguments> read_arguments(int count, char** words)
 {
     Arguments arguments;
     for (int i = 1; i < count; ++i) {
@@ -189,6 +191,8 @@ Arguments read_arguments(int count, char** words)
         else if (word == "--shared")
             for (const char* folder : {"hostile", "fem", "stl"})
                 arguments.files.push_back(fs::path(LACUNA_SOURCE_DIR) / "../shared/data" / folder);
+        else if (word.starts_with("-"))
+            return std::nullopt;
         else
             arguments.files.emplace_back(word);
     }
@@ -199,7 +203,15 @@ Arguments read_arguments(int count, char** words)
 
 int main(int count, char** words)
 {
-    const Arguments arguments = read_arguments(count, words);
+    const std::optional<Arguments> read_words = read_arguments(count, words);
+    if (!read_words) {
+        std::fprintf(stderr,
+                     "usage: %s [--runs N] [--seconds S] [--seed N] [--shared] [FILE or FOLDER...]\n"
+                     "without --runs and --seconds it runs until it is stopped\n",
+                     words[0]);
+        return 2;
+    }
+    const Arguments& arguments = *read_words;
     std::vector<std::string> samples;
     for (const auto& sample : lacuna::test::facet_samples()) {
         std::string ending = fs::path(sample.name).extension().string();

@@ -29,6 +29,8 @@ double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides
     return geometry::SweptPatch(side[0], side[1], side[2], side[3]).unlike();
 }
 
+} // namespace
+
 bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
 {
     const std::vector<Vec3> points = use_places(model, side);
@@ -38,8 +40,6 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
         return (p - points.front()).cross(along).norm() <= std::max(model.tolerance, 1e-6 * chord.norm());
     });
 }
-
-} // namespace
 
 bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
 {

@@ -68,21 +68,20 @@ double off_quadratic(const Heights& heights, double extent)
     return (powers * fit - heights.height).cwiseAbs().maxCoeff();
 }
 
-bool is_membrane(const Model& model, FaceId face)
-{
-    if (model[face].geometry == Geometry::minimal) return true;
-    if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
-    const Heights heights = heights_of(model, face);
-    const double extent = heights.extent(), bulge = heights.bulge();
-    return bulge > kFlat * extent && off_quadratic(heights, extent) > kOnIt * bulge;
-}
-
 } // namespace
 
 bool is_about_flat(const Model& model, FaceId face)
 {
     const Heights heights = heights_of(model, face);
     return heights.bulge() <= kFlat * heights.extent();
+}
+
+bool bends_off_quadratic(const Model& model, FaceId face)
+{
+    if (model[face].geometry == Geometry::minimal) return true;
+    if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
+    const Heights heights = heights_of(model, face);
+    return off_quadratic(heights, heights.extent()) > kOnIt * heights.bulge();
 }
 
 bool bends_as_rim(const Model& model, FaceId face)
@@ -126,8 +125,10 @@ bool bends_as_rim(const Model& model, FaceId face)
 std::vector<FaceId> membranes(const Model& model, const std::vector<FaceId>& void_faces)
 {
     std::vector<FaceId> found;
-    for (const FaceId face : void_faces)
-        if (is_membrane(model, face)) found.push_back(face);
+    for (const FaceId face : void_faces) {
+        if (!bends_off_quadratic(model, face)) continue;
+        if (model[face].geometry == Geometry::minimal || !is_about_flat(model, face)) found.push_back(face);
+    }
     return found;
 }
 

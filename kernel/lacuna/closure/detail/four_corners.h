@@ -21,6 +21,9 @@ std::vector<std::size_t> sharp_corners(const topology::Model& model, const topol
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 
+/// Whether uses that go on from each other lie on one straight line.
+bool is_straight(const topology::Model& model, const std::vector<topology::EdgeUse>& side);
+
 /// Whether two sides that face each other are straight, so that straight lines between the other two make
 /// the patch.
 bool is_ruled(const topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& sides);

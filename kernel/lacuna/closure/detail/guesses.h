@@ -18,8 +18,9 @@ bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 /// Where a sealed volume bends as nothing given tells, in words; empty where all is told.
 ///
 /// - A bent void face whose rim says nothing of its inside: a membrane, or one with more than four corners.
-///   Where a person named the roles a membrane over a rim with fewer is the end that is missing
-///   (Algorithm 4); closing tells what it leaves open.
+///   Where a person named the roles a membrane is the end that is missing (Algorithm 4), and closing tells
+///   what it leaves open; over a rim of more than four corners it is in doubt where the smoothest faces over
+///   the rim, a membrane and a thin plate, differ, or straight sides tell of several flat faces.
 /// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
 ///   there.
 std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);

@@ -12,6 +12,10 @@ namespace lacuna::closure {
 /// on one quadratic height over their plane, as the mouth of a keyway does on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 
+/// Whether a face over its rim's plane lies on no quadratic height, be it bent ever so little; or was made
+/// with least area.
+bool bends_off_quadratic(const topology::Model& model, FaceId face);
+
 /// Whether a face's rim lies on one quadric (a ball, a cylinder, a cone) and its inside near it: then the rim
 /// tells how the face bends.
 bool bends_as_rim(const topology::Model& model, FaceId face);
