@@ -2,15 +2,18 @@
 /// Sources of several faces and curved ones, meshed as a sweep meshes them and measured as one mesh in space:
 /// a JSON line a case. sources.py beside this makes tables of them and compares two.
 ///
-/// usage: bench_sources QUADS [NAME|case:FILE|SOURCE|TARGET|WALLS|raised:FILE|SOURCE|groups:FILE [PICTURE]]
+/// usage: bench_sources QUADS [SPEC [PICTURE]]
+///   SPEC     NAME|random:SEED:NUMBER|case:FILE|SOURCE|TARGET|WALLS|raised:FILE|SOURCE|groups:FILE
 ///   QUADS    asked for over all source faces together
 ///   NAME     a member of `test::source_family()`; without one, all of them
+///   random:… a member of `test::random_source()`
 ///   case:…   the source faces of a real case, by tags with commas
 ///   raised:… faces of a CAD file, exact, with walls to the same faces moved along their mean normal
 ///   groups:… all groups of neighbouring faces of a CAD file, each as such a source
 ///   PICTURE  file for nodes and quads as text, `face` after each quad
 
 #include "support/measure_sources.h"
+#include "support/random_sources.h"
 #include "support/source_family.h"
 #ifdef LACUNA_WITH_CAD
 #include "source_face.h"
@@ -123,8 +126,8 @@ void measure_groups(const std::string& file, double quads)
 int main(int argc, char** argv)
 try {
     if (argc < 2) {
-        std::fprintf(stderr,
-                     "usage: bench_sources QUADS [NAME|case:…|raised:FILE|SOURCE|groups:FILE [PICTURE]]\n");
+        std::fprintf(stderr, "usage: bench_sources QUADS [NAME|random:SEED:NUMBER|case:…|raised:FILE|SOURCE|"
+                             "groups:FILE [PICTURE]]\n");
         return 2;
     }
     const double quads = std::stod(argv[1]);
@@ -146,6 +149,13 @@ try {
         return 0;
     }
 #endif
+    if (wanted.starts_with("random:")) {
+        const std::size_t colon = wanted.find(':', 7);
+        const auto seed = static_cast<std::uint32_t>(std::stoul(wanted.substr(7, colon - 7)));
+        const test::FamilySource own = test::random_source(seed, std::stoi(wanted.substr(colon + 1)));
+        measure(own.name, own.volume, quads, own.least_irregular, picture);
+        return 0;
+    }
     bool found = false;
     for (const test::FamilySource& own : test::source_family()) {
         if (!wanted.empty() && wanted != own.name) continue;

@@ -45,9 +45,12 @@ int draw_loop(const std::vector<test::PlaneCurve>& loop)
         } else {
             constexpr std::size_t kEvery = 8; // points of the fine line that the spline goes through
             std::vector<int> points{from};
-            for (std::size_t k = kEvery; k + kEvery <= curve.through.size(); k += kEvery)
-                points.push_back(occ::addPoint(curve.through[k].x(), curve.through[k].y(), 0));
-            if (points.size() > 1 && (curve.through.size() - 1) % kEvery == 0) points.pop_back();
+            const std::size_t last = curve.through.size() - 1,
+                              pieces = std::max<std::size_t>(1, last / kEvery);
+            for (std::size_t k = 1; k < pieces; ++k) {
+                const Vec2& p = curve.through[k * last / pieces];
+                points.push_back(occ::addPoint(p.x(), p.y(), 0));
+            }
             points.push_back(to);
             curves.push_back(occ::addSpline(points));
         }

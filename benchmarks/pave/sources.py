@@ -3,10 +3,11 @@
 """Sources of several faces and curved ones: figures of their quads as one mesh in space.
 
     sources.py BENCH_SOURCES [--data FOLDER] [--sizes 40,120,400,1000] [--output FILE.json] [--before FILE.json]
+    sources.py BENCH_SOURCES --random 30 [--seed 1]
 
 Runs bench_sources over its family and over the source faces of the real cases, and prints a table and how
-often each bar is met. With --before it says what became better or worse than in that file. What is measured:
-the quads of all source faces as one mesh, so that a node on an edge that two of them share is inside it.
+often each bar is met; with --random instead over so many members of a family that nothing was chosen on.
+With --before it says what became better or worse than in that file. What is measured: the quads of all source faces as one mesh, so that a node on an edge that two of them share is inside it.
 
 Bars: quads within a quarter of those asked (from 120 on); irregular nodes at most 1.5 times the least and 4;
 95 % of the rim's rows and of edges as asked, from 120 on; 85 % of the rows along shared edges; the least
@@ -100,6 +101,8 @@ def main():
     parser.add_argument("bench", help="the program bench_sources")
     parser.add_argument("--data", help="folder with the CAD files of the real cases")
     parser.add_argument("--sizes", default="40,120,400,1000")
+    parser.add_argument("--random", type=int, default=0, help="members of the random family, and nothing else")
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--output", help="file for the figures")
     parser.add_argument("--before", help="file of figures to compare with")
     options = parser.parse_args()
@@ -109,6 +112,10 @@ def main():
         os.environ.setdefault("LACUNA_CAD", str(worker))
     results = []
     for quads in map(int, options.sizes.split(",")):
+        for number in range(options.random):
+            results += run(bench, quads, f"random:{options.seed}:{number}")
+        if options.random:
+            continue
         results += run(bench, quads)
         for name, (spec, _) in (real_cases(options.data) if options.data else {}).items():
             results += [{**r, "case": name} for r in run(bench, quads, spec)]
