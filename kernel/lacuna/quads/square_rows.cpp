@@ -109,7 +109,7 @@ private:
 
     /// The square of how far each corner is off what is wanted beyond a limit, as a sine; of 1 where it is
     /// off by more than a right angle.
-    LACUNA_LANES_INLINE void beyond_right(const RowSide& row, double limit, Lanes& beyond) const
+    LACUNA_INLINE void beyond_right(const RowSide& row, double limit, Lanes& beyond) const
     {
         const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
         const Lanes outx{b.x() - a.x(), c.x() - b.x(), d.x() - c.x(), a.x() - d.x()},
@@ -126,7 +126,7 @@ private:
     }
 
     /// How far the ends of the side above are off its height, of that.
-    [[nodiscard]] LACUNA_LANES_INLINE std::array<double, 2> off_height(const RowSide& row) const
+    [[nodiscard]] LACUNA_INLINE std::array<double, 2> off_height(const RowSide& row) const
     {
         const auto off = [&](Index p) {
             return std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
@@ -134,7 +134,7 @@ private:
         return {off(row.c), off(row.d)};
     }
 
-    [[nodiscard]] LACUNA_LANES_INLINE double cost_of(const RowSide& row) const
+    [[nodiscard]] LACUNA_INLINE double cost_of(const RowSide& row) const
     {
         double cost = 0;
         const auto beyond = [&](double x, double limit) {
@@ -208,7 +208,7 @@ private:
         return sum_up(p, bound);
     }
 
-    [[nodiscard]] LACUNA_LANES_INLINE double sum_up(Index p, double bound) const
+    [[nodiscard]] LACUNA_INLINE double sum_up(Index p, double bound) const
     {
         double cost = cost_of_sizes(p);
         for (const Index row : of_node_[index(p)]) {

@@ -52,7 +52,7 @@ public:
 
     /// @param p  the point that the star is of
     LACUNA_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
-                                 std::size_t p, const TargetAreas& areas)
+                           std::size_t p, const TargetAreas& areas)
     {
         const std::size_t last = star.size() - 1;
         const auto spoke = [&](std::size_t k) -> const Spoke& { return star[std::min(first + k, last)]; };
@@ -132,7 +132,7 @@ public:
 
     /// Add to a value, quad by quad until it reaches a bound, `weight` times the sum over the corners that
     /// change of f - 1.
-    LACUNA_LANES_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
+    LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
         const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
@@ -153,7 +153,7 @@ private:
         /// @param d    determinant; linear in the point, slope `dx`, `dy`
         /// @param sum  squared lengths of its sides; slope `sx`, `sy`, curvature `curve` in x and in y
         LACUNA_INLINE void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum,
-                                     const Lanes& sx, const Lanes& sy, double curve)
+                               const Lanes& sx, const Lanes& sy, double curve)
         {
             det = d;
             over = 1 / det;
@@ -169,7 +169,7 @@ private:
 
         /// The size of the corner added last.
         LACUNA_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
-                                     const Lanes& dy)
+                               const Lanes& dy)
         {
             const Lanes v = area * over;
             const Lanes first = (weight / 2) * (inverse - v * over), second = weight * v * over * over;
@@ -193,7 +193,7 @@ class StarLanes {
 public:
     /// @pre the star is not empty
     LACUNA_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t p,
-                                 const TargetAreas& areas)
+                           const TargetAreas& areas)
     {
         count_ = (star.size() + SpokeLanes::kLanes - 1) / SpokeLanes::kLanes;
         if (count_ > lanes_.size()) lanes_.resize(count_);
@@ -222,7 +222,7 @@ public:
     }
 
     /// Add to a value, quad by quad until it reaches a bound, `weight` times the shapes of their corners.
-    LACUNA_LANES_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
+    LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         for (std::size_t i = 0; i < count_; ++i) lanes_[i].add_shapes(value, x, weight, bound);
     }
