@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/cancelling.h"
 #include "support/refusal.h"
+#include "support/volumes.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/split_facets.h>
@@ -469,4 +470,21 @@ TEST_CASE("splitting and stitching stop within half a second, and leave the mode
     CHECK(
         test::heeds_cancel([&](const RunContext& context) { (void)healing::stitch(model, 1e-6, context); }));
     CHECK(model.points.size() == points);
+}
+
+TEST_CASE("a damaged coordinate that makes every facet too small is named")
+{
+    for (const int sides : {3, 4, 6}) {
+        for (std::size_t damaged = 0; damaged < 5; ++damaged) {
+            for (const Eigen::Index axis : {0, 1, 2}) {
+                healing::FacetSoup soup = test::prism({.sides = sides}).soup;
+                soup.points[damaged][axis] = -3e38;
+                CAPTURE(sides);
+                CAPTURE(damaged);
+                CAPTURE(axis);
+                const auto split = [&] { (void)healing::split_facets(soup); };
+                CHECK(test::refusal(split, {"-3e+38", "mend the file"}) == "topology.no_facets");
+            }
+        }
+    }
 }

@@ -162,6 +162,30 @@ TEST_CASE("a file cut off anywhere is refused or read in part, and what is annou
     }
 }
 
+TEST_CASE(
+    "a binary STL file whose count of facets is wrong is refused by that count, whatever its header says")
+{
+    const std::vector<test::FacetSample> samples = test::facet_samples();
+    const auto binary = std::ranges::find(samples, "binary.Stl", &test::FacetSample::name);
+    REQUIRE(binary != samples.end());
+    for (const std::string header : {"solid made elsewhere", "made elsewhere"}) {
+        for (const int wrong : {200, 2'000'000, 2'000'000'000}) {
+            std::string bytes = binary->bytes;
+            bytes.replace(0, 80, header + std::string(80 - header.size(), '\0'));
+            for (std::size_t byte = 0; byte < 4; ++byte)
+                bytes[80 + byte] = static_cast<char>(wrong >> (8 * byte) & 255);
+            CAPTURE(header);
+            CAPTURE(wrong);
+            try {
+                (void)io::read_facets(binary->name, bytes);
+                FAIL("read");
+            } catch (const InvalidInput& error) {
+                CHECK(has(error.what(), "announces " + std::to_string(wrong) + " facets"));
+            }
+        }
+    }
+}
+
 TEST_CASE("content that is another format's is refused, and says which")
 {
     for (const test::FacetSample& sample : test::facet_samples()) {

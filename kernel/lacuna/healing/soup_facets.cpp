@@ -3,6 +3,7 @@
 #include <lacuna/healing/split_facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/healing/detail/repeated_cells.h>
 #include <lacuna/healing/detail/t_junctions.h>
 #include <lacuna/healing/weld.h>
@@ -190,6 +191,21 @@ void close_tees(Facets& facets)
     }
 }
 
+/// The point that is furthest from where the middle of all is along each axis.
+Vec3 point_far_from_others(const std::vector<Vec3>& points)
+{
+    Vec3 middle;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        std::vector<double> along;
+        for (const Vec3& p : points) along.push_back(p[axis]);
+        const auto half = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+        std::ranges::nth_element(along, half);
+        middle[axis] = *half;
+    }
+    return *std::ranges::max_element(points, {},
+                                     [&](const Vec3& p) { return (p - middle).cwiseAbs().maxCoeff(); });
+}
+
 Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)
 {
     if (soup.triangles.empty() && soup.quads.empty()) {
@@ -226,9 +242,14 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
         if (whole) facets.quads.push_back(q);
     }
     if (facets.count() == 0) {
-        throw InvalidInput("topology.no_facets", "every facet is smaller than the tolerance of " +
-                                                     std::to_string(facets.tolerance) +
-                                                     "; give a smaller tolerance");
+        const std::string all = "every facet is smaller than the tolerance of " +
+                                with_digits(facets.tolerance, 4);
+        const Vec3 far = point_far_from_others(soup.points);
+        throw InvalidInput(
+            "topology.no_facets",
+            tolerance > 0 ? all + "; give a smaller one"
+                          : all + ", which goes by how far the points reach: mend the file if " +
+                                place_with_digits(far, 4) + " is no point of the shape, or give a tolerance");
     }
     drop_unused_points(facets);
     return facets;

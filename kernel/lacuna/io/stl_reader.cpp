@@ -42,10 +42,10 @@ public:
     void read_binary()
     {
         cursor_.coding = Coding::little;
+        check_counts();
         while (cursor_.rest().size() >= kHeader + 4) {
             const std::string_view header = cursor_.bytes(kHeader);
             const std::uint32_t count = count_at(cursor_.bytes(4));
-            cursor_.plausible(count, kFacet, 0);
             begin_solid(name_in(header));
             if (count > 0) read_binary_facets(count);
         }
@@ -57,6 +57,22 @@ public:
     }
 
 private:
+    /// The counts have to be right for what a solid announces to be told from the next one's header.
+    void check_counts() const
+    {
+        const std::string_view all = cursor_.rest();
+        for (std::size_t at = 0; at + kHeader + 4 <= all.size();) {
+            const std::uint64_t count = count_at(all.substr(at + kHeader)), begin = at + kHeader + 4;
+            const std::uint64_t room = (all.size() - begin) / kFacet;
+            if (count > room)
+                cursor_.fail_at(at + kHeader, "the header announces " + std::to_string(count) +
+                                                  " facets and the bytes after it hold " +
+                                                  std::to_string(room) +
+                                                  (at == 0 ? "" : ": it or a count before it is wrong"));
+            at = begin + kFacet * count;
+        }
+    }
+
     void begin_solid(std::string_view name)
     {
         ++solids_;
@@ -139,8 +155,10 @@ bool is_binary_stl(std::string_view bytes)
 void read_stl(Cursor& cursor, DeckBuilder& into)
 {
     StlReader reader(cursor, into);
+    // Headers of binary files may begin with "solid" as well; a byte of their counts is 0.
     const bool text = !is_binary_stl(cursor.rest()) &&
-                      same_word(trimmed(cursor.rest()).substr(0, 5), "solid");
+                      same_word(trimmed(cursor.rest()).substr(0, 5), "solid") &&
+                      cursor.rest().substr(0, kHeader + 4).find('\0') == std::string_view::npos;
     if (text)
         reader.read_text();
     else
