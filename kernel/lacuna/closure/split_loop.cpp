@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace lacuna::closure {
 
@@ -65,20 +66,24 @@ std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
     return uses;
 }
 
+/// Where in a loop the run after the r-th of some begins, counted on beyond its last use. @pre they rise
+std::size_t next_start(const Rim& rim, std::span<const Run> runs, std::size_t r)
+{
+    return r + 1 == runs.size() ? runs.front().first + rim.uses.size() : runs[r + 1].first;
+}
+
 /// What of a loop lies between the r-th of some runs and the next. @pre they rise and do not overlap
-Run between(const Rim& rim, const std::vector<Run>& runs, std::size_t r)
+Run between(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     const std::size_t end = runs[r].first + runs[r].count;
-    const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
-    return {end, next - end};
+    return {end, next_start(rim, runs, r) - end};
 }
 
 /// Whether some rising runs of a loop go on past each other.
 bool overlap(const Rim& rim, const std::vector<Run>& runs)
 {
     for (std::size_t r = 0; r < runs.size(); ++r) {
-        const std::size_t next = r + 1 < runs.size() ? runs[r + 1].first : runs[0].first + rim.uses.size();
-        if (runs[r].first + runs[r].count > next) return true;
+        if (runs[r].first + runs[r].count > next_start(rim, runs, r)) return true;
     }
     return false;
 }
@@ -138,7 +143,7 @@ std::size_t turns(const std::vector<Vec3>& chain)
 bool tells_plane(const Model& model, const Rim& rim, const Run& run)
 {
     const auto tells = [&](const Run& part) { return turns(use_places(model, uses_of(rim, part))) >= 2; };
-    return tells(run) || tells(between(rim, {run}, 0));
+    return tells(run) || tells(between(rim, {&run, 1}, 0));
 }
 
 /// Whether some uses bend from one corner to the next and those beside are not parallel, as along a side of
