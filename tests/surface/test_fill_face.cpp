@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/pave.h>
 #include <lacuna/surface/detail/fine_facets.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 using namespace lacuna;
 using namespace lacuna::surface;
@@ -238,5 +240,27 @@ TEST_CASE("fine facets follow the exact face as closely as asked, and plain face
         const Disc plain(1, 0.2, 3, 16, false);
         const FineFacets same = fine_facets(plain.model, FaceId(0), [&](const Vec3&) { return size; });
         CHECK(same.triangles.size() == plain.model.faces[0].triangles.size());
+    }
+}
+
+TEST_CASE("a curved face in two parts is refused by its name and with what to do, given or made")
+{
+    for (const bool made : {false, true}) {
+        CAPTURE(made);
+        Disc disc(0.4, 0.2, 4, 24, false);
+        const auto first = static_cast<Index>(disc.model.points.size());
+        for (const Vec3& p : {Vec3(5, 0, 0), Vec3(6, 0, 1), Vec3(5, 1, 0)}) disc.model.points.push_back(p);
+        topology::Face& face = disc.model.faces[0];
+        face.triangles.push_back({first, first + 1, first + 2});
+        if (made) face.origin = topology::Origin::made_void;
+        try {
+            fill(disc, 0.3);
+            FAIL("filled");
+        } catch (const InvalidInput& error) {
+            const std::string words = error.what();
+            CHECK(error.code() == "surface.not_flat");
+            CHECK(words.find("face 1") != std::string::npos);
+            CHECK(words.find(made ? "give the face" : "split it") != std::string::npos);
+        }
     }
 }

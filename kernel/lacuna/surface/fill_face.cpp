@@ -89,23 +89,35 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
 /// less than .005 in the others.
 constexpr double kSettled = 1e-3;
 
+std::string no_flat_words(const Model& model, FaceId face, const std::string& why)
+{
+    const bool open = model[face].origin == Origin::made_void;
+    return name_of(model, face) + " cannot be laid flat for its quads: " + why +
+           (open ? "; give the face that is missing there, or name source and target so that the void is "
+                   "swept another way"
+                 : "; split it into simpler faces");
+}
+
+/// The facets of a face in the plane.
+geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets& fine)
+try {
+    return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
+} catch (const InvalidInput& error) { // which knows facets and no face
+    throw InvalidInput("surface.not_flat", no_flat_words(model, face, error.what()));
+}
+
 /// A curved face, laid flat.
 class FlatFace {
 public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
-        : model_(model),
-          fine_(fine_facets(model, face, size)),
-          flat_(geometry::flatten(fine_.points, fine_.triangles, {.settled = kSettled}))
+        : model_(model), fine_(fine_facets(model, face, size)), flat_(laid_flat(model, face, fine_))
     {
         if (flat_.folded) { // fewer facets have fewer ways to fold
             fine_ = fine_facets(model, face, size, {.rounds = 0});
-            flat_ = geometry::flatten(fine_.points, fine_.triangles, {.settled = kSettled});
+            flat_ = laid_flat(model, face, fine_);
         }
-        if (flat_.folded) {
-            throw NotSweepable("surface.not_flat",
-                               name_of(model, face) +
-                                   " cannot be laid flat without folding; split it into simpler faces");
-        }
+        if (flat_.folded)
+            throw NotSweepable("surface.not_flat", no_flat_words(model, face, "its facets fold"));
         locator_ = geometry::PlanarLocator(flat_);
         measure_stretch();
     }
