@@ -7,7 +7,8 @@
 
 Runs bench_sources over its family and over the source faces of the real cases, and prints a table and how
 often each bar is met; with --random instead over so many members of a family that nothing was chosen on.
-With --before it says what became better or worse than in that file. What is measured: the quads of all source faces as one mesh, so that a node on an edge that two of them share is inside it.
+With --before it says what became better or worse than in that file. What is measured: the quads of all
+source faces as one mesh, so that a node on an edge that two of them share is inside it.
 
 Bars: quads within a quarter of those asked (from 120 on); irregular nodes at most 1.5 times the least and 4;
 95 % of the rim's rows and of edges as asked, from 120 on; 85 % of the rows along shared edges; the least

@@ -256,7 +256,7 @@ TEST_CASE("a curved face in two parts is refused by its name and with what to do
         try {
             fill(disc, 0.3);
             FAIL("filled");
-        } catch (const NotSweepable& error) {
+        } catch (const InvalidInput& error) {
             const std::string words = error.what();
             CHECK(error.code() == "surface.not_flat");
             CHECK(words.find("face 1") != std::string::npos);

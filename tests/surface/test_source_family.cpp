@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/measure_sources.h"
+#include "support/random_sources.h"
 #include "support/source_family.h"
 
 #include <lacuna/quads/pave.h>
@@ -66,6 +67,26 @@ TEST_CASE("quads of several source faces and of curved ones are good as one mesh
         }
     }
     MESSAGE(meshes << " meshes");
+}
+
+TEST_CASE(
+    "boards whose cells are put together at random are meshed as one, flat or bent, with as many quads as "
+    "asked where there is room")
+{
+    for (int number = 0; number < 15; ++number) {
+        const test::FamilySource source = test::random_source(3, number);
+        for (const double quads : {120.0, 400.0}) {
+            CAPTURE(source.name);
+            CAPTURE(quads);
+            const test::UnionQuality q = mesh_family_source(source, quads).quality;
+            CHECK(q.triangles == 0);
+            CHECK(q.bad_sides == 0);
+            CHECK(q.min_scaled_jacobian > (quads > 200 ? 0.5 : 0.2));
+            CHECK(q.mean_scaled_jacobian > 0.85);
+            CHECK(static_cast<double>(q.quads) >= 0.75 * quads);
+            CHECK(static_cast<double>(q.quads) <= (quads > 200 ? 1.25 : 1.5) * quads);
+        }
+    }
 }
 
 TEST_CASE("several faces that are grids or rings get as many quads as asked for, within a quarter")

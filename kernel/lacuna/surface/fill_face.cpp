@@ -89,14 +89,13 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
 /// less than .005 in the others.
 constexpr double kSettled = 1e-3;
 
-[[noreturn]] void refuse_flat(const Model& model, FaceId face, const std::string& why)
+std::string no_flat_words(const Model& model, FaceId face, const std::string& why)
 {
     const bool open = model[face].origin == Origin::made_void;
-    throw NotSweepable("surface.not_flat",
-                       name_of(model, face) + " cannot be laid flat for its quads: " + why +
-                           (open ? "; give the face that is missing there, or name source and target so that "
-                                   "the void is swept another way"
-                                 : "; split it into simpler faces"));
+    return name_of(model, face) + " cannot be laid flat for its quads: " + why +
+           (open ? "; give the face that is missing there, or name source and target so that the void is "
+                   "swept another way"
+                 : "; split it into simpler faces");
 }
 
 /// The facets of a face in the plane.
@@ -104,7 +103,7 @@ geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets&
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
 } catch (const InvalidInput& error) { // which knows facets and no face
-    refuse_flat(model, face, error.what());
+    throw InvalidInput("surface.not_flat", no_flat_words(model, face, error.what()));
 }
 
 /// A curved face, laid flat.
@@ -117,7 +116,8 @@ public:
             fine_ = fine_facets(model, face, size, {.rounds = 0});
             flat_ = laid_flat(model, face, fine_);
         }
-        if (flat_.folded) refuse_flat(model, face, "its facets fold");
+        if (flat_.folded)
+            throw NotSweepable("surface.not_flat", no_flat_words(model, face, "its facets fold"));
         locator_ = geometry::PlanarLocator(flat_);
         measure_stretch();
     }

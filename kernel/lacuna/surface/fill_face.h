@@ -37,7 +37,8 @@ struct FaceQuads {
 /// @param rim    nodes of the boundary; they stay, in this order.
 /// @param loops  cycles of places in `rim`, the face on the left.
 /// @param rows   along sides of the rim, at heights on the face; null: none.
-/// @throw NotSweepable "surface.not_flat"  a face that cannot be laid flat; what the mesher throws.
+/// @throw NotSweepable "surface.not_flat"  a face that folds in the plane; what the mesher throws.
+/// @throw InvalidInput "surface.not_flat"  a curved face in several parts, closed or with a handle.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
                     const std::vector<std::vector<Index>>& loops, const SizeFields& sizes,
                     const quads::PlanarQuadMesher& mesher, const quads::BoundaryRows* rows = nullptr,
