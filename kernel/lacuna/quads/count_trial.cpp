@@ -4,6 +4,7 @@
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/face_pattern.h>
+#include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
 
@@ -56,7 +57,7 @@ std::optional<double> score_of_counts(const PlanarRegion& region, std::span<cons
     std::optional<double> best;
     for (const PlanarQuads& mesh : meshes) {
         const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuarter;
-        best = std::max(best.value_or(-1), paving::score_of(mesh, made) - kWorth * off * off);
+        best = std::max(best.value_or(-1), paving::score_of(measure_plane(mesh, made)) - kWorth * off * off);
     }
     return best;
 }

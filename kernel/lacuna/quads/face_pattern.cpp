@@ -403,10 +403,9 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& si
 
 /// Whether all quads of a mesh are nearly square and of the size asked, and rows along the boundary as high.
 /// Choices, not measurements.
-bool is_fine(const PlanarQuads& mesh, const PlanarRegion& region, double least, double rows)
+bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
     constexpr double kMean = 0.92, kSizes = 0.95;
-    const PlaneQuality quality = measure_plane(mesh, region);
     return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
            quality.size_share() > kSizes && quality.row_share() >= rows;
 }
@@ -537,8 +536,9 @@ private:
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
         fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
         if (!fits_.back()) return;
-        is_square_ = is_square_ || quads::is_fine(made_.back(), region_, kSquare, 0);
-        is_fine_ = is_fine_ || quads::is_fine(made_.back(), region_, kFine, kRows);
+        const PlaneQuality quality = measure_plane(made_.back(), region_);
+        is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
+        is_fine_ = is_fine_ || quads::is_fine(quality, kFine, kRows);
     }
 
     PatternFiller fill(const FacePattern& pattern)

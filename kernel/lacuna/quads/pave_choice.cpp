@@ -65,9 +65,8 @@ constexpr double kGoodEnough = 3.3;
 /// irregular nodes than topology asks for. Choices, not measurements.
 constexpr double kFineWorst = 0.82, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
-bool is_near_least(const PlanarQuads& mesh, const PlanarRegion& region, int least)
+bool is_near_least(const PlaneQuality& quality, int least)
 {
-    const PlaneQuality quality = measure_plane(mesh, region);
     const auto irregular = static_cast<double>(quality.irregular + quality.boundary_irregular);
     return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kFineSizes &&
            quality.row_share() > kFineRows;
@@ -184,10 +183,9 @@ bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 
 } // namespace
 
-double score_of(const PlanarQuads& mesh, const PlanarRegion& region)
+double score_of(const PlaneQuality& quality)
 {
     constexpr double kGood = 0.6, kBest = 0.85, kFewNodes = 300;
-    const PlaneQuality quality = measure_plane(mesh, region);
     const double least = quality.min_scaled_jacobian;
     const double irregular = static_cast<double>(quality.irregular + quality.boundary_irregular) /
                              std::max(static_cast<double>(quality.interior), kFewNodes);
@@ -228,19 +226,21 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
     judged_.size = size_with_boundary(region, kRingGrading, kRingAlike);
 }
 
-double AttemptChooser::judge_score(Attempt& made) const
+AttemptChooser::Judged AttemptChooser::judge_score(Attempt& made) const
 {
     if (made.worst > 0 && !find_fault(made.mesh, region_).empty()) made.worst = -1;
-    return made.worst > setting_.flat ? score_of(made.mesh, judged_) : made.worst;
+    if (!(made.worst > setting_.flat)) return {made.worst, {}};
+    const PlaneQuality quality = measure_plane(made.mesh, judged_);
+    return {score_of(quality), quality};
 }
 
 void AttemptChooser::consider(Attempt made)
 {
     made_ += made.mesh.quads.size();
-    const double score = judge_score(made);
+    const auto [score, quality] = judge_score(made);
     if (score <= best_score_) return;
     best_score_ = score;
-    is_near_least_ = made.worst > kFineWorst && is_near_least(made.mesh, judged_, least_irregular_);
+    is_near_least_ = made.worst > kFineWorst && is_near_least(quality, least_irregular_);
     best_ = std::move(made);
 }
 
@@ -366,7 +366,7 @@ bool AttemptChooser::try_blocks()
     if (is_good_grid_) {
         PlanarQuads made = best_.mesh;
         if (symmetrise(made, region_) > symmetries.size()) return true;
-        best = score_of(best_.mesh, judged_);
+        best = score_of(measure_plane(best_.mesh, judged_));
     }
     const auto size = [&](const Vec2& p) { return setting_.size(p) / kFiner; };
     bool kept = false;
@@ -375,7 +375,7 @@ bool AttemptChooser::try_blocks()
         if (!block) return kept;
         Attempt attempt = fill_about(*block);
         if (!is_good_part(attempt, judged_, judged_.size, false)) continue;
-        const double score = score_of(attempt.mesh, judged_);
+        const double score = score_of(measure_plane(attempt.mesh, judged_));
         if (score < best) continue;
         best = score;
         best_ = std::move(attempt);
@@ -486,7 +486,7 @@ double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) con
 {
     Attempt made = begin(style, weights);
     complete(made);
-    return judge_score(made);
+    return judge_score(made).score;
 }
 
 void AttemptChooser::try_all_weights()

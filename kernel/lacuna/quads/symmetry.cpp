@@ -23,14 +23,20 @@ public:
         std::vector<Symmetry> found, outline = outline_symmetries(region_);
         if (outline.empty()) return found;
         opposite_ = mesh::opposite_sides(mesh_.quads, static_cast<Index>(mesh_.points.size()));
-        rim_.assign(mesh_.points.size(), -1);
+        rim_.assign(region_.points.size(), -1);
         for (std::size_t side = 0; side < opposite_.size(); ++side) {
-            if (opposite_[side] == mesh::kRimSide)
-                rim_[index(mesh_.quads[side / 4][side % 4])] = static_cast<Index>(side);
+            if (opposite_[side] >= 0) continue;
+            const std::size_t start = index(mesh_.quads[side / 4][side % 4]);
+            if (opposite_[side] != mesh::kRimSide || start >= rim_.size())
+                return found; // no mesh of the region
+            rim_[start] = static_cast<Index>(side);
         }
+        if (std::find(rim_.begin(), rim_.end(), -1) != rim_.end()) return found;
+        find_row_ends();
         for (Symmetry& symmetry : outline) {
             symmetry.to.resize(mesh_.points.size(), -1);
-            if (is_product(symmetry, found) || maps_quads(symmetry)) found.push_back(std::move(symmetry));
+            if (is_product(symmetry, found) || (maps_rows(symmetry) && maps_quads(symmetry)))
+                found.push_back(std::move(symmetry));
         }
         return found;
     }
@@ -55,6 +61,29 @@ private:
         for (std::size_t p = 0; p < symmetry.to.size(); ++p)
             symmetry.to[p] = found[0].to[index(product->to[p])];
         return true;
+    }
+
+    /// Where the row of quads that starts at each side on the boundary ends on it.
+    void find_row_ends()
+    {
+        row_end_.assign(opposite_.size(), -1);
+        for (const Index start : rim_) {
+            for (Index side = start; side >= 0; side = opposite_[index(beyond(side, 2))])
+                row_end_[index(start)] = beyond(side, 2);
+        }
+    }
+
+    /// Whether rows of quads end where those of their images do: most that is no symmetry is found out by the
+    /// first row.
+    [[nodiscard]] bool maps_rows(const Symmetry& symmetry) const
+    {
+        const auto image = [&](Index side) {
+            const Index own = symmetry.map.mirrors ? beyond(side, 1) : side;
+            return rim_[index(symmetry.to[index(mesh_.quads[index(own) / 4][index(own) % 4])])];
+        };
+        return std::all_of(rim_.begin(), rim_.end(), [&](Index side) {
+            return image(row_end_[index(side)]) == row_end_[index(image(side))];
+        });
     }
 
     /// Follow the quads from the boundary inward. @return false where one has no image
@@ -105,6 +134,7 @@ private:
     const PlanarRegion& region_;
     std::vector<Index> opposite_; ///< of each side, 4 × quad + place
     std::vector<Index> rim_;      ///< the side on the boundary that starts at each node of it
+    std::vector<Index> row_end_;  ///< of each side on the boundary, that across all quads
 };
 
 } // namespace

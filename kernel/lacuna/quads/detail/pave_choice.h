@@ -5,6 +5,7 @@
 #include <lacuna/quads/detail/central_block.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/pave_attempt.h>
+#include <lacuna/quads/measure_plane.h>
 
 #include <cstdint>
 #include <span>
@@ -19,7 +20,7 @@ namespace lacuna::quads::paving {
 /// kGood, for a sweep repeats the worst quad and makes it worse, and half up to kBest, above which smoothing
 /// gets it anyway. The outline, not the number of quads, says how many irregular nodes there must be: below
 /// kFewNodes their share is taken of that many. The weights are choices.
-double score_of(const PlanarQuads& mesh, const PlanarRegion& region);
+double score_of(const PlaneQuality& quality);
 
 /// Paves a region in several ways and keeps the best attempt by measure.
 class AttemptChooser {
@@ -80,8 +81,12 @@ private:
     [[nodiscard]] Attempt begin(RowStyle style, const CutWeights& weights = {}) const;
     /// Finish an attempt in place.
     void complete(Attempt& attempt) const;
+    struct Judged {
+        double score;
+        PlaneQuality quality; ///< not measured of quads that count as folded
+    };
     /// The score of an attempt; one with a fault is marked as such.
-    double judge_score(Attempt& made) const;
+    Judged judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
     [[nodiscard]] bool is_good_enough() const;
 
