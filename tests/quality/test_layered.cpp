@@ -47,8 +47,9 @@ quality::Proof layered_proof(const mesh::HexMesh& whole, double limit = 0)
     const mesh::LayeredNodes nodes = nodes_of(whole);
     const mesh::LayeredMesh layered{bare, nodes};
     REQUIRE(mesh::layers_at_once(bare) < kLayers / 3);
-    quality::Proof found = quality::prove(layered, quality::measure(layered),
-                                          quality::find_misplaced(layered), limit);
+    const quality::MeasuredLayers measured = quality::measure(layered);
+    quality::Proof found = quality::prove(layered, measured.quality,
+                                          quality::find_misplaced(layered, measured.slabs), limit);
     const quality::Proof held = quality::prove(whole, limit);
     REQUIRE(found.finding.has_value() == held.finding.has_value());
     if (found.finding && held.finding) {
@@ -101,5 +102,5 @@ TEST_CASE("what is wrong in one of many layers is found where nodes are made")
     bare.nodes.resize(index(twins.nodes_per_layer));
     const mesh::LayeredNodes nodes = nodes_of(twins);
     const mesh::LayeredMesh layered{bare, nodes};
-    CHECK(quality::prove(layered, quality::measure(layered), {}).finding.has_value());
+    CHECK(quality::prove(layered, quality::measure(layered).quality, {}).finding.has_value());
 }

@@ -66,30 +66,25 @@ void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more)
 }
 
 /// A box that lies as a slab does: its first axis leads from the slab's lowest level to its highest.
-struct SlabBox {
-    Eigen::Matrix3d frame; ///< its axes as rows
-    Eigen::AlignedBox3d box;
+void lay_box(std::span<const Vec3> nodes, std::size_t row, SlabPlace& place)
+{
+    Vec3 way = Vec3::Zero();
+    for (std::size_t i = 0; i < row; ++i) way += nodes[nodes.size() - row + i] - nodes[i];
+    way = way.stableNormalized();
+    if (way.isZero(0)) way = Vec3::UnitX();
+    const Vec3 beside = way.unitOrthogonal();
+    place.frame.row(0) = way.transpose();
+    place.frame.row(1) = beside.transpose();
+    place.frame.row(2) = way.cross(beside).transpose();
+    for (const Vec3& p : nodes) place.box.extend(place.frame * p);
+}
 
-    SlabBox() = default;
-    SlabBox(std::span<const Vec3> nodes, std::size_t row)
-    {
-        Vec3 way = Vec3::Zero();
-        for (std::size_t i = 0; i < row; ++i) way += nodes[nodes.size() - row + i] - nodes[i];
-        way = way.stableNormalized();
-        if (way.isZero(0)) way = Vec3::UnitX();
-        const Vec3 beside = way.unitOrthogonal();
-        frame.row(0) = way.transpose();
-        frame.row(1) = beside.transpose();
-        frame.row(2) = way.cross(beside).transpose();
-        for (const Vec3& p : nodes) box.extend(frame * p);
-    }
-    [[nodiscard]] bool contains(const Vec3& p) const { return box.contains(frame * p); }
-};
+bool contains(const SlabPlace& slab, const Vec3& p) { return slab.box.contains(slab.frame * p); }
 
 /// False where an axis of one of the two boxes tells them apart.
-bool may_meet(const SlabBox& a, const SlabBox& b)
+bool may_meet(const SlabPlace& a, const SlabPlace& b)
 {
-    const auto apart = [](const SlabBox& own, const SlabBox& other) {
+    const auto apart = [](const SlabPlace& own, const SlabPlace& other) {
         Eigen::AlignedBox3d seen;
         for (int corner = 0; corner < 8; ++corner)
             seen.extend(own.frame * (other.frame.transpose() *
@@ -102,7 +97,7 @@ bool may_meet(const SlabBox& a, const SlabBox& b)
 /// Points of different slabs within a distance of each other, which are not in slabs next to each other.
 class FarPairs {
 public:
-    FarPairs(const LayeredMesh& layered, const std::vector<Slab>& slabs, std::vector<SlabBox> boxes,
+    FarPairs(const LayeredMesh& layered, const std::vector<Slab>& slabs, std::vector<SlabPlace> boxes,
              const Eigen::AlignedBox3d& bounds, double tolerance, const RunContext& context)
         : layered_(layered),
           slabs_(slabs),
@@ -113,7 +108,7 @@ public:
           beside_(slabs.size())
     {
         const Vec3 room = Vec3::Constant(tolerance);
-        for (SlabBox& own : boxes_) own.box = {own.box.min() - room, own.box.max() + room};
+        for (SlabPlace& own : boxes_) own.box = {own.box.min() - room, own.box.max() + room};
         for (std::size_t a = 0; a < slabs.size(); ++a)
             for (std::size_t b = a + 2; b < slabs.size(); ++b)
                 if (may_meet(boxes_[a], boxes_[b])) {
@@ -161,7 +156,7 @@ private:
         layered_.nodes.place(first, last + 1, nodes_, context_);
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             const bool beside = std::any_of(beside_[slab].begin(), beside_[slab].end(),
-                                            [&](std::size_t b) { return boxes_[b].contains(nodes_[i]); });
+                                            [&](std::size_t b) { return contains(boxes_[b], nodes_[i]); });
             if (beside) visit(static_cast<Index>(static_cast<std::size_t>(first) * row + i), nodes_[i]);
         }
     }
@@ -236,7 +231,7 @@ private:
 
     const LayeredMesh& layered_;
     const std::vector<Slab>& slabs_;
-    std::vector<SlabBox> boxes_;
+    std::vector<SlabPlace> boxes_;
     Eigen::AlignedBox3d bounds_; ///< of all nodes
     double tolerance_;
     const RunContext& context_;
@@ -257,38 +252,41 @@ Finding twins(const LayeredMesh& layered, const std::array<Index, 2>& pair, cons
     return coincident_nodes(name(pair[0]), name(pair[1]));
 }
 
-/// Where a slab is, or that a node of it is nowhere.
-struct SlabPlace {
-    Index not_finite = -1; ///< a node; -1: none
-    Eigen::AlignedBox3d bounds;
-    SlabBox box;
-};
-
 template <class A, class Own>
 void put_place(A& with, Own& place)
 {
     with(place.not_finite);
-    for (auto* box : {&place.bounds, &place.box.box})
+    for (auto* box : {&place.bounds, &place.box})
         for (auto* corner : {&box->min(), &box->max()}) with(*corner);
-    for (int d = 0; d < 9; ++d) with(place.box.frame.data()[d]);
+    for (int d = 0; d < 9; ++d) with(place.frame.data()[d]);
 }
 
-SlabPlace place_of(const LayeredMesh& layered, const Slab& slab, std::vector<Vec3>& nodes,
-                   const RunContext& context)
+struct MeasuredSlab {
+    Quality quality;
+    SlabPlace place;
+};
+
+MeasuredSlab read_slab(Reader& reader)
 {
-    const std::size_t row = index(layered.mesh.nodes_per_layer);
-    nodes.resize(static_cast<std::size_t>(slab.last - slab.first + 1) * row);
-    layered.nodes.place(slab.first, slab.last + 1, nodes, context);
+    MeasuredSlab found;
+    put(reader, found.quality);
+    put_place(reader, found.place);
+    return found;
+}
+
+/// @param first  level of the first of the nodes; @param row  nodes of a level
+SlabPlace place_of(std::span<const Vec3> nodes, int first, std::size_t row, const RunContext& context)
+{
     SlabPlace place;
     place.bounds = finite_bounds(nodes, context);
     if (place.bounds.isEmpty()) {
         const auto wrong = std::find_if(nodes.begin(), nodes.end(),
                                         [](const Vec3& p) { return !p.allFinite(); });
-        place.not_finite = static_cast<Index>(static_cast<std::size_t>(slab.first) * row) +
+        place.not_finite = static_cast<Index>(static_cast<std::size_t>(first) * row) +
                            static_cast<Index>(wrong - nodes.begin());
         return place;
     }
-    place.box = SlabBox(nodes, row);
+    lay_box(nodes, row, place);
     return place;
 }
 
@@ -304,30 +302,17 @@ Finding not_finite_node(const LayeredMesh& layered, Index node, const RunContext
 
 } // namespace
 
-std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunContext& context, const Team* team)
+std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<const SlabPlace> places,
+                                      const RunContext& context, const Team* team)
 {
     const HexMesh& mesh = layered.mesh;
     const std::size_t row = index(mesh.nodes_per_layer);
     const std::vector<Slab> slabs = slabs_of(mesh);
     const auto [begin, end] = share_of(team, slabs.size());
-    std::vector<Vec3> nodes;
-    Writer own_places;
-    for (std::size_t s = begin; s < end; ++s) {
-        check_cancelled(context);
-        const SlabPlace place = place_of(layered, slabs[s], nodes, context);
-        put_place(own_places, place);
-    }
-    const auto places = gathered<SlabPlace>(team, std::move(own_places), slabs.size(), [](Reader& reader) {
-        SlabPlace place;
-        put_place(reader, place);
-        return place;
-    });
-    std::vector<SlabBox> boxes;
     Eigen::AlignedBox3d bounds;
     for (const SlabPlace& place : places) {
         if (place.not_finite >= 0) return not_finite_node(layered, place.not_finite, context);
         bounds.extend(place.bounds);
-        boxes.push_back(place.box);
     }
     const double tolerance = coincidence_tolerance(bounds);
     std::optional<std::array<Index, 2>> least;
@@ -335,7 +320,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunConte
         if (pair && (!least || *pair < *least)) least = pair;
     };
     // A slab and the next one together: what it has in common with that before it was looked at with that.
-    nodes.clear();
+    std::vector<Vec3> nodes;
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);
         const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
@@ -353,7 +338,8 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunConte
         }
     }
     // Bends that meet themselves are few: one looks for all.
-    if (begin == 0) take(FarPairs(layered, slabs, std::move(boxes), bounds, tolerance, context).first());
+    if (begin == 0)
+        take(FarPairs(layered, slabs, {places.begin(), places.end()}, bounds, tolerance, context).first());
     Writer own_pair;
     if (least) own_pair(*least);
     for (const auto& pair : gathered<std::array<Index, 2>>(team, std::move(own_pair), 1, [](Reader& reader) {
@@ -366,10 +352,11 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, const RunConte
     return twins(layered, *least, context);
 }
 
-Quality measure(const LayeredMesh& layered, const RunContext& context, const Team* team)
+MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, const Team* team)
 {
     const HexMesh& mesh = layered.mesh;
-    Quality all;
+    MeasuredLayers measured;
+    Quality& all = measured.quality;
     double sum = 0;
     HexMesh slab;
     slab.nodes_per_layer = mesh.nodes_per_layer;
@@ -389,13 +376,14 @@ Quality measure(const LayeredMesh& layered, const RunContext& context, const Tea
             cell.layer += part.first;
         }
         put(own_found, std::as_const(own));
+        const SlabPlace place = place_of(slab.nodes, part.first, index(mesh.nodes_per_layer), context);
+        put_place(own_found, place);
     }
     // Summed in the order of the slabs, whoever measured them.
-    for (Quality& own : gathered<Quality>(team, std::move(own_found), slabs.size(), [](Reader& reader) {
-             Quality found;
-             put(reader, found);
-             return found;
-         })) {
+    for (MeasuredSlab& slab_found :
+         gathered<MeasuredSlab>(team, std::move(own_found), slabs.size(), read_slab)) {
+        Quality& own = slab_found.quality;
+        measured.slabs.push_back(std::move(slab_found.place));
         all.hexes += own.hexes;
         all.wedges += own.wedges;
         all.inverted += own.inverted;
@@ -405,10 +393,10 @@ Quality measure(const LayeredMesh& layered, const RunContext& context, const Tea
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
         add_worst(all.worst, std::move(own.worst));
     }
-    if (all.hexes + all.wedges == 0) return all;
+    if (all.hexes + all.wedges == 0) return measured;
     all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);
     all.min_scaled_jacobian = all.worst.front().scaled_jacobian;
-    return all;
+    return measured;
 }
 
 Proof prove(const LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

@@ -77,10 +77,11 @@ LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* 
     mesh.quads = layers.plan->source.quads;
     const mesh::LayeredMesh layered{mesh, layers.nodes};
     LayersFound found;
-    found.quality = quality::measure(layered, context, team);
+    quality::MeasuredLayers measured = quality::measure(layered, context, team);
+    found.quality = std::move(measured.quality);
     found.good_enough = found.quality.inverted == 0 && found.quality.uncertified == 0 &&
                         found.quality.min_scaled_jacobian >= least;
-    if (found.good_enough) found.misplaced = quality::find_misplaced(layered, context, team);
+    if (found.good_enough) found.misplaced = quality::find_misplaced(layered, measured.slabs, context, team);
     return found;
 }
 
