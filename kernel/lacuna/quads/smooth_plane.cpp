@@ -149,9 +149,8 @@ private:
     /// With the widest vectors the machine has; they change no bit.
     std::size_t sweep_range(const Range& range)
     {
-#if defined(__GNUC__) && defined(__x86_64__)
-        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-        if (avx2) return sweep_avx2(range);
+#if defined(LACUNA_WIDER_VECTORS)
+        if (has_avx2()) return sweep_avx2(range);
 #endif
         return sweep_points(range);
     }
@@ -196,7 +195,7 @@ private:
         return moved;
     }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
     [[gnu::target("avx2")]] std::size_t sweep_avx2(const Range& range) { return sweep_points(range); }
 #endif
 

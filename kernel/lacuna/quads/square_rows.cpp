@@ -201,9 +201,8 @@ private:
     /// up. With the widest vectors the machine has; they change no bit.
     [[nodiscard]] double cost_above(Index p, double bound) const
     {
-#if defined(__GNUC__) && defined(__x86_64__)
-        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-        if (avx2) return cost_avx2(p, bound);
+#if defined(LACUNA_WIDER_VECTORS)
+        if (has_avx2()) return cost_avx2(p, bound);
 #endif
         return sum_up(p, bound);
     }
@@ -219,7 +218,7 @@ private:
         return cost;
     }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
     [[nodiscard, gnu::target("avx2")]] double cost_avx2(Index p, double bound) const
     {
         return sum_up(p, bound);

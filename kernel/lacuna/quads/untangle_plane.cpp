@@ -108,9 +108,8 @@ public:
     /// With the widest vectors the machine has; they change no bit.
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
-#if defined(__GNUC__) && defined(__x86_64__)
-        static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-        if (avx2) return sum_avx2(x, gradient);
+#if defined(LACUNA_WIDER_VECTORS)
+        if (has_avx2()) return sum_avx2(x, gradient);
 #endif
         return sum_up(x, gradient);
     }
@@ -186,7 +185,7 @@ private:
         return sum;
     }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
     [[gnu::target("avx2")]] double sum_avx2(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
         return sum_up(x, gradient);

@@ -198,7 +198,7 @@ LACUNA_INLINE void evaluate_wanted(const Batch& batch, Values& values)
         evaluate_corners<kLanes>(batch, values);
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
 template <Wanted kWanted>
 [[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const Batch& batch, Values& values)
 {
@@ -216,12 +216,9 @@ template <Wanted kWanted>
 template <Wanted kWanted>
 void evaluate_widest(const Batch& batch, Values& values)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
-                               __builtin_cpu_supports("avx512dq") != 0;
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx512) return evaluate_avx512<kWanted>(batch, values);
-    if (avx2) return evaluate_avx2<kWanted>(batch, values);
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx512()) return evaluate_avx512<kWanted>(batch, values);
+    if (has_avx2()) return evaluate_avx2<kWanted>(batch, values);
 #endif
     evaluate_wanted<kWanted>(batch, values);
 }

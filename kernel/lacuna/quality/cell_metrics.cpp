@@ -422,7 +422,7 @@ LACUNA_INLINE void evaluate_lanes(const Batch& batch, std::span<const Metric> me
     }
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
 [[gnu::target("avx2")]] void evaluate_avx2(const Batch& batch, std::span<const Metric> metrics,
                                            double average_volume, double* values)
 {
@@ -435,9 +435,8 @@ LACUNA_INLINE void evaluate_lanes(const Batch& batch, std::span<const Metric> me
 void evaluate_metrics(const CellBatch<kMetricLanes>& batch, std::span<const Metric> metrics,
                       double average_volume, double* values)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx2) return evaluate_avx2(batch, metrics, average_volume, values);
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx2()) return evaluate_avx2(batch, metrics, average_volume, values);
 #endif
     evaluate_lanes(batch, metrics, average_volume, values);
 }

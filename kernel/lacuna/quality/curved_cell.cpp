@@ -234,7 +234,7 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
     return least_scaled(nodes);
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
 [[gnu::target("avx512f,avx512dq")]] double coefficients_avx512(const std::array<double, 27> (&nodes)[3],
                                                                Bezier& bezier)
 {
@@ -250,12 +250,9 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
 /// With the widest vectors the machine has; the same bits on every machine.
 double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
-                               __builtin_cpu_supports("avx512dq") != 0;
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx512) return coefficients_avx512(nodes, bezier);
-    if (avx2) return coefficients_avx2(nodes, bezier);
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx512()) return coefficients_avx512(nodes, bezier);
+    if (has_avx2()) return coefficients_avx2(nodes, bezier);
 #endif
     return find_coefficients(nodes, bezier);
 }

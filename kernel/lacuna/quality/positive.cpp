@@ -216,7 +216,7 @@ LACUNA_INLINE void find_signs(const Values& values, std::array<Sign, kLanes>& si
         if (!(least_of(four_of(values.smallest, first)) > 0)) find_signs(values, first, &sign[index(first)]);
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
 [[gnu::target("avx2")]] bool positive_avx2(const Part& part, const CutsLeft& cuts_left)
 {
     return positive_parts(part, cuts_left, positive_avx2);
@@ -232,18 +232,13 @@ LACUNA_INLINE void find_signs(const Values& values, std::array<Sign, kLanes>& si
     find_signs(values, sign);
 }
 
-bool has_avx2()
-{
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    return avx2;
-}
 #endif
 
 } // namespace
 
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
     if (has_avx2()) return whole_avx2(bezier, max_depth);
 #endif
     return positive_whole(bezier, max_depth, positive_plain);
@@ -252,7 +247,7 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values)
 {
     std::array<Sign, kLanes> sign{}; // all open
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
     if (has_avx2()) {
         find_signs_avx2(values, sign);
         return sign;

@@ -141,9 +141,6 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Four of the numbers of a row; the processor takes two or four at a time.
-using Four = double __attribute__((vector_size(32), aligned(8)));
-
 /// Both triangles and the diagonal over a block of 4 · kFours right-hand sides, row-major in the factor's
 /// order. No number depends on how many there are.
 template <int kFours>
@@ -174,7 +171,7 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
     }
 }
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(LACUNA_WIDER_VECTORS)
 template <int kFours>
 [[gnu::target("avx2")]] void substitute_avx2(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                              double* block)
@@ -188,9 +185,8 @@ template <int kFours>
 void substitute(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd& diagonal,
                 std::vector<double>& block)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    static const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (avx2) return substitute_avx2<kFours>(lower, diagonal.data(), block.data());
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx2()) return substitute_avx2<kFours>(lower, diagonal.data(), block.data());
 #endif
     substitute_rows<kFours>(lower, diagonal.data(), block.data());
 }

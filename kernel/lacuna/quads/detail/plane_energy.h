@@ -32,8 +32,8 @@ struct StarEnergy {
     double sides = 0; ///< squared lengths of the sides at the point, each quad's two
 };
 
-/// A number for each of four quads; the processor takes two or four at a time. They may lie anywhere.
-using Lanes = double __attribute__((vector_size(32), aligned(8)));
+/// A number for each of four quads.
+using Lanes = Four;
 
 LACUNA_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 LACUNA_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
