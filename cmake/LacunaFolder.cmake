@@ -28,8 +28,8 @@ function(lacuna_vector_sources)
 endfunction()
 
 # With LACUNA_PRECOMPILE, Eigen's headers and the standard's are read once for all targets that are compiled
-# alike, which halves the time of a build: the first of them makes what the others take. MORE: other headers
-# than those.
+# alike, which spares a build a quarter of its time: the first of them makes what the others take. MORE: other
+# headers than those.
 #
 #   lacuna_precompile(<target> FROM <first target> [MORE <header>...])
 function(lacuna_precompile target)
@@ -44,16 +44,16 @@ function(lacuna_precompile target)
   else()
     target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
   endif()
+  # GCC 12 sees bounds that are passed in string copies which come out of a precompiled header.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+  endif()
 endfunction()
 
 function(lacuna_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
-  # GCC 12 sees overlaps in the standard library's own string copies that are not there, and bounds that are
-  # passed where these come out of a precompiled header.
+  # GCC 12 sees overlaps in the standard library's own string copies that are not there.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
-    if(LACUNA_PRECOMPILE)
-      target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
-    endif()
   endif()
 endfunction()
