@@ -26,6 +26,30 @@ std::vector<Vec2> polygon(int sides)
     return corners;
 }
 
+double area_of(const std::vector<Vec2>& outline)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        sum += (a.x() * b.y() - b.x() * a.y()) / 2;
+    }
+    return sum;
+}
+
+/// The integral of x over what of an outline lies beyond x = 0. @pre the outline is its own image in x = 0
+double moment_beyond(const std::vector<Vec2>& outline)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        Vec2 a = outline[i], b = outline[(i + 1) % outline.size()];
+        if (a.x() <= 0 && b.x() <= 0) continue;
+        for (Vec2* low : {&a, &b})
+            if (low->x() < 0) *low = {0, low->y()}; // such a side lies along x
+        sum += (a.x() + b.x()) * (a.x() * b.y() - b.x() * a.y()) / 6;
+    }
+    return sum;
+}
+
 /// The target and the walls of holes left out.
 bool holes_and_target(const test::Part& part)
 {
@@ -176,6 +200,38 @@ TEST_CASE("no lid is sealed over a slot in an end that named roles leave out")
             }
         }
     }
+}
+
+TEST_CASE("an end in two planes that named roles leave out is right or refused, however flat the ridge is")
+{
+    const std::vector<Vec2> tee{{-1, 0.2},  {-0.4, 0.2}, {-0.4, -1}, {0.4, -1},
+                                {0.4, 0.2}, {1, 0.2},    {1, 0.9},   {-1, 0.9}};
+    constexpr double kHeight = 1.2;
+    int refused = 0;
+    for (const std::vector<Vec2>& outline : {polygon(6), tee}) {
+        for (const double slope : {0.15, 0.3, 0.5, 0.7}) {
+            for (const double other : {0.0, slope}) { // a ramp from a flat half, and a roof
+                auto stack = test::prism(
+                    {.height = kHeight, .outline = outline, .drop = test::without(false, true, false)});
+                stack.model = test::moved(stack.model, [&](const Vec3& p) {
+                    const double low = p.x() > 0 ? slope * p.x() : -other * p.x();
+                    return Vec3(p.x(), p.y(), p.z() * (1 - low / kHeight));
+                });
+                const double volume = kHeight * area_of(outline) - (slope + other) * moment_beyond(outline);
+                CAPTURE(outline.size());
+                CAPTURE(slope);
+                CAPTURE(other);
+                OpenVolume named = stack.open();
+                const std::string refusal = test::refusal([&] { test::seal(named); });
+                if (refusal == "done")
+                    CHECK(closure::enclosed_volume(named) == doctest::Approx(volume).epsilon(0.03));
+                else
+                    CHECK(refusal == "closure.shape_open");
+                refused += refusal == "done" ? 0 : 1;
+            }
+        }
+    }
+    MESSAGE(refused << " refused");
 }
 
 TEST_CASE("an end that named roles leave out with walls beside it is closed by flat faces")

@@ -109,12 +109,14 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.role.assign(faces.size(), Role::wall);
     const std::optional<ToFill> loops = loops_to_fill(result);
     if (!loops) return std::nullopt;
-    fill_flat(result, loops->flat, context);
     try {
+        fill_flat(result, loops->flat, context);
         for (const Loop& loop : loops->bent) {
             VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
             result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
         }
+    } catch (const InvalidInput&) { // a ridge across a notch: its straight edge runs outside of the rim
+        return std::nullopt;
     } catch (const NotClosed&) {
         return std::nullopt;
     }

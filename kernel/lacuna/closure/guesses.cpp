@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -91,9 +93,35 @@ bool is_open(const Model& model, FaceId face)
     return is_stretched(model, face) && loops.size() == 1 && has_many_corners(model, loops.front());
 }
 
+/// The angles between one segment of a chain and the next, the greatest first [radians].
+std::vector<double> turns_of(const std::vector<Vec3>& chain)
+{
+    std::vector<double> turns;
+    for (std::size_t i = 2; i < chain.size(); ++i) {
+        const Vec3 before = chain[i - 1] - chain[i - 2], after = chain[i] - chain[i - 1];
+        turns.push_back(std::atan2(before.cross(after).norm(), before.dot(after)));
+    }
+    std::ranges::sort(turns, std::greater{});
+    return turns;
+}
+
+/// Whether an edge goes straight from kink to kink, of which there are few.
+bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
+{
+    // Choices: a ridge, a chamfer or a notch makes up to three kinks, and a curve in four facets has as many.
+    constexpr std::size_t kKinks = 3;
+    constexpr double kTurnedThere = 0.9;
+    if (is_straight(model, {use})) return true;
+    const std::vector<double> turns = turns_of(use_places(model, use));
+    const auto kinks_end = turns.begin() + static_cast<std::ptrdiff_t>(std::min(kKinks, turns.size()));
+    return std::accumulate(turns.begin(), kinks_end, 0.0) >=
+           kTurnedThere * std::accumulate(turns.begin(), turns.end(), 0.0);
+}
+
 bool is_straight_sided(const Model& model, const Loop& loop)
 {
-    return std::ranges::all_of(loop.uses, [&](const EdgeUse& use) { return is_straight(model, {use}); });
+    return std::ranges::all_of(loop.uses,
+                               [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
 /// Whether a membrane over the rim of an end that was said to be missing is in doubt. Straight sides in
