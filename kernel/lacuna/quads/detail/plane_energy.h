@@ -108,11 +108,9 @@ public:
     /// Add the energy alone. @return false where a corner is folded, or its sine squared is less than `least`
     LACUNA_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
-        const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
-        const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
-        const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy,
-                    dd = dx * dx + dy * dy;
-        const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
+        Corners corners;
+        find_corners(x, corners);
+        const auto& [aa, bb, cc, dd, det_p, det_n, det_r] = corners;
         if (!all_positive(det_p, det_n, det_r)) return false;
         if (least > 0) {
             const Lanes over_p = det_p * det_p - least * aa * bb, over_n = det_n * det_n - least * aa * cc,
@@ -134,17 +132,34 @@ public:
     /// change of f - 1.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
-        const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
-        const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
-        const Lanes aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy,
-                    dd = dx * dx + dy * dy;
-        const Lanes det_p = ax * by - ay * bx, det_n = ax * cy - ay * cx, det_r = dx * by - dy * bx;
+        Corners corners;
+        find_corners(x, corners);
+        const auto& [aa, bb, cc, dd, det_p, det_n, det_r] = corners;
         const Lanes shape = weight * (((aa + bb) / (2 * det_p) - 1) + ((aa + cc) / (2 * det_n) - 1) +
                                       ((bb + dd) / (2 * det_r) - 1));
         for (std::size_t k = 0; k < kLanes && counts_[k] != 0 && value < bound; ++k) value += shape[k];
     }
 
 private:
+    /// Squared lengths of a quad's sides, the two at the point first, and twice the areas at its corners that
+    /// change.
+    struct Corners {
+        Lanes aa, bb, cc, dd, det_p, det_n, det_r;
+    };
+
+    LACUNA_INLINE void find_corners(const Vec2& x, Corners& corners) const
+    {
+        const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
+        const Lanes cx = ox_ - nx_, cy = oy_ - ny_, dx = ox_ - rx_, dy = oy_ - ry_;
+        corners.aa = ax * ax + ay * ay;
+        corners.bb = bx * bx + by * by;
+        corners.cc = cx * cx + cy * cy;
+        corners.dd = dx * dx + dy * dy;
+        corners.det_p = ax * by - ay * bx;
+        corners.det_n = ax * cy - ay * cx;
+        corners.det_r = dx * by - dy * bx;
+    }
+
     struct Sums {
         Lanes value{}, gx{}, gy{}, xx{}, xy{}, yy{};
         Lanes det, over;
