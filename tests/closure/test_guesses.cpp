@@ -26,6 +26,9 @@ std::vector<Vec2> polygon(int sides)
     return corners;
 }
 
+const std::vector<Vec2> kTee{{-1, 0.2},  {-0.4, 0.2}, {-0.4, -1}, {0.4, -1},
+                             {0.4, 0.2}, {1, 0.2},    {1, 0.9},   {-1, 0.9}};
+
 double area_of(const std::vector<Vec2>& outline)
 {
     double sum = 0;
@@ -140,9 +143,7 @@ TEST_CASE("a bent end that named roles leave out is closed where its rim tells i
 {
     const std::vector<Vec2> ell{{-0.8, -0.8}, {0.8, -0.8}, {0.8, -0.1},
                                 {-0.1, -0.1}, {-0.1, 0.8}, {-0.8, 0.8}};
-    const std::vector<Vec2> tee{{-1, 0.2},  {-0.4, 0.2}, {-0.4, -1}, {0.4, -1},
-                                {0.4, 0.2}, {1, 0.2},    {1, 0.9},   {-1, 0.9}};
-    for (const std::vector<Vec2>& outline : {polygon(5), polygon(6), polygon(8), ell, tee}) {
+    for (const std::vector<Vec2>& outline : {polygon(5), polygon(6), polygon(8), ell, kTee}) {
         for (const double lift : {0.2, 0.35, 0.5}) {
             for (const bool both_ends : {false, true}) {
                 for (const test::End end : {test::End::saddle, test::End::bowed}) {
@@ -204,11 +205,9 @@ TEST_CASE("no lid is sealed over a slot in an end that named roles leave out")
 
 TEST_CASE("an end in two planes that named roles leave out is right or refused, however flat the ridge is")
 {
-    const std::vector<Vec2> tee{{-1, 0.2},  {-0.4, 0.2}, {-0.4, -1}, {0.4, -1},
-                                {0.4, 0.2}, {1, 0.2},    {1, 0.9},   {-1, 0.9}};
     constexpr double kHeight = 1.2;
     int refused = 0;
-    for (const std::vector<Vec2>& outline : {polygon(6), tee}) {
+    for (const std::vector<Vec2>& outline : {polygon(6), kTee}) {
         for (const double slope : {0.15, 0.3, 0.5, 0.7}) {
             for (const double other : {0.0, slope}) { // a ramp from a flat half, and a roof
                 auto stack = test::prism(

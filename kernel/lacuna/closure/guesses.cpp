@@ -15,6 +15,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -51,14 +52,14 @@ bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
 
 bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
 
-/// Whether some uses that go on from each other lie in one plane.
-bool in_one_plane(const Model& model, const std::vector<EdgeUse>& uses)
+/// How far some places are off the plane they show their largest area on, at the most [model length].
+double off_one_plane(std::vector<Vec3> places)
 {
-    const std::vector<std::vector<Vec3>> chain{use_places(model, uses)};
+    const std::vector<std::vector<Vec3>> chain{std::move(places)};
     const geometry::Plane plane = geometry::newell_plane(chain);
-    return std::ranges::all_of(chain.front(), [&](const Vec3& p) {
-        return std::abs(geometry::height(plane, p)) <= model.tolerance;
-    });
+    double furthest = 0;
+    for (const Vec3& p : chain.front()) furthest = std::max(furthest, std::abs(geometry::height(plane, p)));
+    return furthest;
 }
 
 /// Whether given edges of a loop, from one on, go round two corners in one plane.
@@ -71,7 +72,7 @@ bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
         if (is_void(model, use.edge)) return false;
         if (!run.empty() && turns_sharply(model, run.back(), use)) ++corners;
         run.push_back(use);
-        if (run.size() > 1 && !in_one_plane(model, run)) return false;
+        if (run.size() > 1 && off_one_plane(use_places(model, run)) > model.tolerance) return false;
         if (corners == 2) return true;
     }
     return false;
@@ -89,7 +90,7 @@ bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corne
 bool is_open(const Model& model, FaceId face)
 {
     if (bends_as_rim(model, face)) return false;
-    if (!membranes(model, {face}).empty()) return true;
+    if (is_membrane(model, face)) return true;
     const std::vector<Loop>& loops = model[face].loops;
     return is_stretched(model, face) && loops.size() == 1 && has_many_corners(model, loops.front());
 }
@@ -129,10 +130,7 @@ bool is_straight_sided(const Model& model, const Loop& loop)
 /// middle and a flat face as far off as its furthest place, as much as a roof has.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
-    const std::vector<std::vector<Vec3>> places{loop_places(model, loop.uses)};
-    const geometry::Plane plane = geometry::newell_plane(places);
-    double furthest = 0;
-    for (const Vec3& p : places.front()) furthest = std::max(furthest, std::abs(geometry::height(plane, p)));
+    const double furthest = off_one_plane(loop_places(model, loop.uses));
     return furthest * face_area_vector(model, face).norm() / 2 >= kDoubt * enclosed;
 }
 
@@ -165,6 +163,11 @@ bool leaves_plane(const Model& model, FaceId face)
            });
 }
 
+bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
+{
+    return is_far_off_plane(model, enclosed, face) && is_open(model, face);
+}
+
 /// Whether a void face leaves the shape of a sealed volume in doubt.
 bool is_in_doubt(const Model& model, double enclosed, FaceId face, RolesBy by)
 {
@@ -172,7 +175,7 @@ bool is_in_doubt(const Model& model, double enclosed, FaceId face, RolesBy by)
     if (by == RolesBy::person && bends_off_quadratic(model, face))
         return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
                is_end_in_doubt(model, enclosed, face);
-    return is_far_off_plane(model, enclosed, face) && is_open(model, face);
+    return is_open_far_off_plane(model, enclosed, face);
 }
 
 /// The tags of some faces, the first of many.
@@ -274,8 +277,7 @@ bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
     const double enclosed = enclosed_volume(sealed);
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        return leaves_plane(sealed.model, face) ||
-               is_in_doubt(sealed.model, enclosed, face, RolesBy::finding);
+        return leaves_plane(sealed.model, face) || is_open_far_off_plane(sealed.model, enclosed, face);
     });
 }
 

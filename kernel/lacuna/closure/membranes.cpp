@@ -122,13 +122,17 @@ bool bends_as_rim(const Model& model, FaceId face)
            });
 }
 
+bool is_membrane(const Model& model, FaceId face)
+{
+    return bends_off_quadratic(model, face) &&
+           (model[face].geometry == Geometry::minimal || !is_about_flat(model, face));
+}
+
 std::vector<FaceId> membranes(const Model& model, const std::vector<FaceId>& void_faces)
 {
     std::vector<FaceId> found;
-    for (const FaceId face : void_faces) {
-        if (!bends_off_quadratic(model, face)) continue;
-        if (model[face].geometry == Geometry::minimal || !is_about_flat(model, face)) found.push_back(face);
-    }
+    for (const FaceId face : void_faces)
+        if (is_membrane(model, face)) found.push_back(face);
     return found;
 }
 

@@ -11,6 +11,7 @@ namespace lacuna::closure {
 /// how their inside bends. Not those between four sides, which lead from side to side, and not those that lie
 /// on one quadratic height over their plane, as the mouth of a keyway does on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
+bool is_membrane(const topology::Model& model, FaceId face);
 
 /// Whether a face over its rim's plane lies on no quadratic height, be it bent ever so little; or was made
 /// with least area.
