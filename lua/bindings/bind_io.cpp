@@ -631,12 +631,6 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
                                    ": files written a layer at a time end in .msh, .vtu, .pvtu, .vtk, "
                                    ".inp, .bdf, .nas, .dat, .unv, .exo or .e");
         format_of(path.text(), arguments); // refuses options that it has not
-        for (const quality::Metric metric : metrics_of(arguments))
-            if (!team::is_layered(metric))
-                throw InvalidInput("lua.not_layered",
-                                   std::string("sweep_to: quality: ") + quality::metric_name(metric) +
-                                       " compares each cell with the mean of all, which is not known while "
-                                       "cells are written; use volume:sweep(options):write(path)");
     });
     return arguments;
 }

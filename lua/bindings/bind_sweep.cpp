@@ -164,7 +164,8 @@ bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments,
         if (!swept.layers)
             swept.report.push_back(
                 "sweep_to: the whole mesh was held in memory, since its nodes are more than "
-                "placed layers: moved to improve cells, of order 2 or of boundary layers");
+                "placed layers: moved to improve cells or to make them valid, laid along normals, or of "
+                "boundary layers");
         write_layered(swept, state.material, path, file, crew, context);
         write_options_beside(lent, path, file);
         seconds = clock.seconds();
@@ -176,7 +177,7 @@ bool sweep_whole_to(lua_State* L, VolumeState& state, SweepArguments& arguments,
         lua_rawseti(L, -2, to_lua(i));
     }
     const mesh::HexMesh& mesh = swept.mesh;
-    set_told(L, {.nodes = mesh::corner_count(mesh) + mesh.middles.nodes.size(),
+    set_told(L, {.nodes = mesh::corner_count(mesh) + mesh::middle_count(mesh),
                  .hexes = mesh.hex_count(),
                  .wedges = mesh.wedge_count(),
                  .layers = mesh.layers,

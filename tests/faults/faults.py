@@ -4,9 +4,10 @@
 
 usage: faults.py LACUNA SCRATCH [--long] [--seed N] [--only NAME]
 Each trial runs LACUNA on a recipe in a folder of its own below SCRATCH and does something to it. What has to
-hold: a file is the old one or the new one, whole; nothing else is left in the folder; what fails says so in a
-sentence, with exit code 1; an interrupted recipe ends with 130 within half a second. A part that this machine
-cannot try (no root, no mount) is named in the output. Exit 1 when anything fails.
+hold: a file is the old one or the new one, whole; nothing else is left in the folder, but for the whole new
+file of a recipe that was killed while it replaced one; what fails says so in a sentence, with exit code 1; an
+interrupted recipe ends with 130 within half a second. A part that this machine cannot try (no root, no mount)
+is named in the output. Exit 1 when anything fails.
 """
 import argparse
 import contextlib
@@ -133,6 +134,21 @@ def check_files(path, what, wholes, may_miss=True):
 
 # --- killed while it makes and writes meshes ---
 
+def check_replaced(path, what, is_whole):
+    """A kill between the two system calls that replace a file leaves the new one whole under a hidden name,
+    which the next replacing removes.
+
+    `is_whole(name, bytes)` says whether a file's content is one of those it may have."""
+    for left in [entry for entry in path.iterdir() if ".replacing-" in entry.name]:
+        name, content = left.name[1:].split(".replacing-")[0], left.read_bytes()
+        print(f"{what}: killed while it replaced {name}", flush=True)
+        if not is_whole(name, content):
+            fail(f"{what}: {left.name} is half a file ({len(content)} bytes)")
+        must_work(path, what)
+        if left.exists():
+            fail(f"{what}: {left.name} stays in the folder after the next writing")
+
+
 WRITES = """
 local m = lacuna.synthetic.prism { sides = 6, radius = 2, height = 5, holes = 1 }
 local v = m:open_volume { source = "source", target = "target", walls = "auto" }
@@ -178,6 +194,7 @@ def killed():
                 if ended not in (code, 0, -kind):
                     fail(f"{what}: exit {ended}, not {code}: {err.strip()[:200]}")
                 hits += ended != 0
+                check_replaced(path, what, lambda name, content: content in wholes.get(name, ()))
                 check_files(path, what, wholes)
                 if not (path / "old.msh").exists():
                     fail(f"{what}: the old file is gone")
@@ -206,11 +223,16 @@ def killed_in_cad():
                 time.sleep(0.01)
             if any(map(alive, workers)):
                 fail(f"{what}: the CAD process outlives the program")
+
+            def is_whole(name, text):
+                return without_dates(text).count(b"\n") == whole or (name, text) == ("old.step", old)
+
+            check_replaced(path, what, is_whole)
             for entry in path.iterdir():
                 text = entry.read_bytes()
                 if entry.name not in ("old.step", "new.step"):
                     fail(f"{what}: {entry.name} is left in the folder")
-                elif without_dates(text).count(b"\n") != whole and (entry.name, text) != ("old.step", old):
+                elif not is_whole(entry.name, text):
                     fail(f"{what}: {entry.name} is half a file ({len(text)} bytes)")
 
 

@@ -290,6 +290,47 @@ TEST_CASE("a bumpy tube maps one to one onto the periodic strip, wherever it is 
     }
 }
 
+TEST_CASE("nine digits of heights are right on walls that lead straight up and on those that do not")
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-1, 1);
+    constexpr int kUp = 6;
+    for (int around = 3; around < 20; ++around) {
+        for (const double flare : {0.0, 1e-7, 0.3}) {
+            CAPTURE(around);
+            CAPTURE(flare);
+            const Vec3 lean(any(random), any(random), 0);
+            std::vector<Vec3> points;
+            std::vector<Triangle> triangles;
+            std::vector<double> ends;
+            HarmonicProblem problem;
+            for (int j = 0; j <= kUp; ++j) {
+                const bool is_end = j == 0 || j == kUp;
+                for (int i = 0; i < around; ++i) {
+                    const double angle = 2 * std::numbers::pi * i / around;
+                    const double height = j + (is_end ? 0 : 0.3 * any(random));
+                    if (is_end) {
+                        problem.fixed.push_back(static_cast<Index>(points.size()));
+                        ends.push_back(height / kUp);
+                    }
+                    points.push_back((1 + flare * height) * Vec3(std::cos(angle), std::sin(angle), 0) +
+                                     height * (Vec3::UnitZ() + lean));
+                    if (j == kUp) continue;
+                    const Index a = j * around + i, b = j * around + (i + 1) % around;
+                    triangles.push_back({a, b, b + around});
+                    triangles.push_back({a, b + around, a + around});
+                }
+            }
+            problem.points = points;
+            problem.triangles = triangles;
+            problem.fixed_values = Eigen::Map<Eigen::VectorXd>(ends.data(), Eigen::Index(ends.size()));
+            const Eigen::MatrixXd all = solve_harmonic(problem);
+            problem.nine_digits = true;
+            CHECK((solve_harmonic(problem) - all).cwiseAbs().maxCoeff() < 1e-9);
+        }
+    }
+}
+
 TEST_CASE("facets with no fixed point, and input that does not fit, are refused")
 {
     const Sheet one = sheet(1, 4, 0, 0);

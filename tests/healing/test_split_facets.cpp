@@ -488,3 +488,39 @@ TEST_CASE("a damaged coordinate that makes every facet too small is named")
         }
     }
 }
+
+TEST_CASE("parts so far from each other that most facets are too small are refused, with what to give")
+{
+    for (const double away : {1e2, 1e4, 1e6, 1e8}) {
+        CAPTURE(away);
+        healing::FacetSoup soup = box(1, false);
+        const healing::FacetSoup one = box(1, false);
+        const auto first = static_cast<Index>(soup.points.size());
+        for (const Vec3& p : one.points) soup.points.push_back(p + Vec3(away, 0, 0));
+        for (const Triangle& t : one.triangles)
+            soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        const auto split = [&] { (void)healing::split_facets(soup); };
+        if (away < 1e5)
+            CHECK(healing::split_facets(soup).faces.size() == 12);
+        else
+            CHECK(test::refusal(split, {"give a tolerance"}).starts_with("topology."));
+        CHECK(healing::split_facets(soup, {.tolerance = 1e-3}).faces.size() == 12);
+    }
+}
+
+TEST_CASE("facets smaller than the tolerance are left out with a note")
+{
+    for (const int small : {1, 3}) {
+        healing::FacetSoup soup = box(3, false);
+        for (int i = 0; i < small; ++i) {
+            const Vec3 at(0.1 * i, 0.5, 2);
+            soup.triangles.push_back({add_point(soup, at), add_point(soup, at + Vec3(1e-8, 0, 0)),
+                                      add_point(soup, at + Vec3(0, 1e-8, 0))});
+        }
+        const Model model = healing::split_facets(soup);
+        CHECK(model.faces.size() == 6);
+        REQUIRE(model.notes.size() == 1);
+        CHECK(model.notes[0].starts_with(std::to_string(small) + " facet"));
+        CHECK(model.notes[0].ends_with("and left out"));
+    }
+}

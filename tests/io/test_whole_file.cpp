@@ -11,6 +11,9 @@
 #include <atomic>
 #include <csignal>
 #include <memory>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -240,6 +243,44 @@ TEST_CASE("what a killed process left under a name goes once it is old, and noth
     write();
     CHECK(!std::filesystem::exists(left));
     for (const std::string& path : {running, other, word}) CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("what a kill left while a file was replaced goes with the next replacing, whatever number it bears")
+{
+    const test::Folder folder;
+    const std::string other = folder.file(".b.txt.replacing-1-0");
+    const std::string word = folder.file(".a.txt.replacing-1x");
+    const std::string begin = folder.file(".a.txt.replacing-");
+    // Numbers of processes come again: in a container they are often the same.
+    for (const std::string& left : {begin + "1-0", begin + std::to_string(::getpid()) + "-3", other, word})
+        test::put_bytes(left, "whole");
+    test::put_bytes(folder.file("a.txt"), "before");
+    io::WholeFile file(folder.file("a.txt"));
+    file.append("after");
+    file.commit();
+    CHECK(test::bytes_of(folder.file("a.txt")) == "after");
+    for (const std::string& path : {other, word}) CHECK(std::filesystem::exists(path));
+    CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("many that replace one file at once leave one whole file")
+{
+    const test::Folder folder;
+    constexpr int kThreads = 4, kTimes = 50;
+    const auto write = [&](char letter) {
+        for (int i = 0; i < kTimes; ++i) {
+            io::WholeFile file(folder.file("a.txt"));
+            file.append(std::string(1000, letter));
+            file.commit();
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < kThreads; ++t) threads.emplace_back(write, static_cast<char>('a' + t));
+    for (std::thread& thread : threads) thread.join();
+    const std::string bytes = test::bytes_of(folder.file("a.txt"));
+    REQUIRE(bytes.size() == 1000);
+    CHECK(bytes == std::string(1000, bytes.front()));
+    CHECK(folder.entries() == 1);
 }
 
 TEST_CASE("below a folder that is held, no path leads out of it")

@@ -29,7 +29,7 @@ local function same(what, make, options, only)
     whole:write(path("whole." .. ending), write)
     local all = {}
     for key, value in pairs(options) do all[key] = value end
-    all.write = write
+    all.write, all.threads = write, 1 + i % 3
     local report = make():sweep_to(path("layered." .. ending), all)
     check.that(bytes("whole." .. ending) == bytes("layered." .. ending), what .. ", format " .. i)
     check.equal(report.hexes, whole.hexes, what)
@@ -82,14 +82,59 @@ for _, bend in ipairs { 0, 40 } do
   same("layers in several parts", block(bend), { layers = 60, size = 0.013 }, few)
 end
 
+-- --- metrics that compare each cell with the mean of all, which is known once all layers were made
+
+local relative = { { "msh", { quality = { "relative_size_squared", "shape_and_size" } } },
+  { "vtu", { quality = "shear_and_size" } } }
+same("a mean over several parts", block(40), { layers = 60, size = 0.013 }, relative)
+same("a mean over layers of different heights", open("prism", { taper = 0.6, twist = 30 }),
+  { layers = { 0.1, 0.3, 1 }, size = 0.2 }, relative)
+
+-- --- order 2: cells of 27 nodes, which decks have not, and of 20; paved and mapped, straight and bent
+
+local curved = {}
+for _, format in ipairs(formats) do
+  local ending = format[1]
+  if ending ~= "inp" and ending ~= "bdf" and ending ~= "unv" then curved[#curved + 1] = format end
+end
+for name, options in pairs(classes) do
+  same("order 2, class " .. name, open("prism", options),
+    { layers = 7, size = 0.25, order = 2, serendipity = true }, name ~= "closed" and few or nil)
+  same("order 2, hex27, class " .. name, open("prism", options), { layers = 6, size = 0.3, order = 2 },
+    name ~= "III" and { { "msh" } } or curved)
+end
+for _, serendipity in ipairs { false, true } do
+  local function same_curved(what, make, options)
+    options.order, options.serendipity = 2, serendipity
+    same("order 2, " .. what, make, options, { { "msh" }, { "vtu" } })
+  end
+  same_curved("holes", open("prism", { holes = 2, sides = 8 }), { layers = 5, size = 0.15 })
+  same_curved("a taper", open("prism", { taper = 0.6, twist = 30 }), { layers = { 0.1, 0.3, 1 }, size = 0.2 })
+  same_curved("an elbow", open("elbow", { angle = 90 }), { layers = 20, size = 0.2 })
+  same_curved("one layer", open("plate", {}), { layers = 1, size = 0.2 })
+  same_curved("layers in several parts", block(40), { layers = 30, size = 0.04 })
+end
+do
+  local make, options = open("prism", drop()), { layers = 6, size = 0.3, order = 2 }
+  local write = { partitions = 2, ghosts = 1 }
+  local held = {}
+  make():sweep(options):write(path("curved.pvtu"), write)
+  for _, name in ipairs { "curved.pvtu", "curved_0.vtu", "curved_1.vtu" } do held[name] = bytes(name) end
+  options.write = write
+  check.that(make():sweep_to(path("curved.pvtu"), options).streamed)
+  for name, whole in pairs(held) do check.that(bytes(name) == whole, name) end
+end
+
 -- --- what is not layers as they are placed is held in memory, and the report says so
 
-local report = open("prism", drop())():sweep_to(path("second.msh"), { layers = 4, size = 0.3, order = 2 })
-check.equal(report.streamed, false)
-check.that(tostring(report):find("held in memory", 1, true))
-local whole = open("prism", drop())():sweep { layers = 4, size = 0.3, order = 2 }
-whole:write(path("whole.msh"))
-check.that(bytes("whole.msh") == bytes("second.msh"), "order 2")
+do
+  local options = { layers = 4, size = 0.3, boundary_layers = { walls = "walls", first = 0.02, count = 2 } }
+  open("prism", drop())():sweep(options):write(path("whole.msh"))
+  local report = open("prism", drop())():sweep_to(path("rows.msh"), options)
+  check.equal(report.streamed, false)
+  check.that(tostring(report):find("held in memory", 1, true))
+  check.that(bytes("whole.msh") == bytes("rows.msh"), "boundary layers")
+end
 
 -- --- volumes in pieces, and several volumes
 
@@ -180,6 +225,7 @@ do
       walls = { "left", "right", "riser", "side0", "side1" } }
   end
   same_parts("a stair", stair, { size = 0.25 })
+  same_parts("a stair of order 2", stair, { size = 0.5, order = 2, serendipity = true }, true)
   local own = stair():sweep_to(path("pieces.pvtu"), { size = 0.25, write = { partitions = 2 } })
   check.that(own.hexes > 0 and #bytes("pieces_1.vtu") > 0)
   stair():sweep_to(path("shown.msh"), { size = 0.25, write = { gmsh_options = true } })
@@ -206,7 +252,6 @@ refused("no.inp", { layers = 4, write = { quality = "shape" } }, "quality")
 refused("no.msh", { layers = 4, write = { with = 1 } }, "write", "with")
 refused("no.msh", { layers = 4, write = 3 }, "write", "a table of options")
 refused("no.vtu", { layers = 4, write = { version = 2.2 } }, "version")
-refused("no.msh", { layers = 4, write = { quality = "shape_and_size" } }, "shape_and_size", "the mean of all")
 refused("no.msh", { layres = 4 }, "layres", "layers")
 refused("no.msh", { layers = 4, min_scaled_jacobian = 0.999999 }, "below the limit")
 local alone = lacuna.assembly { void }
@@ -219,9 +264,10 @@ do
   local file <close> = assert(io.open(recipe, "w"))
   file:write([[
 local lacuna = require "lacuna"
-local p = lacuna.params { layers = 100, size = 0.01, output = "" }
+local p = lacuna.params { layers = 100, size = 0.01, order = 1, output = "" }
 local void = lacuna.synthetic.prism { sides = 4, drop = { "wall_1" } }:open_volume {}
-local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, write = { quality = false } })
+local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, order = p.order,
+  write = { quality = false } })
 assert(report.streamed)
 for line in io.lines("/proc/self/status") do
   local kilobytes = line:match("^VmHWM:%s*(%d+)")
@@ -229,9 +275,9 @@ for line in io.lines("/proc/self/status") do
 end
 ]])
 end
-local function peak(layers, size)
-  local words = ("%s %s layers=%d size=%.9g output=%s"):format(params.lacuna, recipe, layers, size,
-    path("memory.msh"))
+local function peak(layers, size, order)
+  local words = ("%s %s layers=%d size=%.9g order=%d output=%s"):format(params.lacuna, recipe, layers, size,
+    order or 1, path("memory.msh"))
   local run = assert(io.popen(words))
   local hexes, kilobytes = run:read("a"):match("(%d+)%s+(%d+)")
   run:close()
@@ -245,6 +291,11 @@ if io.open("/proc/self/status") then
   -- Rims and the skin's quads grow with the layers: well below the 24 bytes a cell of the nodes alone.
   check.that(high - low < 6 * (many_cells - few_cells),
     ("%d cells took %d bytes, %d took %d"):format(few_cells, low, many_cells, high))
+  -- Of order 2 a cell has eight nodes of its own: 192 bytes.
+  few_cells, low = peak(60, 0.02, 2)
+  many_cells, high = peak(240, 0.02, 2)
+  check.that(high - low < 48 * (many_cells - few_cells),
+    ("%d cells of order 2 took %d bytes, %d took %d"):format(few_cells, low, many_cells, high))
   if params.cells > 0 then
     local across = (params.cells / 1000) ^ 0.5
     local cells, most = peak(1000, 2 ^ 0.5 / across)

@@ -19,7 +19,7 @@ do
   file:write([[
 local lacuna = require "lacuna"
 local p = lacuna.params { output = "", layers = 12, size = 0.15, fail = "", whole = false,
-  binary = true, parts = "" }
+  binary = true, parts = "", order = 1, quality = "" }
 print "started"
 local part = lacuna.synthetic.prism { sides = 6, twist = 20, drop = { "wall_1" } }
 local void = part:open_volume {}
@@ -31,7 +31,8 @@ else
   if p.parts ~= "" then
     write.partitions, write.ghosts = math.tointeger(tonumber(p.parts)) or p.parts, 1
   end
-  local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, write = write,
+  if p.quality ~= "" then write.quality = p.quality end
+  local report = void:sweep_to(p.output, { layers = p.layers, size = p.size, order = p.order, write = write,
     min_scaled_jacobian = p.fail == "proof" and 0.999 or nil, improve = p.fail ~= "proof" })
   assert(report.streamed)
   print(report.processes, report.hexes)
@@ -108,17 +109,20 @@ for _, name in ipairs { "assembly.msh", "assembly.vtu", "assembly.inp", "held.ms
   os.remove(path(name))
 end
 
--- Layers in several parts, so that each has some.
-local one
-for _, count in ipairs { 1, 2, 4 } do
-  local code, _, err = run(count, "--verbose", recipe, "output=" .. path("large.msh"), "layers=60",
-    "size=0.02")
-  check.equal(code, 0, err)
-  one = one or bytes("large.msh")
-  check.that(bytes("large.msh") == one, "large.msh of " .. count)
-  if count > 1 then check.that(err:find("of " .. count .. " processes sent %d+ messages"), err) end
+-- Layers in several parts, so that each has some: cells with a field, with one that compares each with the
+-- mean of all processes' cells, and of order 2.
+for _, own in ipairs { "size=0.02", "size=0.02 quality=relative_size_squared", "size=0.05 order=2" } do
+  local one
+  for _, count in ipairs { 1, 2, 4 } do
+    local code, out, err = run(count, "--verbose", recipe, "output=" .. path("large.msh"), "layers=60", own)
+    check.equal(code, 0, err)
+    check.equal(tonumber(out:match("started%s+(%d+)")), count, own)
+    one = one or bytes("large.msh")
+    check.that(bytes("large.msh") == one, own .. ": large.msh of " .. count)
+    if count > 1 then check.that(err:find("of " .. count .. " processes sent %d+ messages"), err) end
+  end
+  os.remove(path("large.msh"))
 end
-os.remove(path("large.msh"))
 
 -- In parts: the same whoever makes them; as many as processes where that is asked for.
 do

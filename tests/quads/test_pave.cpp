@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "plane_grids.h"
 #include "support/outline_family.h"
 
 #include <lacuna/quads/pave.h>
@@ -377,6 +378,20 @@ TEST_CASE("rows are as high as asked")
         }
         CHECK(second >= region.points.size());
         CHECK(mesh.how.find("2 rows of their own height") != std::string::npos);
+    }
+}
+
+TEST_CASE("rows as high as promised cost no quad: the worst of a triangle is that in its corner")
+{
+    for (const double share : {0.7, 0.76, 0.83, 0.87, 0.9}) {
+        CAPTURE(share);
+        PlanarRegion region = test::plane_polygon(3, 3).region;
+        const double side = (region.points[1] - region.points[0]).norm();
+        region.size = [&](const Vec2&) { return share * side; };
+        const quads::PlanarQuads mesh = quads::pave(region).mesh;
+        CHECK(quads::find_fault(mesh, region) == "");
+        CHECK(quads::measure_plane(mesh, region).min_scaled_jacobian >
+              std::sin(std::numbers::pi / 3) - 0.005);
     }
 }
 

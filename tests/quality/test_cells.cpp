@@ -240,6 +240,48 @@ TEST_CASE("cells that are valid by a hair are accepted, and refused once they ar
     }
 }
 
+TEST_CASE(
+    "a cell is judged alike alone, in a list of its kind and by its coefficients, however little it turns")
+{
+    std::mt19937 random(23);
+    int kept = 0, refused = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        // The four edges of a cell are alike, but for some share; a cell of a thousandth is nearly a box.
+        const double amount = 0.6 * std::pow(10, -3.0 * (trial % 20) / 20), flat = trial % 3 == 0 ? 1e-4 : 1;
+        std::vector<Vec3> nodes;
+        std::vector<Hex> hexes;
+        double volume = 0;
+        std::size_t positive = 0;
+        for (int cell = 0; cell < 40; ++cell) {
+            Corners corners = shaken(random, amount);
+            for (Vec3& corner : corners) corner.z() *= flat;
+            Hex hex;
+            for (std::size_t i = 0; i < 8; ++i) hex[i] = static_cast<Index>(nodes.size() + i);
+            nodes.insert(nodes.end(), corners.begin(), corners.end());
+            const auto alone = quality::measure_cells(corners, std::vector<Hex>{{0, 1, 2, 3, 4, 5, 6, 7}});
+            hexes.push_back(hex);
+            const bool valid = quality::scaled_jacobian(corners) > 0 && quality::certified_positive(corners);
+            CHECK((alone.uncertified == 0) == valid);
+            volume += alone.volume;
+            positive += valid ? 1 : 0;
+            // A Jacobian is of degree two: three points a direction integrate it exactly.
+            double sampled = 0;
+            constexpr std::array kWeights{1.0 / 6, 4.0 / 6, 1.0 / 6};
+            for (std::size_t p = 0; p < 27; ++p)
+                sampled += kWeights[p % 3] * kWeights[p / 3 % 3] * kWeights[p / 9] *
+                           jacobian(corners, double(p % 3) / 2, double(p / 3 % 3) / 2, double(p / 9) / 2);
+            CHECK(alone.volume == doctest::Approx(sampled).epsilon(1e-12).scale(flat));
+        }
+        const auto together = quality::measure_cells(nodes, hexes);
+        CHECK(together.uncertified == hexes.size() - positive);
+        CHECK(together.volume == doctest::Approx(volume).epsilon(1e-12).scale(flat));
+        kept += static_cast<int>(positive);
+        refused += static_cast<int>(together.uncertified);
+    }
+    CHECK(kept > 1000);
+    CHECK(refused > 100);
+}
+
 TEST_CASE("more cutting never takes back a certificate")
 {
     std::mt19937 random(17);

@@ -2,6 +2,7 @@
 #include "support/blocks.h"
 
 #include <lacuna/quality/layered.h>
+#include <lacuna/quality/metrics.h>
 
 #include <doctest/doctest.h>
 
@@ -103,4 +104,21 @@ TEST_CASE("what is wrong in one of many layers is found where nodes are made")
     const mesh::LayeredNodes nodes = nodes_of(twins);
     const mesh::LayeredMesh layered{bare, nodes};
     CHECK(quality::prove(layered, quality::measure(layered).quality, {}).finding.has_value());
+}
+
+TEST_CASE("sizes compare with one mean to the bit, whether nodes are held or made, for any number of threads")
+{
+    const mesh::HexMesh whole = bent(0.4);
+    mesh::HexMesh bare = whole;
+    bare.nodes.resize(index(whole.nodes_per_layer));
+    const mesh::LayeredNodes nodes = nodes_of(whole);
+    const auto held = quality::metric_values(whole, quality::Metric::relative_size_squared);
+    for (const int threads : {1, 3}) {
+        RunContext context;
+        context.threads = threads;
+        const double mean = quality::mean_volume(mesh::LayeredMesh{bare, nodes}, context);
+        CHECK(quality::metric_values(whole, quality::Metric::relative_size_squared, context, mean) == held);
+    }
+    const auto volume = quality::measure_metrics(whole, std::vector{quality::Metric::volume});
+    CHECK(quality::mean_volume(mesh::LayeredMesh{bare, nodes}) == doctest::Approx(volume[0].mean));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "layers_of.h"
 #include "support/check_valid.h"
+#include "support/whole_families.h"
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
@@ -207,10 +208,12 @@ Apart apart_by_brute_force(const OpenVolume& volume, const mesh::HexMesh& mesh, 
 TEST_CASE("distances are those to the nearest of all facets and all quads, by any number of threads")
 {
     int compared_faces = 0;
+    test::MembersToRun run(3);
     for (const double bend : {0.0, 90.0}) {
         for (const double taper : {1.0, 0.5}) {
             for (const int cuts : {2, 8}) {
                 for (const double size : {0.15, 0.5}) {
+                    if (!run.next()) continue;
                     const auto volume = test::sealed({.sides = 0,
                                                       .height = 3,
                                                       .cuts = cuts,

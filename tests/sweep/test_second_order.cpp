@@ -166,9 +166,12 @@ TEST_CASE("a mesh with straight walls is the mesh of order 1 with nodes in the m
     }
 }
 
-TEST_CASE("bent, barrelled, twisted and domed volumes with parts left out are valid at order 2")
+namespace {
+
+/// Bent, barrelled, twisted and domed volumes with parts left out.
+const std::vector<PrismOptions>& bent_family()
 {
-    const std::vector<PrismOptions> family{
+    static const std::vector<PrismOptions> family{
         {.sides = 4, .height = 3, .levels = 12, .bend = 90},
         {.sides = 0, .height = 2, .cuts = 4, .levels = 8, .belly = 1.4},
         {.sides = 0, .height = 2, .holes = 1, .hole_sides = 0, .cuts = 4, .levels = 8, .belly = 0.7},
@@ -182,7 +185,15 @@ TEST_CASE("bent, barrelled, twisted and domed volumes with parts left out are va
         {.sides = 0, .cuts = 4, .drop = without(false, true, false)},
         {.sides = 6, .holes = 2, .hole_sides = 0, .cuts = 4, .taper = 0.7},
     };
-    for (std::size_t i = 0; i < family.size(); ++i) {
+    return family;
+}
+
+/// Calls `visit(volume, options)` for the family, few and more layers, hex27 and hex20.
+template <class Visit>
+void for_each_bent(const Visit& visit)
+{
+    for (std::size_t i = 0; i < bent_family().size(); ++i) {
+        const OpenVolume volume = test::sealed(bent_family()[i]);
         for (const int layers : {1, 2, 5}) {
             for (const bool serendipity : {false, true}) {
                 CAPTURE(i);
@@ -191,11 +202,57 @@ TEST_CASE("bent, barrelled, twisted and domed volumes with parts left out are va
                 // Few layers on a long bend are coarse; what the skin may be off is not the matter here.
                 SweepOptions options = second(0.5, 8, layers, serendipity);
                 options.max_deviation = 1;
-                const Swept swept = swept_valid(test::sealed(family[i]), options);
-                CHECK(swept.min_scaled_jacobian > 0.02);
+                visit(volume, options);
             }
         }
     }
+}
+
+} // namespace
+
+TEST_CASE("bent, barrelled, twisted and domed volumes with parts left out are valid at order 2")
+{
+    for_each_bent([](const OpenVolume& volume, const SweepOptions& options) {
+        CHECK(swept_valid(volume, options).min_scaled_jacobian > 0.02);
+    });
+}
+
+TEST_CASE("nodes of order 2 that are left to be made are those of a mesh that holds them, to the bit")
+{
+    int left_to_be_made = 0, number = 0;
+    for_each_bent([&](const OpenVolume& volume, SweepOptions options) {
+        const Swept held = sweep::sweep(volume, options);
+        options.layered = true;
+        RunContext context;
+        context.threads = 1 + number++ % 3;
+        Swept swept = sweep::sweep(volume, options, context);
+        mesh::HexMesh made = swept.mesh;
+        if (swept.layers) {
+            ++left_to_be_made;
+            CHECK(swept.mesh.middles.nodes.empty());
+            const mesh::LayeredMesh layered{swept.mesh, *swept.layers};
+            const mesh::HexMesh all = mesh::make_layers(layered, 0, made.layers, {}, context);
+            made.nodes = all.nodes;
+            made.middles.nodes = all.middles.nodes;
+            // A layer alone is what it is among all.
+            const mesh::MiddlePlaces places(made);
+            for (int layer = 0; layer < made.layers; ++layer) {
+                const mesh::HexMesh one = mesh::make_layers(layered, layer, layer + 1);
+                const std::size_t first = places.side(index(layer), 0);
+                CHECK(std::equal(one.middles.nodes.begin(), one.middles.nodes.end(),
+                                 made.middles.nodes.begin() + static_cast<std::ptrdiff_t>(first)));
+            }
+            for (std::size_t i = 0; i < made.skin_count(); ++i)
+                for (const Index node : mesh::skin_nodes(made, i).all())
+                    CHECK(swept.layers->on_skin(node) == made.node(index(node)));
+        }
+        test::check_valid(made);
+        CHECK(made.nodes == held.mesh.nodes);
+        CHECK(made.middles.nodes == held.mesh.middles.nodes);
+        CHECK(swept.min_scaled_jacobian == held.min_scaled_jacobian);
+        CHECK(swept.fidelity.max_distance == held.fidelity.max_distance);
+    });
+    CHECK(left_to_be_made > number / 2);
 }
 
 TEST_CASE("a mesh of order 2 is the same, to the bit, for any number of threads")
@@ -290,6 +347,11 @@ TEST_CASE(
                     moved = moved || line.find("moved to make them valid") != std::string::npos;
             });
             CHECK((code == "done" || code == "sweep.second_order"));
+            // Nodes that are left to be made are not moved: then the mesh holds them.
+            SweepOptions layered = options;
+            layered.layered = true;
+            CHECK(test::refusal([&] { CHECK(sweep::sweep(volume, layered).layers.has_value() == !moved); }) ==
+                  code);
             ++(code != "done" ? refused : moved ? mended : plain);
         }
     }

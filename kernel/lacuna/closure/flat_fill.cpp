@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/void_geometry.h>
@@ -164,6 +165,14 @@ bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source
            connected_parts(volume.model, target).size() > 1;
 }
 
+/// Whether a loop lies on a ball, a round cylinder or a cone, whatever planes it lies in.
+bool lies_on_round_face(const Model& model, const Rim& rim)
+{
+    const std::vector<std::vector<Vec3>> places{loop_places(model, rim.uses)};
+    return std::ranges::any_of(shapes_of_rim(model, {{rim.uses}}, geometry::newell_plane(places)).told,
+                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
+}
+
 } // namespace
 
 bool is_flat(const Model& model, const Rim& rim)
@@ -197,6 +206,9 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
 
 std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& context)
 {
+    if (std::ranges::any_of(free_loops(volume),
+                            [&](const Rim& rim) { return lies_on_round_face(volume.model, rim); }))
+        return std::nullopt;
     auto filled = fill_loops(volume.model, all_faces(volume.model), context);
     if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;
     const bool flat = std::ranges::all_of(

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/face_plane.h>
@@ -26,23 +27,47 @@ namespace {
 /// A bent face leaves the shape in doubt where more than this share of what is enclosed lies beside its
 /// plane. A choice: tops that bend by a few hundredths of the height stay below it.
 constexpr double kDoubt = 0.05;
-/// A missing end leaves the shape in doubt where more than this share of what is enclosed lies between the
-/// two smoothest faces over its rim. Of 893 ends over twelve outlines 176 are refused, those with straight
-/// rims among them, and 717 are not. By closing all, 80 and 20 are off by a volume above 3 %,
-/// 73 and 623 by one below 1 %.
+/// A missing end leaves the shape in doubt where more than this share of what is enclosed lies between it and
+/// another smooth face over its rim. Of 893 ends over twelve outlines 131 are refused, those with straight
+/// rims among them, and 762 are not. By closing all, 41 and 12 are off by a volume above 3 %,
+/// 70 and 719 by one below 1 %.
 constexpr double kBendDoubt = 0.03;
+
+/// What lies between a face and heights over a plane [model length³]; nothing where there are none.
+template <class Heights>
+std::optional<double> beside(const Model& model, FaceId face, const geometry::Plane& plane,
+                             const Heights& heights)
+{
+    double sum = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+        const Vec3 middle = (a + b + c) / 3;
+        const std::optional<double> height = heights(geometry::to_plane(plane, middle));
+        if (!height) return std::nullopt;
+        const double off = *height - geometry::height(plane, middle);
+        sum += std::abs(off * (b - a).cross(c - a).dot(plane.normal)) / 2;
+    }
+    return sum;
+}
+
+/// The plane through the middle of a face, across what it shows most of. @pre it has an area
+geometry::Plane middle_plane(const Model& model, FaceId face)
+{
+    return geometry::plane_across(face_centroid(model, face), face_area_vector(model, face));
+}
 
 /// What lies between a void face and the plane through its middle [model length³].
 double beside_plane(const Model& model, FaceId face)
 {
-    const Vec3 middle = face_centroid(model, face);
-    const Vec3 normal = face_area_vector(model, face).stableNormalized();
-    double sum = 0;
-    for (const Triangle& t : model[face].triangles) {
-        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-        sum += std::abs(((a + b + c) / 3 - middle).dot(normal) * (b - a).cross(c - a).dot(normal)) / 2;
-    }
-    return sum;
+    if (!(face_area_vector(model, face).norm() > 0)) return 0;
+    return *beside(model, face, middle_plane(model, face), [](const Vec2&) { return std::optional(0.0); });
+}
+
+double beside_thin_plate(const Model& model, FaceId face)
+{
+    const geometry::Plane plane = middle_plane(model, face);
+    const ThinPlate plate = plate_over(plane, model, model[face].loops);
+    return *beside(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
 }
 
 bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
@@ -134,19 +159,42 @@ bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, cons
     return furthest * face_area_vector(model, face).norm() / 2 >= kDoubt * enclosed;
 }
 
-/// Whether a membrane over the rim of an end that was said to be missing is in doubt. Straight sides in
+/// Whether a smooth face over the rim of an end that was said to be missing is in doubt. Straight sides in
 /// several planes tell of several flat faces, as does a rim that folds in its plane, round the mouth of a
 /// slot; what bent ones leave open lies between two smooth faces.
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
-    bool cornered = false;
-    for (const Loop& loop : model[face].loops) {
-        if (!has_many_corners(model, loop)) continue;
-        if (is_straight_sided(model, loop) && is_rim_far_off_plane(model, enclosed, face, loop)) return true;
-        cornered = true;
-    }
-    return cornered && (model[face].geometry == Geometry::minimal ||
-                        beside_thin_plate(model, face) >= kBendDoubt * enclosed);
+    for (const Loop& loop : model[face].loops)
+        if (has_many_corners(model, loop) && is_straight_sided(model, loop) &&
+            is_rim_far_off_plane(model, enclosed, face, loop))
+            return true;
+    return model[face].geometry == Geometry::minimal ||
+           beside_thin_plate(model, face) >= kBendDoubt * enclosed;
+}
+
+/// Whether a missing end was made between four sides of which no two that face each other are straight.
+bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
+{
+    const Model& model = sealed.model;
+    if (sealed.role[face.index()] == Role::wall || model[face].geometry != Geometry::transfinite)
+        return false;
+    const auto sides = four_corners(model, model[face].loops.front());
+    return !sides.empty() && !is_ruled(model, sides);
+}
+
+/// Whether a smooth face over a rim is far off one of the quadrics that the rim lies on.
+bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId face)
+{
+    const Model& model = sealed.model;
+    const bool smooth = model[face].geometry == Geometry::newell || is_end_between_bent_sides(sealed, face);
+    if (!smooth || has_flat_loops(model, face)) return false;
+    const geometry::Plane plane = middle_plane(model, face);
+    const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
+    const auto is_far_off = [&](const QuadricSheet& sheet) {
+        const auto off = beside(model, face, plane, [&](const Vec2& p) { return sheet.height(p); });
+        return off && *off >= kBendDoubt * enclosed;
+    };
+    return std::ranges::any_of(shapes.told.empty() ? shapes.possible : shapes.told, is_far_off);
 }
 
 /// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
@@ -169,10 +217,13 @@ bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
 }
 
 /// Whether a void face leaves the shape of a sealed volume in doubt.
-bool is_in_doubt(const Model& model, double enclosed, FaceId face, RolesBy by)
+bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
+    const Model& model = sealed.model;
     if (leaves_plane(model, face) && is_far_off_plane(model, enclosed, face)) return true;
-    if (by == RolesBy::person && bends_off_quadratic(model, face))
+    if (may_lie_on_other_quadric(sealed, enclosed, face)) return true;
+    if (by == RolesBy::person &&
+        (bends_off_quadratic(model, face) || is_end_between_bent_sides(sealed, face)))
         return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
                is_end_in_doubt(model, enclosed, face);
     return is_open_far_off_plane(model, enclosed, face);
@@ -286,7 +337,7 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : closure.void_faces) {
-        if (!is_in_doubt(model, enclosed, face, by)) continue;
+        if (!is_in_doubt(sealed, enclosed, face, by)) continue;
         std::set<int> tags;
         for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);

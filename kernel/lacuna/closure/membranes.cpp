@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/membranes.h>
 
+#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/use_places.h>
@@ -68,6 +69,24 @@ double off_quadratic(const Heights& heights, double extent)
     return (powers * fit - heights.height).cwiseAbs().maxCoeff();
 }
 
+/// Whether a face lies on a sheet that its rim tells.
+bool lies_as_told(const Model& model, FaceId face)
+{
+    if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
+    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face),
+                                                         face_area_vector(model, face));
+    const double off = kOnIt * heights_of(model, face).bulge();
+    const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
+    return std::ranges::any_of(shapes.told, [&](const QuadricSheet& sheet) {
+        return std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
+            return std::ranges::all_of(t, [&](Index p) {
+                const auto told = sheet.height(geometry::to_plane(plane, model.at(p)));
+                return told && std::abs(*told - geometry::height(plane, model.at(p))) <= off;
+            });
+        });
+    });
+}
+
 } // namespace
 
 bool is_about_flat(const Model& model, FaceId face)
@@ -86,6 +105,7 @@ bool bends_off_quadratic(const Model& model, FaceId face)
 
 bool bends_as_rim(const Model& model, FaceId face)
 {
+    if (lies_as_told(model, face)) return true;
     const Heights heights = heights_of(model, face);
     const double extent = heights.extent(), bulge = heights.bulge();
     if (!(extent > 0)) return false;
@@ -124,8 +144,8 @@ bool bends_as_rim(const Model& model, FaceId face)
 
 bool is_membrane(const Model& model, FaceId face)
 {
-    return bends_off_quadratic(model, face) &&
-           (model[face].geometry == Geometry::minimal || !is_about_flat(model, face));
+    return bends_off_quadratic(model, face) && (model[face].geometry == Geometry::minimal ||
+                                                (!is_about_flat(model, face) && !lies_as_told(model, face)));
 }
 
 std::vector<FaceId> membranes(const Model& model, const std::vector<FaceId>& void_faces)

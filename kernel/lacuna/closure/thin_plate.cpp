@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/thin_plate.h>
 
-#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/use_places.h>
 
 #include <Eigen/Dense>
@@ -21,26 +19,18 @@ namespace {
 /// Places on a rim that the plate goes through: teeth have several each. The work grows with its cube.
 constexpr std::size_t kPlaces = 256;
 
-/// A thin plate over a plane: a sum of r² log r round its places, and a plane.
-struct ThinPlate {
-    std::vector<Vec2> places; ///< divided by `unit`
-    double unit = 1;          ///< [model length]
-    Eigen::VectorXd weight;   ///< of each place, then of 1, x and y
-
-    [[nodiscard]] Eigen::RowVectorXd terms_at(const Vec2& place) const
-    {
-        const Vec2 at = place / unit;
-        const auto n = static_cast<Eigen::Index>(places.size());
-        Eigen::RowVectorXd terms(n + 3);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const double square = (at - places[static_cast<std::size_t>(i)]).squaredNorm();
-            terms(i) = square > 0 ? square * std::log(square) : 0;
-        }
-        terms.tail<3>() << 1, at.x(), at.y();
-        return terms;
+Eigen::RowVectorXd terms_at(const ThinPlate& plate, const Vec2& place)
+{
+    const Vec2 at = place / plate.unit;
+    const auto n = static_cast<Eigen::Index>(plate.places.size());
+    Eigen::RowVectorXd terms(n + 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double square = (at - plate.places[static_cast<std::size_t>(i)]).squaredNorm();
+        terms(i) = square > 0 ? square * std::log(square) : 0;
     }
-    [[nodiscard]] double height(const Vec2& place) const { return terms_at(place).dot(weight); }
-};
+    terms.tail<3>() << 1, at.x(), at.y();
+    return terms;
+}
 
 ThinPlate plate_through(const geometry::Plane& plane, const std::vector<Vec3>& points)
 {
@@ -55,7 +45,7 @@ ThinPlate plate_through(const geometry::Plane& plane, const std::vector<Vec3>& p
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 3, n + 3);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 3);
     for (Eigen::Index i = 0; i < n; ++i) {
-        system.row(i) = plate.terms_at(geometry::to_plane(plane, points[static_cast<std::size_t>(i)]));
+        system.row(i) = terms_at(plate, geometry::to_plane(plane, points[static_cast<std::size_t>(i)]));
         right(i) = geometry::height(plane, points[static_cast<std::size_t>(i)]);
     }
     system.bottomRows<3>() = system.rightCols<3>().transpose();
@@ -65,25 +55,17 @@ ThinPlate plate_through(const geometry::Plane& plane, const std::vector<Vec3>& p
 
 } // namespace
 
-double beside_thin_plate(const Model& model, FaceId face)
+double ThinPlate::height(const Vec2& place) const { return terms_at(*this, place).dot(weight); }
+
+ThinPlate plate_over(const geometry::Plane& plane, const Model& model, const std::vector<Loop>& loops)
 {
-    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face),
-                                                         face_area_vector(model, face));
     std::vector<Vec3> rim;
-    for (const Loop& loop : model[face].loops) {
+    for (const Loop& loop : loops) {
         const std::vector<Vec3> along = geometry::even_places(use_places(model, loop.uses),
-                                                              kPlaces / model[face].loops.size() + 1);
+                                                              kPlaces / loops.size() + 1);
         rim.insert(rim.end(), along.begin(), along.end() - 1);
     }
-    const ThinPlate plate = plate_through(plane, rim);
-    double sum = 0;
-    for (const Triangle& t : model[face].triangles) {
-        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-        const Vec3 middle = (a + b + c) / 3;
-        const double off = plate.height(geometry::to_plane(plane, middle)) - geometry::height(plane, middle);
-        sum += std::abs(off * (b - a).cross(c - a).dot(plane.normal)) / 2;
-    }
-    return sum;
+    return plate_through(plane, rim);
 }
 
 } // namespace lacuna::closure

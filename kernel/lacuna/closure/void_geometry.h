@@ -28,9 +28,11 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 ///
 /// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4,
 /// constrained Delaunay there, interior lifted by the harmonic interpolation of the rim's heights.
-/// Departure: where the rim lies on one quadratic height, as the mouth of a keyway does on its shaft, the
-/// interior has that, and what is left at the rim is harmonic. A bent face with four logical sides:
-/// Algorithm 6 (Algorithm 5 where two of them are closed edges), a bilinear Coons patch over arc length.
+/// Departures: where the rim lies on one quadric, or on a ball, a round cylinder, a cone or two planes among
+/// many, so does the interior; where it lies on about one quadratic height, as the mouth of a keyway does on
+/// its shaft, the interior has that, and what is left at the rim is harmonic.
+/// A bent face with four logical sides: Algorithm 6 (Algorithm 5 where two of them are closed edges), a
+/// bilinear Coons patch over arc length.
 /// Departure from the paper: a bent four-sided face is transfinite at once, so that its facets and its
 /// mesh are the same surface. What remains, minimal area.
 /// @param follower  null, or what a bent four-sided face follows instead: the source side as the given

@@ -19,6 +19,8 @@ namespace lacuna {
 
 /// Four numbers; the processor takes two or four at a time. They may lie anywhere.
 using Four = double __attribute__((vector_size(32), aligned(8)));
+/// Two, which processors without wider vectors take at a time.
+using Two = double __attribute__((vector_size(16), aligned(8)));
 
 #if defined(LACUNA_WIDER_VECTORS)
 inline bool has_avx2()

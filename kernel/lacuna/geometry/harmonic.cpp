@@ -2,6 +2,7 @@
 #include <lacuna/geometry/harmonic.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/detail/multigrid.h>
 #include <lacuna/geometry/union_find.h>
 
@@ -258,6 +259,37 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     return solver.solve(right);
 }
 
+/// Values that are an affine function of place, where that has the fixed ones and every other point is the
+/// mean that it is to be: those of walls that lead straight up. No system need be solved then.
+/// @param weights  normalised
+std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
+                                               std::span<const Weight> weights)
+{
+    // Of the range of the fixed values: a hundred layers from the next fixed one nine digits are right then.
+    constexpr double kOff = 1e-13;
+    const Eigen::Index columns = problem.fixed_values.cols();
+    if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;
+    std::vector<Vec3> from, to;
+    for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
+        from.push_back(problem.points[index(problem.fixed[i])]);
+        to.emplace_back(Vec3::Zero());
+        to.back().head(columns) = problem.fixed_values.row(static_cast<Eigen::Index>(i)).transpose();
+    }
+    const AffineFit fit = fit_affine(from, to);
+    const Eigen::RowVectorXd range = problem.fixed_values.colwise().maxCoeff() -
+                                     problem.fixed_values.colwise().minCoeff();
+    const double off = kOff * range.maxCoeff();
+    if (!(fit.max_residual <= off)) return std::nullopt;
+    std::vector<Vec3> values(problem.points.size(), Vec3::Zero());
+    for (std::size_t p = 0; p < values.size(); ++p)
+        if (role[p] != kUnused) values[p] = fit(problem.points[p]);
+    std::vector<Vec3> rest = values;
+    for (const Weight& w : weights) rest[index(w.from)] -= w.value * values[index(w.to)];
+    for (std::size_t p = 0; p < rest.size(); ++p)
+        if (role[p] == kFree && !(rest[p].cwiseAbs().maxCoeff() <= off)) return std::nullopt;
+    return values;
+}
+
 /// What does not quite settle must not leave the range of the fixed values, fixed × k, either.
 void keep_in_range(const Eigen::MatrixXd& fixed, Eigen::MatrixXd& values)
 {
@@ -288,6 +320,10 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
     const std::vector<bool> border = on_border(problem);
     std::vector<Weight> weights = by_point(corner_weights(problem, border), problem.points.size());
     const std::vector<double> sums = normalise(weights, problem.points.size(), !problem.least_energy);
+    if (const auto affine = problem.nine_digits ? affine_values(problem, role, weights) : std::nullopt) {
+        for (const Index p : point_of) values.row(p) = (*affine)[index(p)].head(columns).transpose();
+        return values;
+    }
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(weights.size() + point_of.size());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, columns);

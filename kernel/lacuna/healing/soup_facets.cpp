@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -206,6 +207,36 @@ Vec3 point_far_from_others(const std::vector<Vec3>& points)
                                      [&](const Vec3& p) { return (p - middle).cwiseAbs().maxCoeff(); });
 }
 
+/// Whether the corners of a cell lie at three places or more.
+bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> corners)
+{
+    std::size_t places = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3& here = points[index(corners[k])];
+        const auto earlier = corners.first(k);
+        places += std::ranges::none_of(earlier, [&](Index p) { return points[index(p)] == here; }) ? 1 : 0;
+    }
+    return places >= 3;
+}
+
+/// A tolerance that nobody gave goes by how far the points reach: one point astray, or two parts far from
+/// each other, and it is larger than the facets.
+/// @param given  the tolerance, 0 for none.
+void check_left(const FacetSoup& soup, const Facets& facets, double given)
+{
+    if (facets.count() > 0 && (given > 0 || facets.shrunk <= facets.count())) return;
+    const std::string size = "smaller than the tolerance of " + with_digits(facets.tolerance, 4);
+    const std::string what = facets.count() == 0 ? "every facet is " + size
+                                                 : std::to_string(facets.shrunk) + " facets are " + size +
+                                                       " and " + std::to_string(facets.count()) + " are not";
+    const Vec3 far = point_far_from_others(soup.points);
+    throw InvalidInput(facets.count() == 0 ? "topology.no_facets" : "topology.small_facets",
+                       given > 0 ? what + "; give a smaller one"
+                                 : what + ": it goes by how far the points reach; mend the file if " +
+                                       place_with_digits(far, 4) +
+                                       " is no point of the shape, or give a tolerance");
+}
+
 Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)
 {
     if (soup.triangles.empty() && soup.quads.empty()) {
@@ -225,10 +256,15 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
         facets.label.push_back(label);
         facets.quad.push_back(quad);
     };
+    const auto count_if_shrunk = [&](std::span<const Index> given, std::size_t facets_before) {
+        if (facets.count() == facets_before && has_three_places(soup.points, given)) ++facets.shrunk;
+    };
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         const Triangle& given = soup.triangles[t];
+        const std::size_t before = facets.count();
         add({number[index(given[0])], number[index(given[1])], number[index(given[2])]},
             soup.triangle_label.empty() ? 0 : soup.triangle_label[t], -1);
+        count_if_shrunk(given, before);
     }
     for (std::size_t c = 0; c < soup.quads.size(); ++c) {
         Quad q;
@@ -237,20 +273,13 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
         const bool whole = q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0] && q[0] != q[2] &&
                            q[1] != q[3];
         const auto halves = halves_of(facets.points, q);
+        const std::size_t before = facets.count();
         for (const Triangle& half : halves)
             add(half, label, whole ? static_cast<Index>(facets.quads.size()) : -1);
         if (whole) facets.quads.push_back(q);
+        count_if_shrunk(soup.quads[c], before);
     }
-    if (facets.count() == 0) {
-        const std::string all = "every facet is smaller than the tolerance of " +
-                                with_digits(facets.tolerance, 4);
-        const Vec3 far = point_far_from_others(soup.points);
-        throw InvalidInput(
-            "topology.no_facets",
-            tolerance > 0 ? all + "; give a smaller one"
-                          : all + ", which goes by how far the points reach: mend the file if " +
-                                place_with_digits(far, 4) + " is no point of the shape, or give a tolerance");
-    }
+    check_left(soup, facets, tolerance);
     drop_unused_points(facets);
     return facets;
 }

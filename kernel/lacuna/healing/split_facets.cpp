@@ -6,6 +6,7 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/healing/detail/soup_facets.h>
 
 #include <algorithm>
@@ -431,6 +432,11 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
         model.notes.push_back(std::to_string(facets.repeated) +
                               (facets.repeated == 1 ? " facet was" : " facets were") +
                               " listed twice; one of each stays");
+    }
+    if (facets.shrunk > 0) {
+        model.notes.push_back(
+            std::to_string(facets.shrunk) + (facets.shrunk == 1 ? " facet was" : " facets were") +
+            " smaller than the tolerance of " + with_digits(facets.tolerance, 4) + " and left out");
     }
     add_faces(model, facets, flood, soup);
     check_cancelled(context);

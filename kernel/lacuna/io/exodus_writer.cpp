@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
@@ -366,7 +367,8 @@ private:
         };
         const auto shape = [&](Index at) {
             if (layered_ == nullptr) return shapes[index(at)];
-            return index(at) < layered_->hexes.back() ? DeckShape::hex8 : DeckShape::wedge6;
+            return index(at) < layered_->hexes.back() ? cell_shape(layered_->parts.front().mesh)
+                                                      : DeckShape::wedge6;
         };
         for (const DeckSet& set : deck_.sets) {
             Set found{set.name, std::make_shared<std::vector<std::int32_t>>(), nullptr};

@@ -26,7 +26,6 @@ struct LayeredField {
 /// same bytes, in memory that does not depend on the number of layers but for what the skin takes.
 /// @param options  without fields; they are given by themselves.
 /// @param team  who each write their share of it, to rank 0's path; null: this process alone.
-/// @pre  the mesh is of order 1.
 /// @throw  as those.
 void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options = {},
                const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
@@ -48,7 +47,7 @@ bool is_layered(DeckFormat format);
 /// `write_deck()` of `deck_of()` the mesh, numbered from 1, in such a format: the same bytes, and memory as
 /// above.
 /// @param options  without first numbers.
-/// @pre  is_layered(), and the mesh is of order 1.
+/// @pre  is_layered()
 void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
                 const RunContext& context = {}, const Team* team = nullptr);
 

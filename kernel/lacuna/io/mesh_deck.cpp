@@ -124,7 +124,7 @@ private:
     {
         if (added_.bulk != nullptr) {
             std::vector<DeckTag> none;
-            const std::size_t nodes = mesh::corner_count(mesh_) + mesh_.middles.nodes.size();
+            const std::size_t nodes = mesh::corner_count(mesh_) + mesh::middle_count(mesh_);
             const auto* const of = added_.numbers;
             free_from(of ? DeckTag(of->first()) + 1 : 1, of ? of->fresh() : nodes, {}, none, 0, "first_node",
                       "node");

@@ -12,11 +12,25 @@ NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& conte
 {
     const int levels = mesh::layers_at_once(mesh_);
     const std::size_t row = index(mesh_.nodes_per_layer);
-    step_ = static_cast<std::size_t>(levels) * row;
-    cache_ = std::make_shared<LayerCache<Vec3>>([this, levels, row, &context](std::size_t part) {
+    const auto at_once = static_cast<std::size_t>(levels), layers = index(mesh_.layers);
+    corners_ = {0, at_once * row, layers / at_once + 1};
+    corners_.made = std::make_shared<LayerCache<Vec3>>([this, levels, row, &context](std::size_t part) {
         const int first = static_cast<int>(part) * levels, last = std::min(first + levels, mesh_.layers + 1);
         std::vector<Vec3> nodes(static_cast<std::size_t>(last - first) * row);
         layers_->place(first, last, nodes, context);
+        return nodes;
+    });
+    middles_.begin = mesh::corner_count(mesh_);
+    if (mesh_.order() == 1) return;
+    middles_.step = at_once * mesh::MiddlePlaces(mesh_).side(1, 0);
+    middles_.parts = (layers + at_once - 1) / at_once;
+    middles_.made = std::make_shared<LayerCache<Vec3>>([this, levels, &context](std::size_t part) {
+        const int first = static_cast<int>(part) * levels, last = std::min(first + levels, mesh_.layers);
+        const mesh::MiddlePlaces places(mesh_);
+        const std::size_t begin = places.side(index(first), 0);
+        std::vector<Vec3> nodes(places.upright(index(last), 0) - begin);
+        layers_->place_middles(first, last, nodes, context);
+        if (last < mesh_.layers) nodes.resize(places.side(index(last), 0) - begin); // the next part has them
         return nodes;
     });
 }

@@ -41,17 +41,21 @@ fs::path resolved(const std::string& path)
                                            "; make it first, or name another place");
 }
 
-/// What names of unfinished files begin with, before the number of the process.
-std::string unfinished_prefix(const std::string& name)
+/// What names beside the place begin with, before the number of the process. Files are `unfinished` that are
+/// still written to; those that are whole and about to replace one are `replacing`.
+std::string prefix_beside(const std::string& name, const char* state)
 {
     // Whatever the name is, this one must not be too long for the file system.
     constexpr std::size_t kLongest = 200;
-    return "." + name.substr(0, kLongest) + ".unfinished-";
+    return "." + name.substr(0, kLongest) + "." + state + "-";
 }
 
-std::string numbered(const std::string& name, int attempt)
+std::string unfinished_prefix(const std::string& name) { return prefix_beside(name, "unfinished"); }
+std::string replacing_prefix(const std::string& name) { return prefix_beside(name, "replacing"); }
+
+std::string numbered(const std::string& prefix, int attempt)
 {
-    return unfinished_prefix(name) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    return prefix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
 }
 
 /// So long nothing was written to a file that is left over [s]. Its process may run on another machine, where
@@ -163,7 +167,7 @@ void WholeFile::open_unnamed()
 #endif
 }
 
-void WholeFile::remove_left_over()
+void WholeFile::remove_left_over(const std::string& prefix, bool written_to)
 {
     const int listed = ::openat(folder_->descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (listed < 0) return;
@@ -172,7 +176,6 @@ void WholeFile::remove_left_over()
         ::close(listed);
         return;
     }
-    const std::string prefix = unfinished_prefix(name_);
     while (const dirent* const entry = ::readdir(folder)) {
         const std::string_view name = entry->d_name;
         if (!name.starts_with(prefix)) continue;
@@ -180,11 +183,12 @@ void WholeFile::remove_left_over()
         const char* const number = name.data() + prefix.size();
         const auto read = std::from_chars(number, name.data() + name.size(), process);
         if (read.ec != std::errc() || *read.ptr != '-' || process <= 0) continue;
-        if (::kill(process, 0) == 0 || errno != ESRCH) continue; // it runs
+        const bool runs = ::kill(process, 0) == 0 || errno != ESRCH;
+        if (written_to && runs) continue;
         struct stat status = {};
-        if (::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode) ||
-            std::time(nullptr) - status.st_mtime < kLeftOver)
+        if (::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode))
             continue;
+        if (written_to && std::time(nullptr) - status.st_mtime < kLeftOver) continue;
         ::unlinkat(listed, entry->d_name, 0);
     }
     ::closedir(folder);
@@ -192,10 +196,11 @@ void WholeFile::remove_left_over()
 
 void WholeFile::open_named()
 {
-    remove_left_over();
+    const std::string prefix = unfinished_prefix(name_);
+    remove_left_over(prefix, true);
     // The name is taken by whoever makes the file first, so that two writers never share one.
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
-        unfinished_ = numbered(name_, attempt);
+        unfinished_ = numbered(prefix, attempt);
         descriptor_ = ::openat(folder_->descriptor(), unfinished_.c_str(),
                                O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno != EEXIST) {
@@ -284,6 +289,9 @@ void WholeFile::append(std::string_view bytes)
 
 void WholeFile::publish_unnamed()
 {
+    // What writing did not tell, closing does: this asks before anything is in its place.
+    const int other = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+    if (other >= 0 && ::close(other) != 0) fail(errno);
     const std::string source = "/proc/self/fd/" + std::to_string(descriptor_);
     const auto link_as = [&](const std::string& name) {
         return ::linkat(AT_FDCWD, source.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) ==
@@ -291,23 +299,37 @@ void WholeFile::publish_unnamed()
     };
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
-    // Linking replaces nothing; renaming does. The name in between lives for two system calls.
-    for (int attempt = 0; unfinished_.empty(); ++attempt) {
-        const std::string name = numbered(name_, attempt);
-        if (link_as(name))
-            unfinished_ = name;
-        else if (errno != EEXIST)
-            fail(errno);
+    // Linking replaces nothing; renaming does. The name in between lives for two system calls. Who finds one
+    // takes it for left over, for numbers of processes tell nothing in containers: then it is gone again.
+    constexpr int kAttempts = 1000; // far more writers of one file than there are
+    const std::string prefix = replacing_prefix(name_);
+    remove_left_over(prefix, false);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const std::string between = numbered(prefix, attempt);
+        if (!link_as(between)) {
+            if (errno != EEXIST) fail(errno);
+            continue;
+        }
+        if (::renameat(folder_->descriptor(), between.c_str(), folder_->descriptor(), name_.c_str()) == 0)
+            return;
+        const int error = errno;
+        ::unlinkat(folder_->descriptor(), between.c_str(), 0);
+        if (error != ENOENT) fail(error);
     }
+    fail(EBUSY);
 }
 
 void WholeFile::commit()
 {
-    if (unfinished_.empty()) publish_unnamed();
+    if (unfinished_.empty()) {
+        publish_unnamed();
+        ::close(descriptor_);
+        descriptor_ = -1;
+        return;
+    }
     const int descriptor = descriptor_;
     descriptor_ = -1;
     if (::close(descriptor) != 0) fail(errno);
-    if (unfinished_.empty()) return;
     if (::renameat(folder_->descriptor(), unfinished_.c_str(), folder_->descriptor(), name_.c_str()) != 0)
         fail(errno);
     unfinished_.clear();

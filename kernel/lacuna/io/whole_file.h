@@ -63,7 +63,8 @@ private:
 /// Its bytes go to a file without a name (`O_TMPFILE`), which `commit()` puts in its place. So nothing is
 /// left behind whatever ends the writing, a kill included. On a file system without nameless files it has a
 /// name of its own beside the place, which the destructor removes. A file that was there before stays until
-/// then, and its mode is kept.
+/// then, and its mode is kept. To replace one takes two system calls with a name beside the place in between:
+/// a kill between them leaves the whole new file there under a hidden name, which the next replacing removes.
 class WholeFile {
 public:
     /// Whether processes of other machines open it too, which takes a name. One that is killed then leaves it
@@ -102,7 +103,10 @@ private:
     ssize_t write_some(std::uint64_t offset, std::string_view bytes);
     void open_unnamed();
     void open_named();
-    void remove_left_over();
+    /// Remove files beside the place whose names begin so.
+    /// @param written_to  they may still be: those stay whose process runs on this machine, or that were
+    ///                    written to within the hour.
+    void remove_left_over(const std::string& prefix, bool written_to);
     void publish_unnamed();
     void remove_placed() const noexcept;
 
@@ -111,9 +115,9 @@ private:
     std::string name_;                     ///< inside the folder
     std::string unfinished_;               ///< name it is written under; empty: none
     int descriptor_ = -1;
-    std::uint64_t end_ = 0;      ///< of what was appended
-    std::uint64_t reserved_ = 0; ///< end of the room that was asked for
-    std::uint64_t cached_;       ///< as `cache_up_to()`
+    std::uint64_t end_ = 0;                   ///< of what was appended
+    std::uint64_t reserved_ = 0;              ///< end of the room that was asked for
+    std::uint64_t cached_;                    ///< as `cache_up_to()`
     std::atomic<bool> can_pass_cache_ = true; ///< until the system says that it cannot
 };
 

@@ -22,6 +22,9 @@ struct LayeredNodes {
     std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place;
     /// A node of the skin, by its number in the mesh.
     std::function<Vec3(Index node)> on_skin;
+    /// Of order 2, the middle nodes from level `first` to level `last`, both with those that lie on them, in
+    /// the order of `MiddleNodes::nodes`; else null.
+    std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place_middles{};
 };
 
 /// A swept mesh whose nodes are made when they are asked for. Refers to both.
@@ -41,17 +44,30 @@ struct SkinNodes {
     }
 };
 
-/// All nodes of a mesh, held or not.
+/// All corners of a mesh's cells, held or not.
 inline std::size_t corner_count(const HexMesh& mesh)
 {
     return (static_cast<std::size_t>(mesh.layers) + 1) * index(mesh.nodes_per_layer);
 }
 
+/// Its middle nodes, likewise.
+inline std::size_t middle_count(const HexMesh& mesh)
+{
+    return mesh.order() == 2 ? MiddlePlaces(mesh).count() : 0;
+}
+
 /// Layers of cells that are worked on at once: about 250,000 nodes, 6 MB, one layer at least. A choice.
 inline int layers_at_once(const HexMesh& mesh)
 {
-    constexpr Index kNodes = 250000;
-    return std::clamp(kNodes / std::max<Index>(mesh.nodes_per_layer, 1), Index{1}, Index{mesh.layers});
+    constexpr std::size_t kNodes = 250000;
+    const std::size_t middles = mesh.order() == 2 ? MiddlePlaces(mesh).side(1, 0) : 0;
+    const std::size_t layer = std::max<std::size_t>(index(mesh.nodes_per_layer) + middles, 1);
+    return std::clamp(static_cast<int>(kNodes / layer), 1, mesh.layers);
 }
+
+/// Layers [first, last) as a mesh that holds its nodes and has no patches.
+/// @param before  other layers of the same mesh, whose room is taken; empty: none are there
+HexMesh make_layers(const LayeredMesh& layered, int first, int last, HexMesh before = {},
+                    const RunContext& context = {});
 
 } // namespace lacuna::mesh

@@ -53,7 +53,7 @@ std::optional<double> score_of_counts(const PlanarRegion& region, std::span<cons
     constexpr double kQuarter = 0.25, kWorth = 0.2;
     PlanarRegion made = divided(region, segment, counts);
     const std::vector<PlanarQuads> meshes = fill_patterns(made);
-    made.size = paving::size_with_boundary(made, paving::kRingGrading, paving::kRingAlike);
+    made.size = paving::sizes_with_boundary(made).ring;
     std::optional<double> best;
     for (const PlanarQuads& mesh : meshes) {
         const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuarter;

@@ -430,10 +430,7 @@ public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
         : region_(region),
           context_(context),
-          size_(paving::size_with_boundary(region)),
-          ring_size_(region.loops.size() > 1
-                         ? paving::size_with_boundary(region, paving::kRingGrading, paving::kRingAlike)
-                         : size_),
+          sizes_(paving::sizes_with_boundary(region)),
           has_half_ends_(has_half_ends(region))
     {
     }
@@ -463,7 +460,7 @@ private:
     {
         const PatternFiller like = fill({about, 1});
         if (like.more_sides() % 2 != 0 || like.more_sides() == 0 || !like.may_change()) return;
-        for (const FacePattern& unlike : unlike_rings(region_, ring_size_, about, like.more_sides())) {
+        for (const FacePattern& unlike : unlike_rings(region_, sizes_.ring, about, like.more_sides())) {
             fill(unlike);
             if (is_square_) return;
         }
@@ -521,8 +518,8 @@ private:
                 p = at < own ? region_.loops[0][at] : static_cast<Index>(fixed + at - own);
             }
         }
-        smooth_plane(mesh.points, mesh.quads, fixed, {.size = size_}, context_);
-        paving::correct_row_heights(mesh, region_, size_);
+        smooth_plane(mesh.points, mesh.quads, fixed, {.size = sizes_.usual}, context_);
+        paving::correct_row_heights(mesh, region_, sizes_.usual);
         if (!find_fault(mesh, region_).empty()) return std::nullopt;
         return mesh;
     }
@@ -534,7 +531,7 @@ private:
         constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
-        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), size_) ? 1 : 0);
+        fits_.push_back(!decides || paving::has_quads_asked(made_.back(), sizes_.usual) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
         is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
@@ -544,14 +541,14 @@ private:
     PatternFiller fill(const FacePattern& pattern)
     {
         check_cancelled(context_);
-        PatternFiller filler(region_, pattern, pattern.about > 0 ? ring_size_ : size_);
+        PatternFiller filler(region_, pattern, pattern.about > 0 ? sizes_.ring : sizes_.usual);
         if (auto mesh = filler.run(context_)) keep(std::move(*mesh));
         return filler;
     }
 
     const PlanarRegion& region_;
     const RunContext& context_;
-    const Size size_, ring_size_;
+    const paving::BoundarySizes sizes_;
     std::vector<PlanarQuads> made_;
     std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
     const bool has_half_ends_;

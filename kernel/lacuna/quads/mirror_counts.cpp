@@ -136,8 +136,7 @@ std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std
     for (const BoundarySegment& segment : segments)
         counts.push_back(std::max(segment.least, static_cast<int>(std::lround(segment.wanted))));
     for (const auto& [a, b] : pairs) {
-        if (a == b && !segments[a].fixed)
-            counts[a] = even_sides(segments[a].wanted, segments[a].least);
+        if (a == b && !segments[a].fixed) counts[a] = even_sides(segments[a].wanted, segments[a].least);
         if (!segments[b].fixed) counts[b] = counts[a];
     }
     return counts;
@@ -173,10 +172,11 @@ std::optional<MirrorCounts> mirror_counts(const CountTask& task)
     std::vector<Symmetry> symmetries;
     for (SegmentSymmetry& symmetry : end_symmetries(halved.region, halved.segment))
         symmetries.push_back(std::move(symmetry.nodes));
+    if (symmetries.empty()) return std::nullopt;
     std::function<double(const Vec2&)> asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
     // Few quads do not change their size as slowly as many.
-    std::vector<std::function<double(const Vec2&)>> sizes{paving::size_with_boundary(task.region)};
+    std::vector<std::function<double(const Vec2&)>> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
     std::optional<std::vector<int>> first, best;
     double least = std::numeric_limits<double>::infinity();

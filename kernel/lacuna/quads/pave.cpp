@@ -4,13 +4,13 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/geometry/triangulate.h>
+#include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/square_rows.h>
 #include <lacuna/quads/pattern_counts.h>
-#include <lacuna/quads/symmetry.h>
 
 #include <sstream>
 
@@ -37,7 +37,7 @@ std::vector<Vec2> polygon_of(const PlanarRegion& region, std::size_t loop)
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     PartialMesh partial{
-        region.points, {}, region.points.size(), size_with_boundary(region), flat_below(region)};
+        region.points, {}, region.points.size(), sizes_with_boundary(region).usual, flat_below(region)};
     std::vector<Cycle> loops = region.loops;
     std::vector<bool> wanted(loops.size(), true);
     int laid = 0;
@@ -166,8 +166,10 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ": the boundary's sides are long for the gap there");
     }
     if (options.smooth && static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
-        square_rows(best.mesh, region);
-        symmetrise(best.mesh, region);
+        const std::vector<Symmetry> symmetries = mesh_symmetries(best.mesh, region);
+        const bool is_symmetric = symmetrise(best.mesh, region.points.size(), symmetries) > 1;
+        square_rows(best.mesh, region, is_symmetric ? symmetries : std::vector<Symmetry>());
+        if (!is_symmetric) symmetrise(best.mesh, region.points.size(), symmetries);
     }
     best.mesh.how = best.report.used;
     if (best.report.refilled > 0)

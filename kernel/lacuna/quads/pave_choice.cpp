@@ -221,9 +221,11 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewQuads),
       few_graded_(quads_within(region) < kFewForGrading && region.size),
-      setting_{region_, options_, size_with_boundary(region), flat_below(region)}
+      setting_{region_, options_, {}, flat_below(region)}
 {
-    judged_.size = size_with_boundary(region, kRingGrading, kRingAlike);
+    BoundarySizes sizes = sizes_with_boundary(region);
+    setting_.size = std::move(sizes.usual);
+    judged_.size = std::move(sizes.ring);
 }
 
 AttemptChooser::Judged AttemptChooser::judge_score(Attempt& made) const

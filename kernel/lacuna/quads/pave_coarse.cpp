@@ -51,7 +51,7 @@ PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, Pa
                       const RunContext& context)
 {
     check(region);
-    const AttemptSetting setting{region, options, size_with_boundary(region), flat_below(region)};
+    const AttemptSetting setting{region, options, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
     if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {
@@ -78,8 +78,8 @@ PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, 
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
-        std::optional<Paved> made = pave_in_four(
-            divided, options, size_with_boundary(divided, kRingGrading, kRingAlike), its_context);
+        std::optional<Paved> made = pave_in_four(divided, options, sizes_with_boundary(divided).ring,
+                                                 its_context);
         if (!made) throw NotSweepable("surface.pave", "no quads of a coarser region");
         report = std::move(made->report);
         return std::move(made->mesh);

@@ -34,7 +34,7 @@ std::vector<BoundarySide> sides_of(const PlanarRegion& region)
 /// Bounds on the size, on a grid over the region, spread from the boundary sides.
 class SizeBounds {
 public:
-    SizeBounds(const std::vector<BoundarySide>& sides, double grading)
+    explicit SizeBounds(const std::vector<BoundarySide>& sides)
     {
         Vec2 high = sides.front().middle;
         low_ = high;
@@ -56,20 +56,19 @@ public:
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);
-        bound_.assign(static_cast<std::size_t>(nx_ * ny_), {});
+        most_.assign(static_cast<std::size_t>(nx_ * ny_), std::numeric_limits<double>::infinity());
+        least_.assign(most_.size(), 0);
         for (const BoundarySide& side : sides) {
-            Bounds& own = bound_[cell_of(side.middle)];
-            own.most = std::min(own.most, side.length);
-            own.least = std::max(own.least, side.length);
+            const std::size_t cell = cell_of(side.middle);
+            most_[cell] = std::min(most_[cell], side.length);
+            least_[cell] = std::max(least_[cell], side.length);
         }
         // Two rounds of two sweeps spread the bounds everywhere but around sharp bends.
-        const double rise = grading * cell_;
-        const auto row = static_cast<std::ptrdiff_t>(nx_);
+        constexpr double kGrading = 0.3; // change of size over distance
+        const double rise = kGrading * cell_;
         for (int round = 0; round < 2; ++round) {
-            for (int y = 1; y + 1 < ny_; ++y)
-                for (int x = 1; x + 1 < nx_; ++x) relax(y * row + x, -1, row, rise);
-            for (int y = ny_ - 2; y > 0; --y)
-                for (int x = nx_ - 2; x > 0; --x) relax(y * row + x, 1, row, rise);
+            for (int y = 1; y + 1 < ny_; ++y) relax(y, -1, rise);
+            for (int y = ny_ - 2; y > 0; --y) relax(y, 1, rise);
         }
     }
 
@@ -81,12 +80,11 @@ public:
         const double y = std::clamp((p.y() - low_.y()) / cell_ - 0.5, 1.0, ny_ - 2.001);
         const int i = static_cast<int>(x), j = static_cast<int>(y);
         const double u = x - i, v = y - j;
-        const Bounds* at = bound_.data() + j * nx_ + i;
-        const auto mix = [&](double Bounds::*f) {
-            return (1 - v) * ((1 - u) * at[0].*f + u * at[1].*f) +
-                   v * ((1 - u) * at[nx_].*f + u * at[nx_ + 1].*f);
+        const auto mix = [&](const std::vector<double>& bound) {
+            const double* at = bound.data() + j * nx_ + i;
+            return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[nx_] + u * at[nx_ + 1]);
         };
-        return std::min(std::max(asked, mix(&Bounds::least)), mix(&Bounds::most));
+        return std::min(std::max(asked, mix(least_)), mix(most_));
     }
 
 private:
@@ -97,47 +95,56 @@ private:
         return static_cast<std::size_t>(y * nx_ + x);
     }
 
-    /// Bring the bounds of a cell and of four of its neighbours together.
-    /// @param back  -1 or 1: the neighbours before the cell, or after it
-    void relax(std::ptrdiff_t cell, int back, std::ptrdiff_t row, double rise)
+    /// Bring the bounds of a row's cells and of their neighbours together: those in the row before, which go
+    /// in vectors, then those beside each other in turn.
+    /// @param back  -1 or 1: the row before is below or above, and cells are gone through from that side
+    void relax(int row, int back, double rise)
     {
         const double far = rise * std::numbers::sqrt2;
-        const Bounds* at = bound_.data() + cell;
-        const Bounds &a = at[back], &b = at[back * row], &c = at[back * (row + 1)], &d = at[back * (row - 1)];
-        Bounds& own = bound_[static_cast<std::size_t>(cell)];
-        own.most = std::min({own.most, std::min(a.most, b.most) + rise, std::min(c.most, d.most) + far});
-        own.least = std::max(
-            {own.least, std::max(a.least, b.least) - rise, std::max(c.least, d.least) - far});
+        const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * nx_, inner = nx_ - 2;
+        double *most = most_.data() + start + 1, *least = least_.data() + start + 1;
+        const double *high = most + back * nx_, *low = least + back * nx_;
+        for (std::ptrdiff_t x = 0; x < inner; ++x) {
+            most[x] = std::min({most[x], high[x] + rise, std::min(high[x - 1], high[x + 1]) + far});
+            least[x] = std::max({least[x], low[x] - rise, std::max(low[x - 1], low[x + 1]) - far});
+        }
+        for (std::ptrdiff_t k = 0; k < inner; ++k) {
+            const std::ptrdiff_t x = back < 0 ? k : inner - 1 - k;
+            most[x] = std::min(most[x], most[x + back] + rise);
+            least[x] = std::max(least[x], least[x + back] - rise);
+        }
     }
-
-    struct Bounds {
-        double most = std::numeric_limits<double>::infinity(), least = 0;
-    };
 
     Vec2 low_;
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
-    std::vector<Bounds> bound_; ///< of each cell
+    std::vector<double> most_, least_; ///< of each cell
 };
 
 } // namespace
 
-std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading,
-                                                      double alike)
+BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
+    // Sides have about the length asked where the two differ by less than these factors. Choices, not
+    // measurements.
+    constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
     for (const BoundarySide& side : sides) sum += side.length;
     std::function<double(const Vec2&)> asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
-    const bool all_alike = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
-        const double size = asked(side.middle);
-        return side.length < alike * size && size < alike * side.length;
-    });
-    if (all_alike) return asked;
-    return [asked, bounds = std::make_shared<const SizeBounds>(sides, grading)](const Vec2& p) {
-        return bounds->limit(p, asked(p));
+    const auto are_alike = [&](double most) {
+        return std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
+            const double size = asked(side.middle);
+            return side.length < most * size && size < most * side.length;
+        });
     };
+    if (are_alike(kAlike)) return {asked, asked};
+    const std::function<double(const Vec2&)> limited =
+        [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
+            return bounds->limit(p, asked(p));
+        };
+    return {limited, are_alike(kRingAlike) ? asked : limited};
 }
 
 double quads_within(const PlanarRegion& region)

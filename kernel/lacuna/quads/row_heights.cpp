@@ -3,6 +3,9 @@
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/plane_stars.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <cmath>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -69,14 +72,16 @@ private:
         constexpr double kHeight = 0.2, kLean = 0.2; ///< left as it is within this share of the height
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
+        // A row of the height that is promised costs its neighbours nothing.
+        const bool is_good = std::abs(arm.dot(post.inward) - post.height) <= kRowOffHeight * post.height;
         const double up = std::clamp(arm.dot(post.inward), (1 - kHeight) * post.height,
                                      (1 + kHeight) * post.height);
         const double side = std::clamp(arm.dot(along), -kLean * post.height, kLean * post.height);
         const Vec2 goal = at(post.foot) + up * post.inward + side * along;
-        const double before = worst_at(post.top);
+        const double before = worst_at(post.top), least = is_good ? before : std::min(before, kGood);
         for (const double part : {1.0, 0.5, 0.25}) {
             mesh_.points[index(post.top)] = start + part * (goal - start);
-            if (worst_at(post.top) >= std::min(before, kGood)) return;
+            if (worst_at(post.top) >= least) return;
         }
         mesh_.points[index(post.top)] = start;
     }

@@ -29,8 +29,10 @@ struct RowSide {
 class RowSquarer {
 public:
     /// @param sizes  whether sides are brought to the size asked as well.
-    RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, bool sizes)
+    RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries,
+               bool sizes)
         : mesh_(mesh),
+          symmetries_(symmetries),
           fixed_(region.points.size()),
           stars_(mesh.points.size(), mesh.quads),
           moved_(mesh.points.size(), 0),
@@ -50,7 +52,8 @@ public:
         for (const Index p : nodes_to_move()) {
             if (is_settled(p)) continue;
             const double way = move(p);
-            (way > 0 ? moved_ : searched_)[index(p)] = ++searches_;
+            ++searches_;
+            for_images(p, [&](Index image) { (way > 0 ? moved_ : searched_)[index(image)] = searches_; });
             most = std::max(most, way);
         }
         return most;
@@ -66,6 +69,49 @@ private:
     static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
 
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
+
+    /// Call for a node and for those that it is mapped to.
+    template <class Use>
+    void for_images(Index p, const Use& use) const
+    {
+        use(p);
+        for (const Symmetry& symmetry : symmetries_) use(symmetry.to[index(p)]);
+    }
+
+    /// Find out where the node at hand may go, and which symmetries map it to a node around it.
+    void set_images(Index p, std::span<const Spoke> star)
+    {
+        near_.clear();
+        const Symmetry* own = nullptr; // leaves the node where it is
+        bool is_centre = false;
+        for (const Symmetry& symmetry : symmetries_) {
+            const Index image = symmetry.to[index(p)];
+            const auto touches = [&](const Spoke& s) {
+                return s.next == image || s.across == image || s.before == image;
+            };
+            if (image == p) {
+                is_centre = own != nullptr || !symmetry.map.mirrors;
+                own = &symmetry;
+            } else if (std::any_of(star.begin(), star.end(), touches)) {
+                near_.push_back(&symmetry);
+            }
+        }
+        kept_.clear();
+        for (const Symmetry* symmetry : near_) kept_.push_back(at(symmetry->to[index(p)]));
+        ways_ = geometry::all_around();
+        if (own == nullptr) return;
+        const double half = own->map.angle() / 2;
+        const Vec2 along(std::cos(half), std::sin(half));
+        axis_ = {along, -along};
+        ways_ = is_centre ? std::span<const Vec2>() : std::span<const Vec2>(axis_);
+    }
+
+    /// Move the node at hand, and its images around it.
+    void place(Index p, const Vec2& x)
+    {
+        mesh_.points[index(p)] = x;
+        for (const Symmetry* symmetry : near_) mesh_.points[index(symmetry->to[index(p)])] = symmetry->map(x);
+    }
 
     void collect(const PlanarRegion& region)
     {
@@ -175,7 +221,7 @@ private:
     }
 
     /// The nodes of row quads beyond their limits, and of all quads around those; and those with sides of
-    /// another size.
+    /// another size. The first of nodes that are images of each other.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);
@@ -192,7 +238,12 @@ private:
         }
         std::vector<Index> nodes;
         for (std::size_t p = fixed_; p < moves.size(); ++p) {
-            if (moves[p] != 0) nodes.push_back(static_cast<Index>(p));
+            if (moves[p] == 0) continue;
+            Index first = static_cast<Index>(p);
+            for_images(first, [&](Index image) { first = std::min(first, image); });
+            if (moves[index(first)] == 2) continue;
+            moves[index(first)] = 2;
+            nodes.push_back(first);
         }
         return nodes;
     }
@@ -236,23 +287,35 @@ private:
             side += (at(spoke.next) - at(p)).norm() / static_cast<double>(star.size());
         const Vec2 start = at(p);
         const double floor = std::min(floor_, least_sine(mesh_.points, star, start));
-        Vec2& here = mesh_.points[index(p)];
         lanes_.set(mesh_.points, star, index(p), {});
+        set_images(p, star);
         const auto value = [&](const Vec2& to, double least) {
-            const Vec2 kept = here;
-            here = to;
+            place(p, to);
+            if (!near_.empty()) lanes_.set(mesh_.points, star, index(p), {});
             const double cost = cost_above(p, -least);
-            here = kept;
-            return cost < -least && least_sine(mesh_.points, star, to) >= floor ? -cost : least;
+            return cost < -least && least_sine(mesh_.points, star, at(p)) >= floor ? -cost : least;
         };
         Vec2 x = start;
         geometry::pattern_search(x, -cost_above(p, std::numeric_limits<double>::infinity()),
-                                 {side, kFirst, kLast, 0}, value);
-        here = x;
-        return (x - start).norm() / side;
+                                 {side, kFirst, kLast, 0}, value, ways_);
+        place(p, x);
+        if (x == start) {
+            for (std::size_t i = 0; i < near_.size(); ++i)
+                mesh_.points[index(near_[i]->to[index(p)])] = kept_[i];
+            return 0;
+        }
+        for (const Symmetry& symmetry : symmetries_) {
+            if (symmetry.to[index(p)] != p) mesh_.points[index(symmetry.to[index(p)])] = symmetry.map(at(p));
+        }
+        return (at(p) - start).norm() / side;
     }
 
     PlanarQuads& mesh_;
+    std::span<const Symmetry> symmetries_;
+    std::vector<const Symmetry*> near_; ///< of the node at hand, see `set_images()`
+    std::vector<Vec2> kept_;            ///< where those stand
+    std::span<const Vec2> ways_;        ///< directions that it may go
+    std::array<Vec2, 2> axis_;
     std::size_t fixed_;
     Stars stars_;
     StarLanes lanes_; ///< the star of the node at hand
@@ -279,23 +342,26 @@ double worth_of(const PlaneQuality& quality)
 
 /// Move nodes for as long as quads are worth more for it.
 /// @param quality  of the mesh, before and after.
-void improve(PlanarQuads& mesh, const PlanarRegion& region, bool sizes, PlaneQuality& quality)
+void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
+             PlaneQuality& quality)
 {
     // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
     // measurements.
     constexpr double kLess = 0.01;
     constexpr int kRounds = 12, kIdle = 3; // idle ones bring nothing more
     constexpr double kStill = 0.03;        // of a side: no more is gained
+    constexpr double kAlike = 1e-6;        // images of one quad are
     const PlaneQuality before = quality;
+    const double rounding = symmetries.empty() ? 0 : kAlike;
     const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };
     PlanarQuads made = mesh;
-    RowSquarer squarer(made, region, sizes);
+    RowSquarer squarer(made, region, symmetries, sizes);
     for (int round = 0, idle = 0; round < kRounds && idle < kIdle; ++round, ++idle) {
         const double most = squarer.round();
         const PlaneQuality after = measure_plane(made, region);
         if (worth_of(after) > worth_of(quality) &&
             after.mean_scaled_jacobian >= before.mean_scaled_jacobian - kLess &&
-            after.min_scaled_jacobian >= before.min_scaled_jacobian &&
+            after.min_scaled_jacobian >= before.min_scaled_jacobian - rounding &&
             keeps(before.row_share(), after.row_share()) && keeps(before.size_share(), after.size_share())) {
             quality = after;
             idle = -1;
@@ -307,11 +373,11 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, bool sizes, PlaneQua
 
 } // namespace
 
-void square_rows(PlanarQuads& mesh, const PlanarRegion& region)
+void square_rows(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries)
 {
     PlaneQuality quality = measure_plane(mesh, region);
-    if (quality.good_rows < quality.possible_rows) improve(mesh, region, false, quality);
-    if (quality.size_share() < kPromised) improve(mesh, region, true, quality);
+    if (quality.good_rows < quality.possible_rows) improve(mesh, region, symmetries, false, quality);
+    if (quality.size_share() < kPromised) improve(mesh, region, symmetries, true, quality);
 }
 
 } // namespace lacuna::quads::paving

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace lacuna::quads {
 namespace {
@@ -24,7 +25,8 @@ struct HeadedLoops {
     std::vector<PatternLoop> loops;
     double angle = 0;
     HalfEnds half = HalfEnds::soft;
-    int fitting = 1; ///< rows that suit the soft turns
+    int fitting = 1;    ///< rows that suit the soft turns
+    bool turns = false; ///< whether there are soft turns
 };
 
 /// @return nothing where a loop does not turn once about.
@@ -36,6 +38,7 @@ std::optional<HeadedLoops> head_loops(const PlanarRegion& region, HalfEnds half)
                               kStraightWeight, 1, half);
         if (!loop || loop->turns != (l == 0 ? 4 : -4)) return std::nullopt;
         headed.fitting = std::max(headed.fitting, fitting_rows(*loop));
+        headed.turns = headed.turns || std::ranges::find(loop->movable, 1) != loop->movable.end();
         headed.loops.push_back(std::move(*loop));
     }
     return headed;
@@ -159,26 +162,42 @@ std::optional<ClosedLoops> close_loops(const CountTask& task, const HeadedLoops&
                                        double share, const CountRange& range)
 {
     ClosedLoops closed;
-    for (std::size_t l = 0; l < headed.loops.size(); ++l) {
-        PatternLoop loop = headed.loops[l];
+    for (const PatternLoop& own : headed.loops) {
+        PatternLoop loop = own;
         set_soft_rows(loop, rows);
         auto counts = counted_loop(task, std::move(loop), share);
         if (!counts || !close_counts(task, *counts, range)) return std::nullopt;
         for (CountedRun& run : counts->runs) run.wanted /= share;
         closed.cost += sum_of_costs(*counts);
         closed.soft += counts->soft;
-        if (auto grid = loop_grid(task, l, *counts, headed, rows)) {
-            closed.quads += grid->quads();
-            closed.grids.push_back(std::move(*grid));
-        }
         closed.loops.push_back(std::move(*counts));
     }
     return closed;
 }
 
+void add_grids(const CountTask& task, const HeadedLoops& headed, int rows, ClosedLoops& closed)
+{
+    for (std::size_t l = 0; l < closed.loops.size(); ++l) {
+        auto grid = loop_grid(task, l, closed.loops[l], headed, rows);
+        if (!grid) continue;
+        closed.quads += grid->quads();
+        closed.grids.push_back(std::move(*grid));
+    }
+}
+
+/// The sides of all runs, by which numbers of sides are the same again.
+std::vector<int> run_counts(const ClosedLoops& closed)
+{
+    std::vector<int> counts;
+    for (const CountedLoop& loop : closed.loops) {
+        for (const CountedRun& run : loop.runs) counts.push_back(run.count);
+    }
+    return counts;
+}
+
 /// Numbers for one kind of ends, over the rows before soft turns, and over numbers of sides that are rounded
 /// from a few shares of those wanted, for rows add quads and columns take sides.
-/// @return those looked at, with what each costs.
+/// @return those looked at, with what each costs; of a part none that is sure to cost more than another.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, HalfEnds half)
 {
     // What quads are worth, and rows, whose number is to be that of `fitting_rows()`; chosen on 40 of the
@@ -194,26 +213,34 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
-    // What is no part has no axes that take up the difference of more rows.
-    const std::vector<int> all_rows = options.is_part ? rows_to_try(headed->fitting) : std::vector<int>{1};
+    double least = std::numeric_limits<double>::infinity(); // cost of those
+    // What is no part has no axes that take up the difference of more rows, and without turns these change
+    // nothing.
+    const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
+                                                                       : std::vector<int>{1};
     const bool wide = options.range.most > kSegment.most;
     const std::span<const double> shares = std::span(kShares).first(wide ? kShares.size() : kNear);
     for (const int rows : all_rows) {
+        std::set<std::vector<int>> known;
         for (const double share : shares) {
             auto closed = close_loops(task, *headed, rows, share, options.range);
             if (!closed) continue;
+            if (!known.insert(run_counts(*closed)).second) continue;
             Counts counts{counts_of(task, closed->loops), closed->cost};
             // A symmetric region is not filled otherwise than its images.
             if (!options.is_part && !are_alike(counts.sides, pairs)) continue;
-            const bool has_grids = closed->grids.size() == closed->loops.size();
-            const double quads = has_grids ? closed->quads : asked; // not known
-            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+            double of_part = 0;
             if (options.is_part) {
                 const int fitting = headed->fitting;
                 const double off = std::log(static_cast<double>(rows) / fitting);
-                counts.cost += kRows * closed->soft * std::max(1.0, fitting / 2.0) * off * off +
-                               kUnlike * unlike(counts.sides, pairs);
+                of_part = kRows * closed->soft * std::max(1.0, fitting / 2.0) * off * off +
+                          kUnlike * unlike(counts.sides, pairs);
+                if (counts.cost + of_part >= least) continue;
             }
+            add_grids(task, *headed, rows, *closed);
+            const bool has_grids = closed->grids.size() == closed->loops.size();
+            const double quads = has_grids ? closed->quads : asked; // not known
+            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kMostOff * asked) counts.cost += kOff;
             // Few lines leave holes no place, and for many looking takes long.
@@ -225,9 +252,9 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
                     centre_holes(task, closed->loops, closed->grids.front());
                     counts.sides = counts_of(task, closed->loops);
                 }
+                least = std::min(least, counts.cost);
                 all.push_back(std::move(counts));
             }
-            if (closed->soft == 0 && share == shares.back()) return all;
             if (!options.is_part && fits && has_place) return all;
         }
     }

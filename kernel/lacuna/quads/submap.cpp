@@ -63,7 +63,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     mesh.points.resize(fixed + static_cast<std::size_t>(grid.number_inner(first)), Vec2::Zero());
     grid.place_inner(mesh.points, first);
     mesh.quads = grid.quads();
-    const auto size = paving::size_with_boundary(region);
+    const auto size = paving::sizes_with_boundary(region).usual;
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
     // Poor quads are repaired one by one where they are few: a grid that is poor all over stays so.
     constexpr double kFewPoor = 0.1; // of the quads; a choice, not a measurement

@@ -3,7 +3,7 @@
 
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/outline_symmetry.h>
+#include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/measure_plane.h>
 
@@ -139,13 +139,22 @@ private:
 
 } // namespace
 
+std::vector<Symmetry> mesh_symmetries(const PlanarQuads& mesh, const PlanarRegion& region)
+{
+    return SymmetryFinder(mesh, region).run();
+}
+
 std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region)
 {
-    const std::vector<Symmetry> symmetries = SymmetryFinder(mesh, region).run();
+    return symmetrise(mesh, region.points.size(), mesh_symmetries(mesh, region));
+}
+
+std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Symmetry> symmetries)
+{
     if (symmetries.empty()) return 1;
     PlanarQuads made = mesh;
     const double share = 1.0 / static_cast<double>(symmetries.size() + 1);
-    for (std::size_t p = region.points.size(); p < made.points.size(); ++p) {
+    for (std::size_t p = fixed; p < made.points.size(); ++p) {
         Vec2 sum = mesh.points[p];
         for (const Symmetry& symmetry : symmetries)
             sum += symmetry.map.back(mesh.points[static_cast<std::size_t>(symmetry.to[p])]);

@@ -25,23 +25,6 @@ LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b, const Lan
     }
 }
 
-/// det(a, b0 + b1, c0 + c1)
-template <int N>
-LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b0, const Lanes3<N>& b1,
-                               const Lanes3<N>& c0, const Lanes3<N>& c1, double* out)
-{
-    for (int i = 0; i < N; ++i) {
-        const double bx = b0[0][i] + b1[0][i];
-        const double by = b0[1][i] + b1[1][i];
-        const double bz = b0[2][i] + b1[2][i];
-        const double cx = c0[0][i] + c1[0][i];
-        const double cy = c0[1][i] + c1[1][i];
-        const double cz = c0[2][i] + c1[2][i];
-        out[i] = a[0][i] * (by * cz - bz * cy) + a[1][i] * (bz * cx - bx * cz) +
-                 a[2][i] * (bx * cy - by * cx);
-    }
-}
-
 /// Edges of the cells: along[d][e] runs in direction d; e counts the ends in the other two directions, the
 /// lower direction fastest: U(v, w) at v + 2w, V(u, w) at u + 2w, W(u, v) at u + 2v.
 template <int N>
@@ -55,8 +38,8 @@ LACUNA_INLINE void find_edges(const CellBatch<N>& batch, Edges<N>& edges)
 {
     for (int d = 0; d < 3; ++d) {
         for (int e = 0; e < 4; ++e) {
-            const auto& from = batch.corner[kEdgeNodes[d][e][0]];
-            const auto& to = batch.corner[kEdgeNodes[d][e][1]];
+            const auto& from = batch.corner(kEdgeNodes[d][e][0]);
+            const auto& to = batch.corner(kEdgeNodes[d][e][1]);
             auto& edge = edges.along[d][e];
             for (int i = 0; i < N; ++i) {
                 const double x = to[0][i] - from[0][i];
@@ -103,31 +86,122 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
     }
 }
 
-/// Coefficients in the middle of the edges.
+/// How edges turn along the cells: across[r][s] is the edge of a direction p at the upper end of q less that
+/// at the lower end, p and q other than r, at the end s of r. Parallel edges of one length turn by nothing.
 template <int N>
-LACUNA_INLINE void find_middles(const Edges<N>& edges, CellValues<N>& values)
+struct Turns {
+    alignas(64) double across[3][2][3][N];
+};
+
+template <int N>
+LACUNA_INLINE void find_turns(const Edges<N>& edges, Turns<N>& turns)
 {
-    constexpr int kStride[3] = {1, 3, 9};
+    for (int r = 0; r < 3; ++r) {
+        const int p = r == 0 ? 1 : 0;
+        for (int s = 0; s < 2; ++s) {
+            // Of the ends that an edge along p counts, r is the lower direction but for r = 2.
+            const auto& low = edges.along[p][r == 2 ? 2 * s : s];
+            const auto& high = edges.along[p][r == 2 ? 2 * s + 1 : s + 2];
+            for (int d = 0; d < 3; ++d)
+                for (int i = 0; i < N; ++i) turns.across[r][s][d][i] = high[d][i] - low[d][i];
+        }
+    }
+}
+
+/// The integral of J: with the means of the edges and of the turns, all other terms vanish by symmetry.
+template <int N>
+LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
+{
+    alignas(64) double edge[3][3][N], turn[3][3][N]; // sums of four and of two
     for (int d = 0; d < 3; ++d) {
-        const int p = d == 0 ? 1 : 0; // the other two directions, p < q
-        const int q = d == 2 ? 1 : 2;
-        for (int e = 0; e < 4; ++e) {
-            const int i = e % 2; // end in direction p
-            const int j = e / 2; // end in direction q
-            const int at = 2 * i * kStride[p] + 2 * j * kStride[q] + kStride[d];
-            // An edge along p counts its ends in d and q, one along q in d and p, the lower direction
-            // fastest.
-            const auto p_edge = [&](int s) { return d < q ? s + 2 * j : j + 2 * s; };
-            const auto q_edge = [&](int s) { return d < p ? s + 2 * i : i + 2 * s; };
-            const auto& ps = edges.along[p];
-            const auto& qs = edges.along[q];
-            double* out = values.bezier[at];
-            determinant<N>(edges.along[d][e], ps[p_edge(0)], ps[p_edge(1)], qs[q_edge(0)], qs[q_edge(1)],
-                           out);
-            const double sign = d == 1 ? -1.0 : 1.0; // (v, u, w) is an odd order of (u, v, w)
-            const double* first = values.bezier[at - kStride[d]];
-            const double* last = values.bezier[at + kStride[d]];
-            for (int k = 0; k < N; ++k) out[k] = 0.5 * (sign * out[k] - first[k] - last[k]);
+        for (int c = 0; c < 3; ++c) {
+            const auto& along = edges.along[d];
+            const auto& across = turns.across[d];
+            for (int i = 0; i < N; ++i) {
+                edge[d][c][i] = (along[0][c][i] + along[1][c][i]) + (along[2][c][i] + along[3][c][i]);
+                turn[d][c][i] = across[0][c][i] + across[1][c][i];
+            }
+        }
+    }
+    alignas(64) double straight[N], u[N], v[N], w[N];
+    determinant<N>(edge[0], edge[1], edge[2], straight);
+    determinant<N>(edge[0], turn[2], turn[1], u);
+    determinant<N>(turn[2], edge[1], turn[0], v);
+    determinant<N>(turn[1], turn[0], edge[2], w);
+    for (int i = 0; i < N; ++i)
+        values.volume[i] = straight[i] * (1.0 / 64) + (u[i] + v[i] + w[i]) * (1.0 / 192);
+}
+
+/// Whether all cells are positive by a bound that costs less than their coefficients; then `smallest` is it.
+///
+/// With d = det(edge, turn, turn) a coefficient in the middle of an edge is the mean of its ends less d / 2;
+/// that in the middle of a side the mean of its corners less a quarter of its four d; that of the cell the
+/// mean of its corners less an eighth of all twelve. So none is below the least corner less 3/2 of the
+/// largest d, which is no larger than the product of the largest lengths. Cells of swept meshes turn little
+/// from layer to layer.
+template <int N>
+LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
+{
+    constexpr double kMost = 1.5 * (1 + 1e-6); // for what is rounded
+    // Of flatter cells rounding may have a say, which coefficients and cuts are left to.
+    constexpr double kFlat = 1e-6;
+    alignas(64) double edge[3][N], turn[3][N], least[N]; // largest squares; least J at the corners
+    for (int d = 0; d < 3; ++d) {
+        const auto& square = edges.square[d];
+        for (int i = 0; i < N; ++i) {
+            const double low = square[0][i] > square[1][i] ? square[0][i] : square[1][i];
+            const double high = square[2][i] > square[3][i] ? square[2][i] : square[3][i];
+            edge[d][i] = low > high ? low : high;
+            double squares[2];
+            for (int s = 0; s < 2; ++s) {
+                const auto& t = turns.across[d][s];
+                squares[s] = t[0][i] * t[0][i] + t[1][i] * t[1][i] + t[2][i] * t[2][i];
+            }
+            turn[d][i] = squares[0] > squares[1] ? squares[0] : squares[1];
+        }
+    }
+    for (int i = 0; i < N; ++i) least[i] = values.bezier[0][i];
+    for (int corner = 1; corner < 8; ++corner) {
+        const auto& other = values.bezier[2 * (corner % 2) + 6 * (corner / 2 % 2) + 18 * (corner / 4)];
+        for (int i = 0; i < N; ++i) least[i] = other[i] < least[i] ? other[i] : least[i];
+    }
+    for (int i = 0; i < N; ++i) {
+        const double u = edge[0][i] * turn[1][i] * turn[2][i];
+        const double v = edge[1][i] * turn[0][i] * turn[2][i];
+        const double w = edge[2][i] * turn[0][i] * turn[1][i];
+        const double uv = u > v ? u : v;
+        const double bound = least[i] - kMost * std::sqrt(uv > w ? uv : w);
+        const double low = values.scaled[i] - kFlat;
+        values.smallest[i] = least[i] = low > 0 ? bound : low;
+    }
+    for (int half = N / 2; half > 0; half /= 2)
+        for (int i = 0; i < half; ++i) least[i] = least[i] < least[i + half] ? least[i] : least[i + half];
+    return least[0] > 0;
+}
+
+/// Coefficient in the middle of an edge, `stride` from that at its lower end and from that at its upper end:
+/// from its direction and how the other two turn along it, in the order of u, v, w.
+template <int N>
+LACUNA_INLINE void find_middle(CellValues<N>& values, int low, int stride, const Lanes3<N>& u,
+                               const Lanes3<N>& v, const Lanes3<N>& w)
+{
+    alignas(64) double turn[N];
+    determinant<N>(u, v, w, turn);
+    auto& c = values.bezier;
+    for (int k = 0; k < N; ++k) c[low + stride][k] = 0.5 * (c[low][k] + c[low + 2 * stride][k] - turn[k]);
+}
+
+template <int N>
+LACUNA_INLINE void find_middles(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
+{
+    const auto& along = edges.along;
+    const auto& across = turns.across;
+    for (int j = 0; j < 2; ++j) {
+        for (int i = 0; i < 2; ++i) { // ends in the other two directions
+            const int e = i + 2 * j;
+            find_middle<N>(values, 6 * i + 18 * j, 1, along[0][e], across[2][j], across[1][i]);
+            find_middle<N>(values, 2 * i + 18 * j, 3, across[2][j], along[1][e], across[0][i]);
+            find_middle<N>(values, 2 * i + 6 * j, 9, across[1][j], across[0][i], along[2][e]);
         }
     }
 }
@@ -144,13 +218,24 @@ LACUNA_INLINE void find_square(CellValues<N>& values, int at, int p, int q)
     }
 }
 
-template <int N>
+enum class Wanted {
+    all,     ///< all values of a cell
+    verdict, ///< but for coefficients, where a bound tells that all cells are positive
+    corners  ///< the scaled Jacobian, and of the coefficients those at the corners
+};
+
+template <int N, Wanted kWanted>
 LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& values)
 {
     Edges<N> edges;
     find_edges<N>(batch, edges);
     find_corners<N>(edges, values);
-    find_middles<N>(edges, values);
+    if constexpr (kWanted == Wanted::corners) return;
+    Turns<N> turns;
+    find_turns<N>(edges, turns);
+    if (kWanted == Wanted::verdict && find_bound<N>(edges, turns, values))
+        return find_volume<N>(edges, turns, values);
+    find_middles<N>(edges, turns, values);
     for (const int end : {0, 2}) {
         find_square<N>(values, 1 + 3 + 9 * end, 1, 3);
         find_square<N>(values, 1 + 3 * end + 9, 1, 9);
@@ -175,40 +260,20 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
     }
 }
 
-/// The scaled Jacobian, and of the coefficients those at the corners.
-template <int N>
-LACUNA_INLINE void evaluate_corners(const CellBatch<N>& batch, CellValues<N>& values)
-{
-    Edges<N> edges;
-    find_edges<N>(batch, edges);
-    find_corners<N>(edges, values);
-}
-
 using Batch = CellBatch<kLanes>;
 using Values = CellValues<kLanes>;
-
-enum class Wanted { all, corners };
-
-template <Wanted kWanted>
-LACUNA_INLINE void evaluate_wanted(const Batch& batch, Values& values)
-{
-    if constexpr (kWanted == Wanted::all)
-        evaluate_lanes<kLanes>(batch, values);
-    else
-        evaluate_corners<kLanes>(batch, values);
-}
 
 #if defined(LACUNA_WIDER_VECTORS)
 template <Wanted kWanted>
 [[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const Batch& batch, Values& values)
 {
-    evaluate_wanted<kWanted>(batch, values);
+    evaluate_lanes<kLanes, kWanted>(batch, values);
 }
 
 template <Wanted kWanted>
 [[gnu::target("avx2")]] void evaluate_avx2(const Batch& batch, Values& values)
 {
-    evaluate_wanted<kWanted>(batch, values);
+    evaluate_lanes<kLanes, kWanted>(batch, values);
 }
 #endif
 
@@ -220,14 +285,14 @@ void evaluate_widest(const Batch& batch, Values& values)
     if (has_avx512()) return evaluate_avx512<kWanted>(batch, values);
     if (has_avx2()) return evaluate_avx2<kWanted>(batch, values);
 #endif
-    evaluate_wanted<kWanted>(batch, values);
+    evaluate_lanes<kLanes, kWanted>(batch, values);
 }
 
 CellBatch<1> batch_of(std::span<const Vec3, 8> corners)
 {
     CellBatch<1> batch;
     for (std::size_t c = 0; c < 8; ++c)
-        for (int d = 0; d < 3; ++d) batch.corner[c][d][0] = corners[c][d];
+        for (int d = 0; d < 3; ++d) batch.corner(c)[d][0] = corners[c][d];
     return batch;
 }
 
@@ -235,7 +300,7 @@ CellBatch<1> batch_of(std::span<const Vec3, 8> corners)
 
 void evaluate(const CellBatch<kLanes>& batch, CellValues<kLanes>& values)
 {
-    evaluate_widest<Wanted::all>(batch, values);
+    evaluate_widest<Wanted::verdict>(batch, values);
 }
 
 void evaluate_scaled(const CellBatch<kLanes>& batch, double (&scaled)[kLanes])
@@ -245,7 +310,10 @@ void evaluate_scaled(const CellBatch<kLanes>& batch, double (&scaled)[kLanes])
     std::copy_n(values.scaled, kLanes, scaled);
 }
 
-void evaluate(const CellBatch<1>& batch, CellValues<1>& values) { evaluate_lanes<1>(batch, values); }
+void evaluate(const CellBatch<1>& batch, CellValues<1>& values)
+{
+    evaluate_lanes<1, Wanted::all>(batch, values);
+}
 
 double scaled_jacobian(std::span<const Vec3, 8> corners)
 {

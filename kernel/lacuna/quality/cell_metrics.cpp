@@ -47,9 +47,9 @@ LACUNA_INLINE Vector node(const Batch& batch, int i)
 {
     Vector p;
     for (int k = 0; k < N; ++k) {
-        p.x.v[k] = batch.corner[i][0][k];
-        p.y.v[k] = batch.corner[i][1][k];
-        p.z.v[k] = batch.corner[i][2][k];
+        p.x.v[k] = batch.corner(i)[0][k];
+        p.y.v[k] = batch.corner(i)[1][k];
+        p.z.v[k] = batch.corner(i)[2][k];
     }
     return p;
 }
@@ -446,7 +446,7 @@ double metric(Metric metric, std::span<const Vec3, 8> corners, double average_vo
     CellBatch<kMetricLanes> batch;
     for (std::size_t c = 0; c < 8; ++c)
         for (int d = 0; d < 3; ++d)
-            for (double& lane : batch.corner[c][d]) lane = corners[c][d];
+            for (double& lane : batch.corner(c)[d]) lane = corners[c][d];
     double values[kMetricLanes];
     evaluate_metrics(batch, {&metric, 1}, average_volume, values);
     return values[0];

@@ -4,6 +4,7 @@
 #include <lacuna/core/bytes.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
+#include <lacuna/quality/metrics.h>
 
 #include <algorithm>
 #include <utility>
@@ -27,6 +28,20 @@ std::vector<Slab> slabs_of(const HexMesh& mesh)
     for (int first = 0; first < mesh.layers; first += step)
         slabs.push_back({first, std::min(first + step, mesh.layers)});
     return slabs;
+}
+
+/// Make the slabs of this process's share one after the other, and call `visit(slab, its cells as a mesh)`.
+template <class Visit>
+void each_slab(const LayeredMesh& layered, std::span<const Slab> slabs, const Team* team,
+               const RunContext& context, const Visit& visit)
+{
+    HexMesh cells;
+    const auto [begin, end] = share_of(team, slabs.size());
+    for (const Slab& slab : slabs.subspan(begin, end - begin)) {
+        check_cancelled(context);
+        cells = mesh::make_layers(layered, slab.first, slab.last, std::move(cells), context);
+        visit(slab, std::as_const(cells));
+    }
 }
 
 /// What is found of slabs, as a team tells each other. One list of fields for writing and reading.
@@ -358,27 +373,18 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
     MeasuredLayers measured;
     Quality& all = measured.quality;
     double sum = 0;
-    HexMesh slab;
-    slab.nodes_per_layer = mesh.nodes_per_layer;
-    slab.quads = mesh.quads;
     const std::vector<Slab> slabs = slabs_of(mesh);
-    const auto [begin, end] = share_of(team, slabs.size());
     Writer own_found;
-    for (std::size_t s = begin; s < end; ++s) {
-        check_cancelled(context);
-        const Slab part = slabs[s];
-        slab.layers = part.last - part.first;
-        slab.nodes.resize(mesh::corner_count(slab));
-        layered.nodes.place(part.first, part.last + 1, slab.nodes, context);
-        Quality own = measure(slab, context);
+    each_slab(layered, slabs, team, context, [&](const Slab& slab, const HexMesh& cells) {
+        Quality own = measure(cells, context);
         for (WorstCell& cell : own.worst) {
-            cell.cell += static_cast<std::size_t>(part.first) * mesh.quads.size();
-            cell.layer += part.first;
+            cell.cell += static_cast<std::size_t>(slab.first) * mesh.quads.size();
+            cell.layer += slab.first;
         }
         put(own_found, std::as_const(own));
-        const SlabPlace place = place_of(slab.nodes, part.first, index(mesh.nodes_per_layer), context);
+        const SlabPlace place = place_of(cells.nodes, slab.first, index(mesh.nodes_per_layer), context);
         put_place(own_found, place);
-    }
+    });
     // Summed in the order of the slabs, whoever measured them.
     for (MeasuredSlab& slab_found :
          gathered<MeasuredSlab>(team, std::move(own_found), slabs.size(), read_slab)) {
@@ -397,6 +403,21 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
     all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);
     all.min_scaled_jacobian = all.worst.front().scaled_jacobian;
     return measured;
+}
+
+double mean_volume(const LayeredMesh& layered, const RunContext& context, const Team* team)
+{
+    Writer own;
+    each_slab(layered, slabs_of(layered.mesh), team, context, [&](const Slab&, const HexMesh& cells) {
+        for (const double volume : layer_volumes(cells, context)) own(volume);
+    });
+    const auto layers = gathered<double>(team, std::move(own), static_cast<std::size_t>(layered.mesh.layers),
+                                         [](Reader& reader) {
+                                             double volume = 0;
+                                             reader(volume);
+                                             return volume;
+                                         });
+    return mean_volume(layers, layered.mesh.cell_count());
 }
 
 Proof prove(const LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

@@ -36,6 +36,12 @@ struct MeasuredLayers {
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
 
+/// The mean volume of such a mesh's cells, by which `metric_values()` of some of its layers are those of the
+/// whole mesh, to the bit; shared by a team as `measure()`.
+/// @throw Cancelled; TeamFailed
+double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
+                   const Team* team = nullptr);
+
 /// A node of such a mesh that is not finite, or two in one place; shared by a team as `measure()`.
 ///
 /// Nodes in one place are sought among layers next to each other, and, where boxes of layers further apart

@@ -30,6 +30,11 @@ struct WorstList {
     std::array<Ranked, kWorst> cells{};
     std::size_t count = 0;
 
+    /// Whether a cell with that value may be one of them.
+    [[nodiscard]] bool takes(double scaled_jacobian) const
+    {
+        return count < kWorst || scaled_jacobian <= cells[kWorst - 1].scaled_jacobian;
+    }
     void offer(const Ranked& candidate)
     {
         if (count == kWorst && !(candidate < cells[kWorst - 1])) return;
@@ -50,53 +55,66 @@ struct Partial {
     WorstList worst;
 };
 
-void add_values(Partial& partial, double scaled, double volume, std::size_t cell)
+int bin_of(double scaled) { return std::clamp(static_cast<int>((scaled + 1) * 10), 0, 19); }
+
+using Values = CellValues<kLanes>;
+using Signs = std::array<Sign, kLanes>;
+
+/// Lay what is known of a cell that is no straight hexahedron in its lane.
+void put_cell(Values& values, Signs& signs, int lane, double scaled, double volume, bool positive)
 {
-    partial.sum += scaled;
-    partial.volume += volume;
-    const int bin = std::clamp(static_cast<int>((scaled + 1) * 10), 0, 19);
-    ++partial.histogram[static_cast<std::size_t>(bin)];
-    partial.worst.offer({scaled, cell});
+    values.scaled[lane] = scaled;
+    values.volume[lane] = volume;
+    values.smallest[lane] = 0; // its sign says it
+    signs[static_cast<std::size_t>(lane)] = positive ? Sign::positive : Sign::not_positive;
 }
 
-/// @param positive  tells whether the cell is, where the smallest coefficient leaves the question open.
-template <class Positive>
-void add_cell(Partial& partial, double scaled, double smallest, double volume, std::size_t cell,
-              const Positive& positive)
+bool is_positive(const WedgeValues& wedge)
 {
-    add_values(partial, scaled, volume, cell);
-    if (scaled > 0 && smallest > 0) return;
-    if (!(scaled > 0)) ++partial.inverted;
-    if (!(scaled > 0) || !positive()) ++partial.uncertified;
+    return wedge.scaled > 0 && (wedge.smallest > 0 || positive_everywhere(view_of(over_cube(wedge)), kDepth));
 }
 
-void add_hex(Partial& partial, const CellValues<kLanes>& values, int lane, Sign sign, std::size_t cell)
+/// Count the cells that are not positive everywhere.
+void count_bad(Partial& partial, const Values& values, const Signs& signs, int filled)
 {
-    add_cell(partial, values.scaled[lane], values.smallest[lane], values.volume[lane], cell, [&] {
-        return sign == Sign::positive ||
-               (sign == Sign::open && positive_everywhere(view_of(values, lane), kDepth));
-    });
+    for (int lane = 0; lane < filled; ++lane) {
+        const Sign sign = signs[static_cast<std::size_t>(lane)];
+        const bool upright = values.scaled[lane] > 0;
+        if (!upright) ++partial.inverted;
+        if (upright && (values.smallest[lane] > 0 || sign == Sign::positive)) continue;
+        if (!upright || sign == Sign::not_positive || !positive_everywhere(view_of(values, lane), kDepth))
+            ++partial.uncertified;
+    }
 }
 
-/// @return  the scaled Jacobian.
-double add_wedge(Partial& partial, const WedgeCorners& corners, std::size_t cell)
+/// The cells of a batch, the first of which has the number `first`. What most have in common is asked of all
+/// at once.
+void add_batch(Partial& partial, const Values& values, const Signs& signs, std::size_t first, int filled)
 {
-    const WedgeValues values = evaluate_wedge(corners);
-    ++partial.wedges;
-    add_cell(partial, values.scaled, values.smallest, values.volume, cell,
-             [&] { return positive_everywhere(view_of(over_cube(values)), kDepth); });
-    return values.scaled;
-}
-
-void add_cell(Partial& partial, const CurvedCell& curved, std::size_t cell)
-{
-    add_values(partial, curved.scaled_jacobian, curved.volume, cell);
-    if (!(curved.scaled_jacobian > 0)) ++partial.inverted;
-    if (!curved.positive) ++partial.uncertified;
+    double sum = partial.sum, volume = partial.volume;
+    double least = values.scaled[0], most = values.scaled[0];
+    bool positive = true;
+    for (int lane = 0; lane < filled; ++lane) {
+        const double scaled = values.scaled[lane];
+        sum += scaled;
+        volume += values.volume[lane];
+        least = std::min(least, scaled);
+        most = std::max(most, scaled);
+        positive = positive && scaled > 0 && values.smallest[lane] > 0;
+    }
+    partial.sum = sum;
+    partial.volume = volume;
+    const int low = bin_of(least), high = bin_of(most);
+    if (low == high) partial.histogram[static_cast<std::size_t>(low)] += static_cast<std::uint32_t>(filled);
+    for (int lane = 0; lane < filled && low != high; ++lane)
+        ++partial.histogram[static_cast<std::size_t>(bin_of(values.scaled[lane]))];
+    for (int lane = 0; lane < filled && partial.worst.takes(least); ++lane)
+        partial.worst.offer({values.scaled[lane], first + static_cast<std::size_t>(lane)});
+    if (!positive) count_bad(partial, values, signs, filled);
 }
 
 /// Of cells that are all of order 1.
-bool none_curved(std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; }
+constexpr auto kNoneCurved = [](std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; };
 
 /// @param curved  tells whether a cell is curved, and sets its nodes if it is.
 /// @param kept    null, or room for the scaled Jacobian of every cell, none of which is curved.
@@ -109,27 +127,25 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
     const std::size_t chunks = (cells.columns() + width - 1) / width;
     std::vector<Partial> partials(chunks);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        CellValues<kLanes> values;
+        Values values;
         for (std::size_t c = begin; c < end; ++c)
             for_each_batch<kLanes>(
                 cells, c * width, std::min((c + 1) * width, cells.columns()),
                 [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
                     evaluate(batch, values);
-                    const std::array<Sign, kLanes> sign = signs_after_cut(values);
-                    const std::size_t column = first % cells.columns();
+                    Signs signs = signs_after_cut(values);
                     std::array<Vec3, 27> nodes;
                     for (int lane = 0; lane < filled; ++lane) {
-                        const auto k = static_cast<std::size_t>(lane);
-                        if (cells.is_wedge(column + k)) continue;
-                        if (curved(first + k, nodes))
-                            add_cell(partials[c], judge(nodes), first + k);
-                        else
-                            add_hex(partials[c], values, lane, sign[k], first + k);
+                        if (!curved(first + static_cast<std::size_t>(lane), nodes)) continue;
+                        const CurvedCell cell = judge(nodes);
+                        put_cell(values, signs, lane, cell.scaled_jacobian, cell.volume, cell.positive);
                     }
                     for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                        values.scaled[lane] = add_wedge(partials[c], corners,
-                                                        first + static_cast<std::size_t>(lane));
+                        const WedgeValues wedge = evaluate_wedge(corners);
+                        put_cell(values, signs, lane, wedge.scaled, wedge.volume, is_positive(wedge));
+                        ++partials[c].wedges;
                     });
+                    add_batch(partials[c], values, signs, first, filled);
                     if (kept == nullptr) return;
                     for (int lane = 0; lane < filled; ++lane)
                         kept[first + static_cast<std::size_t>(lane)] = static_cast<float>(
@@ -175,7 +191,7 @@ Quality measure(const mesh::HexMesh& mesh, const RunContext& context, Keep keep)
         nodes = hex27_of(mesh, cell);
         return !is_straight(nodes);
     };
-    Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, none_curved, context,
+    Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, kNoneCurved, context,
                                                       keeps ? kept->data() : nullptr)
                                         : measure_all(SweptCells{mesh}, curved, context);
     if (keeps) quality.of_cells = kept;
@@ -185,7 +201,7 @@ Quality measure(const mesh::HexMesh& mesh, const RunContext& context, Keep keep)
 
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context)
 {
-    return measure_all(ListedCells{nodes, hexes}, none_curved, context);
+    return measure_all(ListedCells{nodes, hexes}, kNoneCurved, context);
 }
 
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace lacuna::quality {
 namespace {
@@ -145,14 +146,51 @@ std::vector<Tally> tally(const Cells& cells, std::span<const Metric> metrics, do
     return sums;
 }
 
+/// Cells of a swept mesh that follow each other in a layer.
+struct CellsInRow {
+    SweptCells all;
+    std::size_t first, layer, count;
+
+    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(first + column); }
+    [[nodiscard]] std::size_t columns() const { return count; }
+    [[nodiscard]] std::size_t layers() const { return 1; }
+    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t above) const
+    {
+        return all.corners(first + column, layer + above);
+    }
+};
+
+/// Sum over cells of one layer.
+template <class Cells>
+double sum_of_volumes(const Cells& cells, const RunContext& context)
+{
+    const Metric volume = Metric::volume;
+    const std::size_t width = chunk_width(cells, kMetricLanes);
+    std::vector<double> sums((cells.columns() + width - 1) / width, 0.0);
+    for_each_value(cells, {&volume, 1}, 1, context,
+                   [&](std::size_t chunk, std::size_t, int filled, const double* values) {
+                       for (int lane = 0; lane < filled; ++lane) sums[chunk] += values[lane];
+                   });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+double average_volume(const SweptCells& cells, const RunContext& context)
+{
+    return mean_volume(layer_volumes(cells.mesh, context), cells.mesh.cell_count());
+}
+
+double average_volume(const ListedCells& cells, const RunContext& context)
+{
+    return mean_volume(std::vector<double>{sum_of_volumes(cells, context)}, cells.columns());
+}
+
 /// Mean volume of the cells, where one of the metrics wants it.
 template <class Cells>
 double average_volume_of(const Cells& cells, std::span<const Metric> metrics, const RunContext& context)
 {
     const bool needed = std::any_of(metrics.begin(), metrics.end(),
                                     [](Metric m) { return metric_info(m).needs_average_volume; });
-    const Metric volume = Metric::volume;
-    return needed ? tally(cells, {&volume, 1}, 1, context)[0].mean : 1;
+    return needed ? average_volume(cells, context) : 1;
 }
 
 template <class Cells>
@@ -227,25 +265,12 @@ struct PickedCells {
     }
 };
 
-/// Cells of a swept mesh that follow each other in a layer.
-struct CellsInRow {
-    SweptCells all;
-    std::size_t first, layer, count;
-
-    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(first + column); }
-    [[nodiscard]] std::size_t columns() const { return count; }
-    [[nodiscard]] std::size_t layers() const { return 1; }
-    [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t above) const
-    {
-        return all.corners(first + column, layer + above);
-    }
-};
-
 template <class Cells>
-std::vector<double> values_of(const Cells& cells, Metric metric, const RunContext& context)
+std::vector<double> values_of(const Cells& cells, Metric metric, std::optional<double> average_volume,
+                              const RunContext& context)
 {
     if (metric == Metric::scaled_jacobian) return scaled_jacobians(cells, context);
-    const double average = average_volume_of(cells, {&metric, 1}, context);
+    const double average = average_volume ? *average_volume : average_volume_of(cells, {&metric, 1}, context);
     std::vector<double> result(cells.columns() * cells.layers());
     for_each_value(cells, {&metric, 1}, average, context,
                    [&](std::size_t, std::size_t first, int filled, const double* values) {
@@ -284,9 +309,24 @@ std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::spa
     return measure_all(ListedCells{nodes, hexes}, metrics, context);
 }
 
-std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context)
+std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    std::vector<double> values = values_of(SweptCells{mesh}, metric, context);
+    const SweptCells all{mesh};
+    std::vector<double> sums;
+    for (std::size_t layer = 0; layer < all.layers(); ++layer)
+        sums.push_back(sum_of_volumes(CellsInRow{all, 0, layer, all.columns()}, context));
+    return sums;
+}
+
+double mean_volume(std::span<const double> layers, std::size_t cells)
+{
+    return cells > 0 ? std::accumulate(layers.begin(), layers.end(), 0.0) / static_cast<double>(cells) : 0;
+}
+
+std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context,
+                                  std::optional<double> average_volume)
+{
+    std::vector<double> values = values_of(SweptCells{mesh}, metric, average_volume, context);
     if (mesh.order() == 1 || metric != Metric::scaled_jacobian) return values;
     constexpr std::size_t kGrain = 256; // a curved cell takes a microsecond or two: a choice
     parallel_for(context, values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -316,7 +356,7 @@ void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> 
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context)
 {
-    return values_of(ListedCells{nodes, hexes}, metric, context);
+    return values_of(ListedCells{nodes, hexes}, metric, std::nullopt, context);
 }
 
 } // namespace lacuna::quality

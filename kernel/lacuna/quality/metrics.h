@@ -103,9 +103,17 @@ std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::spa
 /// A value a cell, by number of cell; 0 of a wedge where the metric is none of theirs. Parallel. Of cells of
 /// order 2 the corners' value, but for the scaled Jacobian, which is that of `judge()` where a cell is
 /// curved. The scaled Jacobian is rounded to single precision, in which proofs keep it.
-std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {});
+/// @param average_volume  what sizes are relative to; nothing: the mesh's own `mean_volume()`.
+std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, const RunContext& context = {},
+                                  std::optional<double> average_volume = {});
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});
+
+/// The sum of the cells' `volume` for each layer: the same to the bit for layers alone as for the whole mesh.
+/// Parallel; the same for any thread count.
+std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& context = {});
+/// The mean `volume` of that many cells, from the sums of all their layers.
+double mean_volume(std::span<const double> layers, std::size_t cells);
 
 /// The scaled Jacobian of some cells of a mesh of order 1, by their numbers, as `metric_values()` has it to
 /// the bit. On one thread. @pre  out has room for as many.

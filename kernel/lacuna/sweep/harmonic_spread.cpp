@@ -141,9 +141,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Both triangles and the diagonal over a block of 4 · kFours right-hand sides, row-major in the factor's
-/// order. No number depends on how many there are.
-template <int kFours>
+/// Both triangles and the diagonal over a block of right-hand sides, row-major in the factor's order: kPacks
+/// packs of numbers. No number depends on how many there are.
+template <class Pack, int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
 {
@@ -151,77 +151,91 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
     const int* inner = lower.innerIndexPtr();
     const double* value = lower.valuePtr();
     const auto unknowns = static_cast<int>(lower.cols());
-    const auto row = [&](int i) { return reinterpret_cast<Four*>(block) + std::ptrdiff_t{kFours} * i; };
+    const auto row = [&](int i) { return reinterpret_cast<Pack*>(block) + std::ptrdiff_t{kPacks} * i; };
     for (int j = 0; j < unknowns; ++j) {
-        Four known[kFours];
-        for (int k = 0; k < kFours; ++k) known[k] = row(j)[k];
-        for (int p = begin[j]; p < begin[j + 1]; ++p) {
-            Four* below = row(inner[p]);
-            for (int k = 0; k < kFours; ++k) below[k] -= value[p] * known[k];
+        Pack known[kPacks];
+        for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
+        int p = begin[j];
+        const int end = begin[j + 1];
+        // A column often has the next one's entries and that of its own: both go in one way through memory.
+        // What a row loses by each is subtracted in the same order.
+        if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
+            Pack next[kPacks];
+            for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];
+            for (++p; p < end; ++p) {
+                const double low = value[p], high = value[p + (end - begin[j]) - 1];
+                Pack* below = row(inner[p]);
+                for (int k = 0; k < kPacks; ++k) below[k] = below[k] - low * known[k] - high * next[k];
+            }
+            ++j;
+            continue;
+        }
+        for (; p < end; ++p) {
+            const double entry = value[p];
+            Pack* below = row(inner[p]);
+            for (int k = 0; k < kPacks; ++k) below[k] -= entry * known[k];
         }
     }
     for (int j = unknowns - 1; j >= 0; --j) {
-        Four sum[kFours];
-        for (int k = 0; k < kFours; ++k) sum[k] = row(j)[k] / diagonal[j];
+        Pack sum[kPacks];
+        for (int k = 0; k < kPacks; ++k) sum[k] = row(j)[k] / diagonal[j];
         for (int p = begin[j]; p < begin[j + 1]; ++p) {
-            const Four* known = row(inner[p]);
-            for (int k = 0; k < kFours; ++k) sum[k] -= value[p] * known[k];
+            const Pack* known = row(inner[p]);
+            for (int k = 0; k < kPacks; ++k) sum[k] -= value[p] * known[k];
         }
-        for (int k = 0; k < kFours; ++k) row(j)[k] = sum[k];
+        for (int k = 0; k < kPacks; ++k) row(j)[k] = sum[k];
     }
 }
 
 #if defined(LACUNA_WIDER_VECTORS)
-template <int kFours>
+template <int kNumbers>
 [[gnu::target("avx2")]] void substitute_avx2(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                              double* block)
 {
-    substitute_rows<kFours>(lower, diagonal, block);
+    substitute_rows<Four, kNumbers / 4>(lower, diagonal, block);
 }
 #endif
 
-/// With the widest vectors the machine has; the same bits on every machine.
-template <int kFours>
+/// Of rows of `kNumbers`, with the widest vectors the machine has; the same bits on every machine.
+template <int kNumbers>
 void substitute(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd& diagonal,
                 std::vector<double>& block)
 {
+    static_assert(kNumbers % 4 == 0);
 #if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) return substitute_avx2<kFours>(lower, diagonal.data(), block.data());
+    if (has_avx2()) return substitute_avx2<kNumbers>(lower, diagonal.data(), block.data());
 #endif
-    substitute_rows<kFours>(lower, diagonal.data(), block.data());
+    substitute_rows<Two, kNumbers / 2>(lower, diagonal.data(), block.data());
 }
 
 } // namespace
 
+HarmonicSpread::Fields HarmonicSpread::spread(std::span<const Vec3> values) const
+{
+    constexpr std::size_t width = 3 * kFields;
+    Fields fields;
+    fields.place_ = place_;
+    fields.rows_.assign(static_cast<std::size_t>(lower_.cols()) * width + 1, 0.0);
+    for (const RimSide& side : rim_sides_) {
+        double* row = &fields.rows_[static_cast<std::size_t>(side.row) * width];
+        for (std::size_t at = index(side.fixed); at < values.size(); at += fixed_count_, row += 3)
+            for (int k = 0; k < 3; ++k) row[k] += side.weight * values[at][k];
+    }
+    substitute<static_cast<int>(width)>(lower_, diagonal_, fields.rows_);
+    return fields;
+}
+
 void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
                          const RunContext& context) const
 {
-    const auto unknowns = static_cast<std::size_t>(lower_.cols());
-    if (unknowns == 0) return;
-    constexpr std::size_t fields_at_once = kFields;
-    constexpr std::size_t width = 3 * fields_at_once;
-    static_assert(width % 4 == 0);
-    const std::size_t blocks = (fields + fields_at_once - 1) / fields_at_once;
-    parallel_for(context, blocks, 1, [&](std::size_t first_block, std::size_t last_block) {
-        std::vector<double> block;
-        for (std::size_t b = first_block; b < last_block; ++b) {
-            const std::size_t first = b * fields_at_once;
-            const std::size_t count = std::min(fields_at_once, fields - first);
-            block.assign(unknowns * width, 0.0);
-            for (const RimSide& side : rim_sides_) {
-                double* row = block.data() + static_cast<std::size_t>(side.row) * width;
-                for (std::size_t f = 0; f < count; ++f) {
-                    const Vec3& value =
-                        values[(first + f) * fixed_count_ + static_cast<std::size_t>(side.fixed)];
-                    for (int k = 0; k < 3; ++k)
-                        row[3 * f + static_cast<std::size_t>(k)] += side.weight * value[k];
-                }
-            }
-            substitute<static_cast<int>(width / 4)>(lower_, diagonal_, block);
+    constexpr std::size_t at_once = kFields;
+    parallel_for(context, (fields + at_once - 1) / at_once, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin * at_once; first < std::min(end * at_once, fields); first += at_once) {
+            const std::size_t count = std::min(at_once, fields - first);
+            const Fields spread_fields = spread(values.subspan(first * fixed_count_, count * fixed_count_));
             for (std::size_t i = 0; i < place_.size(); ++i) {
-                if (place_[i] < 0) continue;
-                const double* row = block.data() + static_cast<std::size_t>(place_[i]) * width;
-                for (std::size_t f = 0; f < count; ++f)
+                const double* row = spread_fields.of(i);
+                for (std::size_t f = 0; row != nullptr && f < count; ++f)
                     out[(first + f) * stride + i] += Eigen::Map<const Vec3>(row + 3 * f);
             }
         }
@@ -236,7 +250,7 @@ void HarmonicSpread::solve(std::span<Vec3> load) const
         if (place_[i] < 0) continue;
         for (int k = 0; k < 3; ++k) block[static_cast<std::size_t>(width * place_[i] + k)] = load[i][k];
     }
-    substitute<width / 4>(lower_, diagonal_, block);
+    substitute<width>(lower_, diagonal_, block);
     for (std::size_t i = 0; i < place_.size(); ++i) {
         const double* row = block.data() + static_cast<std::size_t>(width * std::max(place_[i], Index{0}));
         load[i] = place_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(row[0], row[1], row[2]);

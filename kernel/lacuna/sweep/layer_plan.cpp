@@ -3,6 +3,7 @@
 
 #include <lacuna/quality/layered.h>
 #include <lacuna/sweep/detail/layer_placer.h>
+#include <lacuna/sweep/detail/middle_placer.h>
 
 #include <algorithm>
 #include <memory>
@@ -67,14 +68,62 @@ mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<co
     return laid;
 }
 
+/// The cells of a plan, without nodes.
+mesh::HexMesh cells_of(const LayerPlan& plan)
+{
+    mesh::HexMesh mesh;
+    mesh.nodes_per_layer = static_cast<Index>(plan.source.nodes.size());
+    mesh.layers = plan.columns.layers;
+    mesh.quads = plan.source.quads;
+    if (!plan.middles) return mesh;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        mesh.rim.push_back({side.from, side.to});
+    mesh.middles = middles_of(plan, mesh);
+    return mesh;
+}
+
+/// What the middle nodes of a plan are placed by.
+struct Curved {
+    std::shared_ptr<const LayerPlan> plan;
+    mesh::LayeredNodes corners;
+    mesh::HexMesh mesh;
+    MiddlePlacer placer;
+
+    Curved(std::shared_ptr<const LayerPlan> own, mesh::LayeredNodes nodes, const RunContext& context)
+        : plan(std::move(own)),
+          corners(std::move(nodes)),
+          mesh(cells_of(*plan)),
+          placer({mesh, &corners}, plan->middles->skin, context)
+    {
+    }
+    Curved(const Curved&) = delete;
+    Curved& operator=(const Curved&) = delete;
+
+    [[nodiscard]] Vec3 on_skin(Index node) const
+    {
+        const std::size_t all = mesh::corner_count(mesh);
+        return index(node) < all ? corners.on_skin(node) : placer.on_skin(index(node) - all);
+    }
+};
+
+/// Nodes with those in the middle that the plan has.
+mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan,
+                                const RunContext& context)
+{
+    if (!plan->middles) return nodes;
+    const auto curved = std::make_shared<const Curved>(plan, nodes, context);
+    nodes.on_skin = [curved](Index node) { return curved->on_skin(node); };
+    nodes.place_middles = [curved](int first, int last, std::span<Vec3> out, const RunContext& own) {
+        curved->placer.place(first, last, out, own);
+    };
+    return nodes;
+}
+
 /// What each of a team does.
 LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
                           const RunContext& context)
 {
-    mesh::HexMesh mesh;
-    mesh.nodes_per_layer = static_cast<Index>(layers.plan->source.nodes.size());
-    mesh.layers = layers.plan->columns.layers;
-    mesh.quads = layers.plan->source.quads;
+    const mesh::HexMesh mesh = cells_of(*layers.plan);
     const mesh::LayeredMesh layered{mesh, layers.nodes};
     LayersFound found;
     quality::MeasuredLayers measured = quality::measure(layered, context, team);
@@ -98,7 +147,7 @@ PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunConte
         placed->placer.place(first, last, out, own);
     };
     result.nodes.on_skin = [placed](Index node) { return placed->on_skin(node); };
-    result.nodes = laid_nodes(std::move(result.nodes), result.plan);
+    result.nodes = curved_nodes(laid_nodes(std::move(result.nodes), result.plan), result.plan, context);
     return result;
 }
 
@@ -111,6 +160,20 @@ PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> 
     return layers;
 }
 
+PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context)
+{
+    auto plan = std::make_shared<LayerPlan>(*layers.plan);
+    plan->middles = std::move(middles);
+    layers.plan = std::move(plan);
+    layers.nodes = curved_nodes(std::move(layers.nodes), layers.plan, context);
+    return layers;
+}
+
+mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells)
+{
+    return plan.middles ? mesh::number_sides(cells, plan.middles->full) : mesh::MiddleNodes{};
+}
+
 void put(Writer& writer, const LayerPlan& plan)
 {
     auto straight = static_cast<std::int8_t>(plan.options.straight_lines),
@@ -120,6 +183,8 @@ void put(Writer& writer, const LayerPlan& plan)
     std::vector<Vec3> places;
     for (const auto& [node, place] : plan.laid) laid.push_back(node), places.push_back(place);
     writer(laid), writer(places);
+    writer(static_cast<std::int8_t>(!plan.middles ? 0 : plan.middles->full ? 2 : 1));
+    if (plan.middles) writer(plan.middles->skin);
 }
 
 void put(Reader& reader, LayerPlan& plan)
@@ -131,6 +196,9 @@ void put(Reader& reader, LayerPlan& plan)
     reader(laid), reader(places);
     if (laid.size() != places.size()) throw ProtocolError("a plan lays nodes elsewhere and says not where");
     for (std::size_t i = 0; i < laid.size(); ++i) plan.laid.emplace_back(laid[i], places[i]);
+    std::int8_t middles = 0; // 1: hex20, 2: hex27
+    reader(middles);
+    if (middles != 0) reader(plan.middles.emplace().skin), plan.middles->full = middles == 2;
     plan.options.straight_lines = straight != 0;
     plan.options.spread_residual = spread != 0;
 }

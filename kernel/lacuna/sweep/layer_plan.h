@@ -18,6 +18,12 @@
 
 namespace lacuna::sweep {
 
+/// What the middle nodes of layers are placed by, beside the corners.
+struct MiddlePlan {
+    bool full = false;      ///< hex27; else hex20
+    std::vector<Vec3> skin; ///< those of the skin, in an order of this folder's own
+};
+
 /// All that the layers of a mesh are placed by: as large as the source and the rims of the walls.
 struct LayerPlan {
     mesh::QuadMesh source; ///< without labels of its quads
@@ -26,7 +32,12 @@ struct LayerPlan {
     PlacementOptions options;
     /// Nodes of the skin that are laid elsewhere once all are placed, rising.
     std::vector<std::pair<Index, Vec3>> laid{};
+    std::optional<MiddlePlan> middles{}; ///< of order 2
 };
+
+/// The numbers of a plan's middle nodes, which are not held; empty: it is of order 1.
+/// @param cells  quads, rim and layers of the plan's mesh
+mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 
 /// The layers of `place_layers()` to be made when they are asked for, and its report.
 struct PlacedLayers {
@@ -40,7 +51,11 @@ struct PlacedLayers {
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
 /// The same layers with nodes of the skin laid elsewhere. @param laid  rising
+/// @pre  they have no middle nodes yet, which would follow.
 PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
+
+/// The same layers with middle nodes.
+PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
 
 /// A plan for other processes, whole and within a message.
 void put(Writer& writer, const LayerPlan& plan);

@@ -146,62 +146,52 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
 
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
 {
-    const std::size_t nodes = source_.nodes.size();
+    const std::size_t nodes = source_.nodes.size(), rim = columns_.rim.size();
     const auto at = [&](int l) { return out.data() + static_cast<std::size_t>(l - first) * nodes; };
-    // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
-    constexpr std::size_t kChunk = 512;
-    const auto move = [&](int low, int high, std::size_t begin, std::size_t end) {
-        for (int l = low; l < high; ++l) {
-            Vec3* layer = at(l);
-            if (l == 0) {
-                std::copy(source_.nodes.begin() + static_cast<std::ptrdiff_t>(begin),
-                          source_.nodes.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
-            } else if (l == columns_.layers) {
-                std::copy(target_.begin() + static_cast<std::ptrdiff_t>(begin),
-                          target_.begin() + static_cast<std::ptrdiff_t>(end), layer + begin);
-            } else {
-                const LayerMap map = maps_[static_cast<std::size_t>(l - 1)];
-                for (std::size_t i = begin; i < end; ++i) {
-                    layer[i] = map.from_source * source_.nodes[i] + map.from_target * target_[i] + map.shift;
-                }
-            }
-        }
-    };
-    const auto finish = [&](int low, int high, const RunContext& own) {
-        const std::size_t rim = columns_.rim.size();
-        const int low_inner = std::max(low, 1), high_inner = std::min(high, columns_.layers);
-        if (spread_ && low_inner < high_inner) {
-            const auto count = static_cast<std::size_t>(high_inner - low_inner);
-            const std::span<const Vec3> values{
-                residuals_.data() + static_cast<std::size_t>(low_inner - 1) * rim, count * rim};
-            spread_->add(values, count, at(low_inner), nodes, own);
-        }
-        for (int l = low; l < high; ++l) {
-            const std::span<const Vec3> row = columns_.row(l);
-            Vec3* layer = at(l);
-            for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
-        }
-    };
-    const int groups = (last - first + HarmonicSpread::kFields - 1) / HarmonicSpread::kFields;
-    if (!spread_ || groups < thread_count(context)) {
-        parallel_for(context, nodes, kChunk,
-                     [&](std::size_t begin, std::size_t end) { move(first, last, begin, end); });
-        finish(first, last, context);
-        return;
-    }
-    // Layers whose residuals are solved for together are moved just before, and are near by then still.
-    RunContext alone;
-    alone.threads = 1;
-    alone.cancel = context.cancel;
-    parallel_for(context, static_cast<std::size_t>(groups), 1, [&](std::size_t begin, std::size_t end) {
+    if (first == 0) std::copy(source_.nodes.begin(), source_.nodes.end(), at(0));
+    if (last == columns_.layers + 1) std::copy(target_.begin(), target_.end(), at(columns_.layers));
+    const int low_inner = std::max(first, 1), high_inner = std::min(last, columns_.layers);
+    constexpr int kGroup = HarmonicSpread::kFields;
+    const int groups = std::max(0, (high_inner - low_inner + kGroup - 1) / kGroup);
+    const auto each_group = [&](std::size_t begin, std::size_t end, const auto& visit) {
         for (auto group = static_cast<int>(begin); group < static_cast<int>(end); ++group) {
-            const int low = first + group * HarmonicSpread::kFields;
-            const int high = std::min(low + HarmonicSpread::kFields, last);
-            for (std::size_t node = 0; node < nodes; node += kChunk)
-                move(low, high, node, std::min(node + kChunk, nodes));
-            finish(low, high, alone);
+            const int low = low_inner + group * kGroup;
+            const auto count = static_cast<std::size_t>(std::min(kGroup, high_inner - low));
+            visit(at(low), static_cast<std::size_t>(low - 1), count);
         }
-    });
+    };
+    const auto map = [&](Vec3* layer, std::size_t i, std::size_t count, std::size_t begin, std::size_t end,
+                         const HarmonicSpread::Fields* residuals) {
+        map_nodes(std::span(maps_).subspan(i, count), source_.nodes.data(), target_.data(), begin, end,
+                  residuals, layer, nodes);
+    };
+    if (spread_) {
+        parallel_for(context, static_cast<std::size_t>(groups), 1, [&](std::size_t begin, std::size_t end) {
+            each_group(begin, end, [&](Vec3* layer, std::size_t i, std::size_t count) {
+                const HarmonicSpread::Fields residuals = spread_->spread(
+                    std::span(residuals_).subspan(i * rim, count * rim));
+                map(layer, i, count, 0, nodes, &residuals);
+            });
+        });
+    } else {
+        // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
+        constexpr std::size_t kChunk = 512;
+        parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
+            each_group(0, static_cast<std::size_t>(groups),
+                       [&](Vec3* layer, std::size_t i, std::size_t count) {
+                           map(layer, i, count, begin, end, nullptr);
+                       });
+        });
+    }
+    constexpr std::size_t kRows = 16; // of the rim, that are worth a thread: a choice
+    parallel_for(context, static_cast<std::size_t>(last - first), kRows,
+                 [&](std::size_t begin, std::size_t end) {
+                     for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
+                         const std::span<const Vec3> row = columns_.row(l);
+                         Vec3* layer = at(l);
+                         for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+                     }
+                 });
 }
 
 std::string LayerPlacer::report() const

@@ -133,38 +133,44 @@ std::vector<Vec3> LevelBlend::beyond(const Vec3* nodes, const std::vector<std::u
     return rest;
 }
 
-Vec3 column_bend(const mesh::HexMesh& mesh, Index node, int layer)
+ColumnWindow column_window(int layers, int layer)
+{
+    const int count = std::min(ColumnWindow::kMost, layers + 1);
+    return {std::clamp(layer - 1, 0, layers + 1 - count), count};
+}
+
+Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
 {
     constexpr double kMost = 0.2; // of the side: past a quarter cells turn over
-    constexpr int kPoints = 4;
-    const int count = std::min(kPoints, mesh.layers + 1);
-    const int first = std::clamp(layer - 1, 0, mesh.layers + 1 - count);
-    const auto at = [&](int level) -> const Vec3& {
-        return mesh.nodes[static_cast<std::size_t>(level) * index(mesh.nodes_per_layer) + index(node)];
-    };
-    std::array<double, kPoints> t{};
-    for (int i = 1; i < count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        t[k] = t[k - 1] + (at(first + i) - at(first + i - 1)).norm();
-    }
-    const auto low = static_cast<std::size_t>(layer - first);
-    const Vec3 middle = (at(layer) + at(layer + 1)) / 2;
+    const std::size_t count = column.size();
+    std::array<double, ColumnWindow::kMost> t{};
+    for (std::size_t i = 1; i < count; ++i) t[i] = t[i - 1] + (column[i] - column[i - 1]).norm();
+    if (count < 3) return Vec3::Zero();
+    const Vec3 middle = (column[low] + column[low + 1]) / 2;
     const double length = t[low + 1] - t[low];
-    if (count < 3 || !(length > 0)) return Vec3::Zero();
+    if (!(length > 0)) return Vec3::Zero();
     const double s = (t[low] + t[low + 1]) / 2;
     Vec3 bend = Vec3::Zero();
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         double weight = 1;
-        for (int j = 0; j < count; ++j) {
-            const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        for (std::size_t j = 0; j < count; ++j) {
             if (i == j) continue;
-            if (!(t[a] != t[b])) return Vec3::Zero();
-            weight *= (s - t[b]) / (t[a] - t[b]);
+            if (!(t[i] != t[j])) return Vec3::Zero();
+            weight *= (s - t[j]) / (t[i] - t[j]);
         }
-        bend += weight * (at(first + i) - middle); // weights add up to 1
+        bend += weight * (column[i] - middle); // weights add up to 1
     }
     const double size = bend.norm();
     return size > kMost * length ? Vec3(bend * (kMost * length / size)) : bend;
+}
+
+Vec3 rim_bend(const mesh::SkinNodes& corners, Index node, int layer)
+{
+    const auto [first, count] = column_window(corners.mesh.layers, layer);
+    std::array<Vec3, ColumnWindow::kMost> column;
+    for (int i = 0; i < count; ++i)
+        column[index(i)] = corners[(first + i) * corners.mesh.nodes_per_layer + node];
+    return column_bend(std::span(column).first(index(count)), index(layer - first));
 }
 
 } // namespace lacuna::sweep

@@ -40,7 +40,7 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
         for (std::size_t k = 0; k < 4; ++k) {
             const Index a = nodes.node[k], b = nodes.node[(k + 1) % 4];
             all.push_back(
-                {index(nodes.node[4 + k]) - mesh.nodes.size(), std::min(a, b), std::max(a, b), patch, -1});
+                {index(nodes.node[4 + k]) - corner_count(mesh), std::min(a, b), std::max(a, b), patch, -1});
         }
     }
     std::stable_sort(all.begin(), all.end(),
@@ -160,48 +160,56 @@ bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quad
 
 class SkinPlacer {
 public:
-    SkinPlacer(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-               const LevelBlend& blend, const SecondOrderOptions& options, MiddleStates& states,
-               const RunContext& context)
+    SkinPlacer(const OpenVolume& volume, const mesh::SkinNodes& corners, const std::vector<FaceId>& faces,
+               const SecondOrderOptions& options, const RunContext& context)
         : model_(volume.model),
-          mesh_(mesh),
-          places_(mesh),
+          mesh_(corners.mesh),
+          corners_(corners),
+          places_(corners.mesh),
           faces_(faces),
-          blend_(blend),
           options_(options),
-          states_(states),
           context_(context),
-          sides_(skin_sides(mesh))
+          sides_(skin_sides(corners.mesh)),
+          skin_(corners.mesh)
     {
     }
 
-    SkinCounts place()
+    PlacedSkin place()
     {
-        for (const SkinSide& side : sides_) states_[side.place] = Middle::open;
+        for (const SkinSide& side : sides_) middle(side) = straight(side);
         take_given();
         place_on_edges();
         keep_straight();
-        for (const int level : {0, mesh_.layers}) blend_end(level);
+        const LevelBlend blend(mesh_);
+        for (const int level : {0, mesh_.layers}) blend_end(level, blend);
         project(true);
         blend_rows();
         bend_columns();
         project(false);
         for (const SkinSide& side : sides_)
-            if (states_[side.place] == Middle::open) states_[side.place] = Middle::loose;
-        return counts_;
+            if (skin_.state(side.place) == Middle::open) skin_.set(side.place, Middle::loose);
+        if (mesh_.middles.full) place_centres();
+        return {std::move(skin_), counts_};
     }
 
 private:
     [[nodiscard]] FaceId face(Index patch) const { return faces_[index(patch)]; }
-    [[nodiscard]] Vec3& middle(const SkinSide& side) { return mesh_.middles.nodes[side.place]; }
+    [[nodiscard]] Vec3& middle(const SkinSide& side) { return skin_.node(side.place); }
+    [[nodiscard]] Vec3 straight(const SkinSide& side) const
+    {
+        return (corners_[side.from] + corners_[side.to]) / 2;
+    }
+    [[nodiscard]] double length(const SkinSide& side) const
+    {
+        return (corners_[side.to] - corners_[side.from]).norm();
+    }
     /// Where rounding alone is between a place and the straight side's, the side is straight to the bit.
     void settle(const SkinSide& side, const Vec3& at)
     {
         constexpr double kRounding = 1e-12; // of the side
-        const Vec3 &a = mesh_.nodes[index(side.from)], &b = mesh_.nodes[index(side.to)];
-        const Vec3 straight = (a + b) / 2;
-        middle(side) = (at - straight).norm() < kRounding * (b - a).norm() ? straight : at;
-        states_[side.place] = Middle::settled;
+        const Vec3 between = straight(side);
+        middle(side) = (at - between).norm() < kRounding * length(side) ? between : at;
+        skin_.set(side.place, Middle::settled);
     }
 
     void take_given()
@@ -214,14 +222,14 @@ private:
                 !model_[face(side.other)].keeps_nodes)
                 continue;
             asked.push_back(&side);
-            from.push_back(mesh_.nodes[index(side.from)]);
-            to.push_back(mesh_.nodes[index(side.to)]);
+            from.push_back(corners_[side.from]);
+            to.push_back(corners_[side.to]);
         }
         const std::vector<Vec3> given = options_.given(from, to);
         for (std::size_t i = 0; i < asked.size(); ++i) {
             if (!given[i].allFinite()) continue;
             middle(*asked[i]) = given[i];
-            states_[asked[i]->place] = Middle::settled;
+            skin_.set(asked[i]->place, Middle::settled);
             ++counts_.given;
         }
     }
@@ -231,9 +239,9 @@ private:
         EdgeFinder finder(model_);
         std::map<EdgeId, std::vector<std::pair<double, const SkinSide*>>> on_edge;
         for (const SkinSide& side : sides_) {
-            if (states_[side.place] != Middle::open || face(side.patch) == face(side.other)) continue;
-            const auto found = finder.half_way(face(side.patch), face(side.other),
-                                               mesh_.nodes[index(side.from)], mesh_.nodes[index(side.to)]);
+            if (skin_.state(side.place) != Middle::open || face(side.patch) == face(side.other)) continue;
+            const auto found = finder.half_way(face(side.patch), face(side.other), corners_[side.from],
+                                               corners_[side.to]);
             if (found) on_edge[found->edge].emplace_back(found->fraction, &side);
         }
         for (const auto& [edge, members] : on_edge) { // one call an edge: exact curves work in bulk
@@ -250,23 +258,25 @@ private:
     void keep_straight()
     {
         for (const SkinSide& side : sides_)
-            if (states_[side.place] == Middle::open &&
+            if (skin_.state(side.place) == Middle::open &&
                 (keeps_quads(model_[face(side.patch)]) || keeps_quads(model_[face(side.other)])))
-                states_[side.place] = Middle::settled;
+                skin_.set(side.place, Middle::settled);
     }
 
-    [[nodiscard]] const Vec3* level(int l) const
+    /// A corner by its level and its node of the source.
+    [[nodiscard]] Vec3 corner(int level, Index node) const
     {
-        return mesh_.nodes.data() + static_cast<std::size_t>(l) * index(mesh_.nodes_per_layer);
+        return corners_[level * mesh_.nodes_per_layer + node];
     }
 
-    void blend_end(int l)
+    void blend_end(int l, const LevelBlend& blend)
     {
         const std::size_t count = mesh_.middles.sides.size();
         std::vector<std::uint8_t> known(count, 0);
         std::vector<Vec3> bends(count, Vec3::Zero());
-        const Vec3* nodes = level(l);
-        const auto straight = [&](std::size_t s) {
+        std::vector<Vec3> nodes(index(mesh_.nodes_per_layer));
+        for (Index n = 0; n < mesh_.nodes_per_layer; ++n) nodes[index(n)] = corner(l, n);
+        const auto between = [&](std::size_t s) {
             const Segment& side = mesh_.middles.sides[s];
             return Vec3((nodes[index(side[0])] + nodes[index(side[1])]) / 2);
         };
@@ -274,16 +284,16 @@ private:
             return places_.side(static_cast<std::size_t>(l), static_cast<Index>(s));
         };
         for (std::size_t s = 0; s < count; ++s) {
-            known[s] = states_[place(s)] == Middle::settled ? 1 : 0;
+            known[s] = skin_.state(place(s)) == Middle::settled ? 1 : 0;
             if (known[s] == 0) continue;
-            bends[s] = mesh_.middles.nodes[place(s)] - straight(s);
+            bends[s] = skin_.node(place(s)) - between(s);
             const Segment& side = mesh_.middles.sides[s];
             const double length = (nodes[index(side[1])] - nodes[index(side[0])]).norm();
             if (bends[s].norm() < 1e-9 * length) bends[s].setZero(); // rounding
         }
-        blend_.blend(nodes, known, bends);
+        blend.blend(nodes.data(), known, bends);
         for (std::size_t s = 0; s < count; ++s)
-            if (known[s] == 0) mesh_.middles.nodes[place(s)] = straight(s) + bends[s];
+            if (known[s] == 0) skin_.node(place(s)) = between(s) + bends[s];
     }
 
     /// Sides along the rows of walls: between the rows above and below that are known, in frames that turn
@@ -295,20 +305,18 @@ private:
         for (std::size_t r = 0; r < mesh_.rim.size(); ++r) {
             const Segment& side = mesh_.rim[r];
             const auto place = [&](std::size_t l) { return places_.side(l, mesh_.middles.rim_side[r]); };
-            const auto node = [&](std::size_t l, std::size_t end) -> const Vec3& {
-                return level(static_cast<int>(l))[side[end]];
+            const auto node = [&](std::size_t l, std::size_t end) {
+                return corner(static_cast<int>(l), side[end]);
             };
             for (std::size_t l = 0; l < levels; ++l) at[l] = (node(l, 0) + node(l, 1)) / 2;
             const auto frame = [&](std::size_t l) {
                 return SideFrame(node(l, 0), node(l, 1),
                                  at[std::min(l + 1, levels - 1)] - at[l - (l > 0 ? 1 : 0)]);
             };
-            const auto bend = [&](std::size_t l) {
-                return frame(l).local(mesh_.middles.nodes[place(l)] - at[l]);
-            };
+            const auto bend = [&](std::size_t l) { return frame(l).local(skin_.node(place(l)) - at[l]); };
             for (std::size_t low = 0; low + 1 < levels;) {
                 std::size_t high = low + 1;
-                while (high + 1 < levels && states_[place(high)] == Middle::open) ++high;
+                while (high + 1 < levels && skin_.state(place(high)) == Middle::open) ++high;
                 if (high == low + 1) {
                     low = high;
                     continue;
@@ -320,7 +328,7 @@ private:
                     for (std::size_t l = low + 1; l < high; ++l) {
                         way += (at[l] - at[l - 1]).norm();
                         const Vec3 between = (1 - way / whole) * below + (way / whole) * above;
-                        mesh_.middles.nodes[place(l)] = at[l] + frame(l).world(between);
+                        skin_.node(place(l)) = at[l] + frame(l).world(between);
                     }
                 }
                 low = high;
@@ -333,10 +341,10 @@ private:
         for (int l = 0; l < mesh_.layers; ++l)
             for (const Segment& side : mesh_.rim) {
                 const std::size_t place = places_.upright(static_cast<std::size_t>(l), side[0]);
-                if (states_[place] != Middle::open) continue;
-                const Vec3 bend = column_bend(mesh_, side[0], l);
-                const double length = (level(l + 1)[side[0]] - level(l)[side[0]]).norm();
-                if (bend.norm() > 1e-9 * length) mesh_.middles.nodes[place] += bend;
+                if (skin_.state(place) != Middle::open) continue;
+                const Vec3 bend = rim_bend(corners_, side[0], l);
+                const double length = (corner(l + 1, side[0]) - corner(l, side[0])).norm();
+                if (bend.norm() > 1e-9 * length) skin_.node(place) += bend;
             }
     }
 
@@ -347,7 +355,7 @@ private:
         const std::size_t first_on_walls = places_.upright(0, 0);
         const std::size_t target = places_.side(static_cast<std::size_t>(mesh_.layers), 0);
         for (const SkinSide& side : sides_) {
-            if (states_[side.place] != Middle::open) continue;
+            if (skin_.state(side.place) != Middle::open) continue;
             const bool on_end = side.place < first_on_walls || side.place >= target;
             if (on_end != ends) continue;
             // Of a side between two faces without an edge, the one that has a surface.
@@ -367,7 +375,7 @@ private:
         } else {
             const geometry::FacetTree tree(model_.points, model_[id].triangles);
             for (const SkinSide* side : members) {
-                const Vec3 &a = mesh_.nodes[index(side->from)], &b = mesh_.nodes[index(side->to)];
+                const Vec3 a = corners_[side->from], b = corners_[side->to];
                 const double near = kOn * (b - a).norm();
                 const auto on = [&](const Vec3& p) { return tree.closest(p, near * near).triangle >= 0; };
                 if (on(a) && on(b)) sides.push_back(side);
@@ -381,106 +389,84 @@ private:
         (exact ? counts_.exact : counts_.facets) += sides.size();
     }
 
+    /// Middles that are given of the skin's quads; not a number where none is.
+    [[nodiscard]] std::vector<Vec3> given_centres() const
+    {
+        std::vector<Vec3> found(mesh_.skin_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        if (!options_.given_centres) return found;
+        std::vector<std::array<Vec3, 4>> corners;
+        std::vector<std::size_t> quads;
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            const mesh::SkinQuad quad = mesh::skin_quad(mesh_, i);
+            if (!options_.given_all_over && !keeps_quads(model_[face(quad.patch)])) continue;
+            quads.push_back(i);
+            std::array<Vec3, 4>& own = corners.emplace_back();
+            for (std::size_t k = 0; k < 4; ++k) own[k] = corners_[quad.nodes[k]];
+        }
+        const std::vector<Vec3> given = options_.given_centres(corners);
+        for (std::size_t i = 0; i < quads.size(); ++i) found[quads[i]] = given[i];
+        return found;
+    }
+
+    /// Put the middles of the skin's quads where they are given, else where those of their sides put them,
+    /// and project these where their faces say so.
+    void place_centres()
+    {
+        const std::vector<Vec3> given = given_centres();
+        std::map<FaceId, std::vector<std::size_t>> of_face;
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            const FaceId face = faces_[index(mesh::skin_quad(mesh_, i).patch)];
+            const mesh::CellNodes nodes = mesh::skin_nodes(mesh_, i);
+            const auto place = [&](std::size_t n) { return index(nodes.node[n]) - corner_count(mesh_); };
+            if (given[i].allFinite()) {
+                skin_.node(place(8)) = given[i];
+                skin_.set(place(8), Middle::settled);
+                ++counts_.given;
+                continue;
+            }
+            std::array<Vec3, 4> sides, corners;
+            for (std::size_t k = 0; k < 4; ++k) {
+                sides[k] = skin_.node(place(4 + k));
+                corners[k] = corners_[nodes.node[k]];
+            }
+            skin_.node(place(8)) = middle_of_quad(sides, corners);
+            skin_.set(place(8), Middle::loose);
+            if (model_[face].surface != nullptr && !keeps_quads(model_[face]))
+                of_face[face].push_back(place(8));
+        }
+        for (const auto& [face, places] : of_face) {
+            check_cancelled(context_);
+            std::vector<Vec3> points;
+            for (const std::size_t place : places) points.push_back(skin_.node(place));
+            surface::Projector(model_, {face}).project(points, context_);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                constexpr double kRounding = 1e-14; // of the model: below it, flat quads stay flat to the bit
+                Vec3& at = skin_.node(places[i]);
+                if ((points[i] - at).norm() > kRounding * model_.diagonal) at = points[i];
+                skin_.set(places[i], Middle::settled);
+            }
+        }
+    }
+
     const Model& model_;
-    mesh::HexMesh& mesh_;
+    const mesh::HexMesh& mesh_;
+    const mesh::SkinNodes& corners_;
     mesh::MiddlePlaces places_;
     const std::vector<FaceId>& faces_;
-    const LevelBlend& blend_;
     const SecondOrderOptions& options_;
-    MiddleStates& states_;
     const RunContext& context_;
     std::vector<SkinSide> sides_;
+    SkinMiddles skin_;
     SkinCounts counts_;
 };
 
 } // namespace
 
-SkinCounts place_skin(const OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                      const LevelBlend& blend, const SecondOrderOptions& options, MiddleStates& states,
+PlacedSkin place_skin(const OpenVolume& volume, const mesh::SkinNodes& corners,
+                      const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context)
 {
-    return SkinPlacer(volume, mesh, faces, blend, options, states, context).place();
-}
-
-namespace {
-
-/// Middles that are given of the skin's quads; not a number where none is.
-std::vector<Vec3> given_centres(const Model& model, const mesh::HexMesh& mesh,
-                                const std::vector<FaceId>& faces, const SecondOrderOptions& options)
-{
-    std::vector<Vec3> found(mesh.skin_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-    if (!options.given_centres) return found;
-    std::vector<std::array<Vec3, 4>> corners;
-    std::vector<std::size_t> quads;
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
-        if (!options.given_all_over && !keeps_quads(model[faces[index(quad.patch)]])) continue;
-        quads.push_back(i);
-        std::array<Vec3, 4>& own = corners.emplace_back();
-        for (std::size_t k = 0; k < 4; ++k) own[k] = mesh.nodes[index(quad.nodes[k])];
-    }
-    const std::vector<Vec3> given = options.given_centres(corners);
-    for (std::size_t i = 0; i < quads.size(); ++i) found[quads[i]] = given[i];
-    return found;
-}
-
-} // namespace
-
-std::size_t place_skin_centres(const OpenVolume& volume, mesh::HexMesh& mesh,
-                               const std::vector<FaceId>& faces, const SecondOrderOptions& options,
-                               MiddleStates& states, const RunContext& context)
-{
-    const std::vector<Vec3> given = given_centres(volume.model, mesh, faces, options);
-    std::size_t count = 0;
-    std::map<FaceId, std::vector<std::size_t>> of_face;
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const FaceId face = faces[index(mesh::skin_quad(mesh, i).patch)];
-        const std::size_t place = index(mesh::skin_nodes(mesh, i).node[8]) - mesh.nodes.size();
-        states[place] = Middle::loose;
-        if (given[i].allFinite()) {
-            mesh.middles.nodes[place] = given[i];
-            states[place] = Middle::settled;
-            ++count;
-            continue;
-        }
-        if (volume.model[face].surface != nullptr && !keeps_quads(volume.model[face]))
-            of_face[face].push_back(place);
-    }
-    for (const auto& [face, places] : of_face) {
-        check_cancelled(context);
-        std::vector<Vec3> points;
-        for (const std::size_t place : places) points.push_back(mesh.middles.nodes[place]);
-        surface::Projector(volume.model, {face}).project(points, context);
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            constexpr double kRounding = 1e-14; // of the model: below it, flat quads stay flat to the bit
-            Vec3& at = mesh.middles.nodes[places[i]];
-            if ((points[i] - at).norm() > kRounding * volume.model.diagonal) at = points[i];
-            states[places[i]] = Middle::settled;
-        }
-    }
-    return count;
-}
-
-void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell)
-{
-    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
-    const auto at = [&](std::size_t n) -> const Vec3& { return mesh.node(index(nodes.node[n])); };
-    const auto place = [&](std::size_t n) { return index(nodes.node[n]) - mesh.nodes.size(); };
-    Vec3 faces = Vec3::Zero(), edges = Vec3::Zero(), corners = Vec3::Zero();
-    for (std::size_t f = 0; f < 6; ++f) {
-        if (states[place(20 + f)] != Middle::settled) {
-            Vec3 middle = Vec3::Zero(), corner = Vec3::Zero();
-            for (std::size_t k = 0; k < 4; ++k) {
-                middle += at(8 + index(mesh::kHexFaceEdges[f][k]));
-                corner += at(index(mesh::kHexFaces[f][k]));
-            }
-            mesh.middles.nodes[place(20 + f)] = middle / 2 - corner / 4;
-        }
-        faces += at(20 + f);
-    }
-    for (std::size_t e = 0; e < 12; ++e) edges += at(8 + e);
-    for (std::size_t c = 0; c < 8; ++c) corners += at(c);
-    mesh.middles.nodes[place(26)] = faces / 2 - edges / 4 + corners / 8;
+    return SkinPlacer(volume, corners, faces, options, context).place();
 }
 
 } // namespace lacuna::sweep

@@ -20,11 +20,36 @@ constexpr int kRounds = 4;
 constexpr int kSteps = 4;
 constexpr double kFirstStep = 0.1;
 
+/// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
+void place_centres(mesh::HexMesh& mesh, const SkinMiddles& skin, std::size_t cell)
+{
+    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
+    const auto at = [&](std::size_t n) -> const Vec3& { return mesh.node(index(nodes.node[n])); };
+    const auto place = [&](std::size_t n) { return index(nodes.node[n]) - mesh.nodes.size(); };
+    std::array<Vec3, 6> faces;
+    std::array<Vec3, 12> edges;
+    std::array<Vec3, 8> corners;
+    for (std::size_t e = 0; e < edges.size(); ++e) edges[e] = at(8 + e);
+    for (std::size_t c = 0; c < corners.size(); ++c) corners[c] = at(c);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (skin.state(place(20 + f)) != Middle::settled) {
+            std::array<Vec3, 4> middle, corner;
+            for (std::size_t k = 0; k < 4; ++k) {
+                middle[k] = edges[index(mesh::kHexFaceEdges[f][k])];
+                corner[k] = corners[index(mesh::kHexFaces[f][k])];
+            }
+            mesh.middles.nodes[place(20 + f)] = middle_of_quad(middle, corner);
+        }
+        faces[f] = at(20 + f);
+    }
+    mesh.middles.nodes[place(26)] = middle_of_cell(faces, edges, corners);
+}
+
 class Repair {
 public:
-    Repair(mesh::HexMesh& mesh, const MiddleStates& states)
+    Repair(mesh::HexMesh& mesh, const SkinMiddles& skin)
         : mesh_(mesh),
-          states_(states),
+          skin_(skin),
           at_node_(mesh::quads_at_nodes(mesh.quads, index(mesh.nodes_per_layer))),
           at_side_(mesh::incidence(mesh.middles.sides.size(), [&](const auto& visit) {
               for (std::size_t q = 0; q < mesh.quads.size(); ++q)
@@ -38,7 +63,7 @@ public:
         for (std::size_t e = 0; e < 12; ++e) {
             const mesh::CellNodes nodes = mesh::cell_nodes(mesh_, cell);
             const std::size_t place = index(nodes.node[8 + e]) - mesh_.nodes.size();
-            if (states_[place] == Middle::settled) continue;
+            if (skin_.state(place) == Middle::settled) continue;
             improve(place, cells_round(cell, e), mesh_.node(index(nodes.node[index(mesh::kHexEdges[e][0])])),
                     mesh_.node(index(nodes.node[index(mesh::kHexEdges[e][1])])));
         }
@@ -67,7 +92,7 @@ private:
     {
         double least = 1;
         for (const std::size_t cell : cells) {
-            if (mesh_.middles.full) place_centres(mesh_, states_, cell);
+            if (mesh_.middles.full) place_centres(mesh_, skin_, cell);
             const quality::CurvedCell judged = quality::judge(quality::hex27_of(mesh_, cell), 0);
             least = std::min(least, judged.volume > 0 ? judged.bound : -1e3 + judged.bound);
         }
@@ -94,13 +119,13 @@ private:
             for (const double share : {0.0, 0.5, 1.5}) offer(straight + share * bend);
         double step = kFirstStep * (b - a).norm();
         // Of the skin, what no geometry holds goes no way but back.
-        for (int i = 0; i < kSteps && states_[place] == Middle::inside; ++i, step /= 2)
+        for (int i = 0; i < kSteps && skin_.state(place) == Middle::inside; ++i, step /= 2)
             for (int d = 0; d < 6; ++d) offer(Vec3(best + (d % 2 == 0 ? step : -step) * Vec3::Unit(d / 2)));
         least(cells); // leaves the centres where they belong
     }
 
     mesh::HexMesh& mesh_;
-    const MiddleStates& states_;
+    const SkinMiddles& skin_;
     mesh::Incidence at_node_, at_side_;
 };
 
@@ -120,14 +145,14 @@ double valid_share(const std::array<Vec3, 27>& nodes)
 
 /// The side of the cell that bends most of those the skin holds.
 [[noreturn]] void refuse(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
-                         const std::vector<FaceId>& faces, const MiddleStates& states, std::size_t cell,
+                         const std::vector<FaceId>& faces, const SkinMiddles& skin, std::size_t cell,
                          std::size_t count)
 {
     const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
     std::optional<std::size_t> worst;
     double most = 0, side = 0;
     for (std::size_t e = 0; e < 12; ++e) {
-        if (states[index(nodes.node[8 + e]) - mesh.nodes.size()] != Middle::settled) continue;
+        if (skin.state(index(nodes.node[8 + e]) - mesh.nodes.size()) != Middle::settled) continue;
         const Vec3 &a = mesh.node(index(nodes.node[index(mesh::kHexEdges[e][0])])),
                    &b = mesh.node(index(nodes.node[index(mesh::kHexEdges[e][1])]));
         const double bend = (mesh.node(index(nodes.node[8 + e])) - (a + b) / 2).norm();
@@ -179,13 +204,13 @@ double valid_share(const std::array<Vec3, 27>& nodes)
 } // namespace
 
 std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                           const std::vector<FaceId>& faces, const MiddleStates& states,
+                           const std::vector<FaceId>& faces, const SkinMiddles& skin,
                            const RunContext& context)
 {
     std::vector<std::size_t> invalid = quality::invalid_cells(mesh, context);
     const std::size_t before = invalid.size();
     if (invalid.empty()) return 0;
-    Repair repair(mesh, states);
+    Repair repair(mesh, skin);
     for (int round = 0; round < kRounds && !invalid.empty(); ++round) {
         for (const std::size_t cell : invalid) {
             check_cancelled(context);
@@ -193,7 +218,7 @@ std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& me
         }
         invalid = quality::invalid_cells(mesh, context);
     }
-    if (!invalid.empty()) refuse(volume, mesh, faces, states, invalid.front(), invalid.size());
+    if (!invalid.empty()) refuse(volume, mesh, faces, skin, invalid.front(), invalid.size());
     return before;
 }
 

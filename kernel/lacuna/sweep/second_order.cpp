@@ -2,295 +2,176 @@
 #include <lacuna/sweep/second_order.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/detail/harmonic_spread.h>
-#include <lacuna/sweep/detail/middle_skin.h>
+#include <lacuna/sweep/detail/middle_placer.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
+#include <utility>
 
 namespace lacuna::sweep {
 
 namespace {
 
-/// Bends below this share of a side are none: what projections leave. Straight cells then stay straight, to
-/// the bit.
-constexpr double kNoBend = 1e-9;
-/// What the columns' cubics leave of the walls' bends is spread over the layers where it is more than this
-/// share of a side; below, cells do not feel it. A choice, not a measurement.
-constexpr double kSpread = 1e-3;
-
-const Vec3* level_nodes(const mesh::HexMesh& mesh, int level)
-{
-    return mesh.nodes.data() + static_cast<std::size_t>(level) * index(mesh.nodes_per_layer);
-}
-
-/// Every middle node of a side in the middle of it.
-void place_straight(mesh::HexMesh& mesh, const RunContext& context)
-{
-    const mesh::MiddlePlaces places(mesh);
-    std::vector<Vec3>& middles = mesh.middles.nodes;
-    const auto levels = static_cast<std::size_t>(mesh.layers) + 1;
-    parallel_for(context, levels, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l) {
-            const Vec3* nodes = level_nodes(mesh, static_cast<int>(l));
-            for (std::size_t s = 0; s < mesh.middles.sides.size(); ++s) {
-                const Segment& side = mesh.middles.sides[s];
-                middles[places.side(l, static_cast<Index>(s))] =
-                    (nodes[index(side[0])] + nodes[index(side[1])]) / 2;
-            }
-            if (l + 1 == levels) break;
-            const Vec3* above = nodes + mesh.nodes_per_layer;
-            for (Index n = 0; n < mesh.nodes_per_layer; ++n)
-                middles[places.upright(l, n)] = (nodes[n] + above[n]) / 2;
-        }
-    });
-}
-
-std::vector<Vec3> bends_of(const mesh::HexMesh& mesh, int level)
-{
-    const mesh::MiddlePlaces places(mesh);
-    const Vec3* nodes = level_nodes(mesh, level);
-    std::vector<Vec3> bends(mesh.middles.sides.size());
-    for (std::size_t s = 0; s < bends.size(); ++s) {
-        const Segment& side = mesh.middles.sides[s];
-        const Vec3 &a = nodes[index(side[0])], &b = nodes[index(side[1])];
-        bends[s] = mesh.middles.nodes[places.side(static_cast<std::size_t>(level), static_cast<Index>(s))] -
-                   (a + b) / 2;
-        if (bends[s].squaredNorm() < kNoBend * kNoBend * (b - a).squaredNorm()) bends[s].setZero();
-    }
-    return bends;
-}
-
-bool any(const std::vector<Vec3>& vectors)
-{
-    return std::any_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return !v.isZero(0); });
-}
-
-/// Share of the way of each level, by the means of its nodes.
-std::vector<double> shares(const mesh::HexMesh& mesh)
-{
-    std::vector<double> share{0};
-    Vec3 before = Vec3::Zero();
-    for (int l = 0; l <= mesh.layers; ++l) {
-        Vec3 mean = Vec3::Zero();
-        const Vec3* nodes = level_nodes(mesh, l);
-        for (Index n = 0; n < mesh.nodes_per_layer; ++n) mean += nodes[n];
-        mean /= mesh.nodes_per_layer;
-        if (l > 0) share.push_back(share.back() + (mean - before).norm());
-        before = mean;
-    }
-    for (double& s : share) s = share.back() > 0 ? s / share.back() : 0;
-    share.back() = 1;
-    return share;
-}
-
-/// The sides on the levels between source and target.
-void place_levels(mesh::HexMesh& mesh, const LevelBlend& blend, const RunContext& context)
-{
-    const mesh::MiddlePlaces places(mesh);
-    std::vector<std::uint8_t> rim(mesh.middles.sides.size(), 0);
-    for (const Index side : mesh.middles.rim_side) rim[index(side)] = 1;
-    const std::vector<Vec3> first = blend.beyond(level_nodes(mesh, 0), rim, bends_of(mesh, 0));
-    const std::vector<Vec3> last = blend.beyond(level_nodes(mesh, mesh.layers), rim,
-                                                bends_of(mesh, mesh.layers));
-    const bool ends = any(first) || any(last);
-    const std::vector<double> share = shares(mesh);
-    parallel_for(context, static_cast<std::size_t>(mesh.layers) - 1, 1,
-                 [&](std::size_t begin, std::size_t end) {
-                     std::vector<Vec3> extra;
-                     for (std::size_t l = begin + 1; l < end + 1; ++l) {
-                         const Vec3* nodes = level_nodes(mesh, static_cast<int>(l));
-                         std::vector<Vec3> bends = bends_of(mesh, static_cast<int>(l)); // inside still none
-                         if (!ends && !any(bends)) continue;
-                         if (ends) {
-                             extra.resize(first.size());
-                             for (std::size_t s = 0; s < extra.size(); ++s)
-                                 extra[s] = (1 - share[l]) * first[s] + share[l] * last[s];
-                         }
-                         blend.blend(nodes, rim, bends, extra);
-                         for (std::size_t s = 0; s < bends.size(); ++s)
-                             if (rim[s] == 0)
-                                 mesh.middles.nodes[places.side(l, static_cast<Index>(s))] += bends[s];
-                     }
-                 });
-}
-
-/// The upright sides inside.
-void place_columns(mesh::HexMesh& mesh, const RunContext& context)
-{
-    const mesh::MiddlePlaces places(mesh);
-    std::vector<Index> rim;
-    for (const Segment& side : mesh.rim) rim.push_back(side[0]);
-    std::vector<std::uint8_t> on_rim(index(mesh.nodes_per_layer), 0);
-    for (const Index n : rim) on_rim[index(n)] = 1;
-    const auto layers = static_cast<std::size_t>(mesh.layers);
-    double most = 0, left = 0; // bend of the rim's columns, and without their cubics, over the side
-    std::vector<Vec3> beyond(layers * rim.size());
-    for (std::size_t l = 0; l < layers; ++l) {
-        const Vec3* nodes = level_nodes(mesh, static_cast<int>(l));
-        for (std::size_t k = 0; k < rim.size(); ++k) {
-            const Vec3 &a = nodes[rim[k]], &b = nodes[rim[k] + mesh.nodes_per_layer];
-            const Vec3 bend = mesh.middles.nodes[places.upright(l, rim[k])] - (a + b) / 2;
-            const double length = (b - a).norm();
-            Vec3& rest = beyond[l * rim.size() + k];
-            rest = bend - column_bend(mesh, rim[k], static_cast<int>(l));
-            most = std::max(most, bend.norm() / length);
-            left = std::max(left, rest.norm() / length);
-        }
-    }
-    if (most < kNoBend) return;
-    parallel_for(context, layers, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l)
-            for (Index n = 0; n < mesh.nodes_per_layer; ++n)
-                if (on_rim[index(n)] == 0)
-                    mesh.middles.nodes[places.upright(l, n)] += column_bend(mesh, n, static_cast<int>(l));
-    });
-    if (left < kSpread) return;
-    const std::span<const Vec3> source(mesh.nodes.data(), index(mesh.nodes_per_layer));
-    const NodeGraph graph = node_graph(mesh.quads, source.size());
-    const HarmonicSpread spread(graph, side_weights(graph, mesh.quads, source), rim, context);
-    const std::size_t stride = places.upright(1, 0) - places.upright(0, 0);
-    spread.add(beyond, layers, &mesh.middles.nodes[places.upright(0, 0)], stride, context);
-}
-
-void place_all_centres(mesh::HexMesh& mesh, const MiddleStates& states, const RunContext& context)
-{
-    // Layer by layer, first the even ones: two layers share the quads between them.
-    const std::size_t quads = mesh.quads.size();
-    for (const std::size_t parity : {0, 1}) {
-        const std::size_t layers = (static_cast<std::size_t>(mesh.layers) + 1 - parity) / 2;
-        parallel_for(context, layers, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                for (std::size_t q = 0; q < quads; ++q)
-                    place_centres(mesh, states, (2 * i + parity) * quads + q);
-        });
-    }
-}
-
+/// Of 20 nodes a cell the other seven take numbers too: the skin is compared by all, see `finer_skin()`.
 void check_amount(const mesh::HexMesh& mesh)
 {
-    const std::size_t all = mesh.nodes.size() + mesh::MiddlePlaces(mesh).count();
+    const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
+    const std::size_t all = (2 * static_cast<std::size_t>(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
-    throw InvalidInput("sweep.too_many",
-                       "a mesh of order 2 would have " + std::to_string(all) +
-                           " nodes, more than can be numbered; ask for a larger 'size' or fewer 'layers'");
+    throw InvalidInput(
+        "sweep.too_many",
+        "a mesh of order 2 would take " + std::to_string(all) +
+            " numbers of nodes, more than there are; ask for a larger 'size' or fewer 'layers'");
+}
+
+/// The quality of a mesh whose nodes are left to be made, and they; none where cells are not valid so.
+Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh, const PlacedSkin& skin,
+                          const Crew* crew, const RunContext& context)
+{
+    constexpr double kNone = std::numeric_limits<double>::infinity(); // misplaced corners were looked for
+    Elevated result;
+    result.layers = with_middles(layers, {mesh.middles.full, skin.middles.nodes()}, context);
+    result.quality = find_in_layers(*result.layers, kNone, crew, context).quality;
+    if (result.quality.uncertified > 0) result.layers.reset();
+    return result;
+}
+
+/// Make the middle nodes, and move those of cells that are not valid. @return  how many cells that were
+std::size_t hold_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
+                         const std::vector<FaceId>& faces, const SkinMiddles& skin, Elevated& result,
+                         const RunContext& context)
+{
+    mesh.middles.nodes.resize(mesh::middle_count(mesh));
+    MiddlePlacer({mesh}, skin.nodes(), context).place(0, mesh.layers, mesh.middles.nodes, context);
+    check_cancelled(context);
+    result.quality = quality::measure(mesh, context);
+    if (result.quality.uncertified == 0) return 0;
+    const std::size_t repaired = repair_middles(volume, mesh, faces, skin, context);
+    result.quality = quality::measure(mesh, context);
+    return repaired;
 }
 
 } // namespace
 
 Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
-                 const SecondOrderOptions& options, const RunContext& context)
+                 const SecondOrderOptions& options, const RunContext& context, const PlacedLayers* layers,
+                 const Crew* crew)
 {
     mesh.middles = mesh::number_sides(mesh, !options.serendipity);
     check_amount(mesh);
-    const mesh::MiddlePlaces places(mesh);
-    mesh.middles.nodes.resize(places.count());
-    MiddleStates states(places.count(), Middle::inside);
-    place_straight(mesh, context);
-    const LevelBlend blend(mesh);
-    SkinCounts counts = place_skin(volume, mesh, faces, blend, options, states, context);
-    check_cancelled(context);
-    if (mesh.layers > 1) place_levels(mesh, blend, context);
-    place_columns(mesh, context);
-    if (mesh.middles.full) {
-        place_all_centres(mesh, states, context);
-        counts.given += place_skin_centres(volume, mesh, faces, options, states, context);
-        place_all_centres(mesh, states, context);
-    }
+    const PlacedSkin skin = place_skin(volume, {mesh, layers != nullptr ? &layers->nodes : nullptr}, faces,
+                                       options, context);
     check_cancelled(context);
     Elevated result;
-    result.quality = quality::measure(mesh, context);
     std::size_t repaired = 0;
-    if (result.quality.uncertified > 0) {
-        repaired = repair_middles(volume, mesh, faces, states, context);
-        result.quality = quality::measure(mesh, context);
+    if (layers != nullptr) {
+        result = leave_to_be_made(*layers, mesh, skin, crew, context);
+        if (!result.layers) {
+            mesh.nodes.resize(mesh::corner_count(mesh));
+            layers->nodes.place(0, mesh.layers + 1, mesh.nodes, context);
+        }
     }
+    if (!result.layers) repaired = hold_middles(volume, mesh, faces, skin.middles, result, context);
     result.report = std::string("order 2: ") + (mesh.middles.full ? "hex27" : "hex20") + ", " +
-                    std::to_string(places.count()) + " middle nodes; of those on the skin " +
-                    std::to_string(counts.exact) + " on exact curves and surfaces, " +
-                    std::to_string(counts.facets) + " on facets, " + std::to_string(counts.given) + " given";
+                    std::to_string(mesh::middle_count(mesh)) + " middle nodes; of those on the skin " +
+                    std::to_string(skin.counts.exact) + " on exact curves and surfaces, " +
+                    std::to_string(skin.counts.facets) + " on facets, " + std::to_string(skin.counts.given) +
+                    " given";
     if (repaired > 0)
         result.report += "; the inner ones of " + std::to_string(repaired) +
                          " cells moved to make them valid";
     return result;
 }
 
-mesh::HexMesh finer_skin(const mesh::HexMesh& mesh)
+namespace {
+
+/// The middle of quad `i` of a skin.
+Vec3 middle_of_skin_quad(const mesh::SkinNodes& skin, std::size_t i)
 {
-    const mesh::MiddlePlaces places(mesh);
-    const auto sides = static_cast<Index>(mesh.middles.sides.size());
-    mesh::HexMesh fine;
-    fine.nodes_per_layer = mesh.nodes_per_layer + sides + static_cast<Index>(mesh.quads.size());
+    const mesh::CellNodes nodes = mesh::skin_nodes(skin.mesh, i);
+    if (nodes.count == 9) return skin[nodes.node[8]];
+    Vec3 middle = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) middle += skin[nodes.node[4 + k]] / 2 - skin[nodes.node[k]] / 4;
+    return middle;
+}
+
+/// Finds a node of the finer skin: on a level the corners, the middles of the sides and of the quads follow
+/// each other, and so do the upright sides, the faces and the cells between two of them.
+class FinerNodes {
+public:
+    explicit FinerNodes(const mesh::SkinNodes& skin)
+        : skin_(skin), places_(skin.mesh), rim_of_(skin.mesh.middles.sides.size(), 0)
+    {
+        for (std::size_t r = 0; r < skin.mesh.rim.size(); ++r)
+            rim_of_[index(skin.mesh.middles.rim_side[r])] = r;
+    }
+
+    [[nodiscard]] Index row() const
+    {
+        return skin_.mesh.nodes_per_layer + sides() + static_cast<Index>(skin_.mesh.quads.size());
+    }
+    [[nodiscard]] Vec3 operator()(Index node) const
+    {
+        const mesh::HexMesh& mesh = skin_.mesh;
+        const Index at = node % row(), side = at - mesh.nodes_per_layer;
+        const bool between = node / row() % 2 == 1;
+        const std::size_t level = index(node / row() / 2);
+        if (side < 0)
+            return between ? middle(places_.upright(level, at))
+                           : skin_[static_cast<Index>(level) * mesh.nodes_per_layer + at];
+        const std::size_t quads = mesh.quads.size();
+        if (side < sides())
+            return between ? middle_of_skin_quad(skin_,
+                                                 2 * quads + level * mesh.rim.size() + rim_of_[index(side)])
+                           : middle(places_.side(level, side));
+        return middle_of_skin_quad(skin_, index(side - sides()) + (level > 0 ? quads : 0));
+    }
+
+private:
+    [[nodiscard]] Index sides() const { return static_cast<Index>(rim_of_.size()); }
+    [[nodiscard]] Vec3 middle(std::size_t place) const
+    {
+        return skin_[static_cast<Index>(mesh::corner_count(skin_.mesh) + place)];
+    }
+
+    mesh::SkinNodes skin_;
+    mesh::MiddlePlaces places_;
+    std::vector<std::size_t> rim_of_; ///< of each side of the source, where it is on the rim
+};
+
+} // namespace
+
+FinerSkin finer_skin(const mesh::SkinNodes& skin)
+{
+    const mesh::HexMesh& mesh = skin.mesh;
+    const FinerNodes nodes(skin);
+    FinerSkin result;
+    mesh::HexMesh& fine = result.mesh;
+    fine.nodes_per_layer = nodes.row();
     fine.layers = 2 * mesh.layers;
     fine.patches = mesh.patches;
-    // The rim's nodes come first on a level, and Eigen leaves new vectors as they are: the pages of what is
-    // inside are never touched and take no memory.
-    std::vector<Index> number(index(fine.nodes_per_layer), -1);
-    Index next_number = 0;
-    for (std::size_t r = 0; r < mesh.rim.size(); ++r) {
-        number[index(mesh.rim[r][0])] = next_number++;
-        number[index(mesh.nodes_per_layer + mesh.middles.rim_side[r])] = next_number++;
-    }
-    for (Index& n : number)
-        if (n < 0) n = next_number++;
-    fine.nodes.resize(index(fine.nodes_per_layer) * (2 * static_cast<std::size_t>(mesh.layers) + 1));
+    const auto middle = [&](Index side) { return mesh.nodes_per_layer + side; };
+    const Index first_centre = middle(static_cast<Index>(mesh.middles.sides.size()));
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-        const Index centre = mesh.nodes_per_layer + sides + static_cast<Index>(q);
         for (std::size_t k = 0; k < 4; ++k) {
-            const Index next = mesh.nodes_per_layer + mesh.middles.side_of[q][k];
-            const Index before = mesh.nodes_per_layer + mesh.middles.side_of[q][(k + 3) % 4];
-            fine.quads.push_back({number[index(mesh.quads[q][k])], number[index(next)], number[index(centre)],
-                                  number[index(before)]});
+            const Quad& side = mesh.middles.side_of[q];
+            fine.quads.push_back({mesh.quads[q][k], middle(side[k]), first_centre + static_cast<Index>(q),
+                                  middle(side[(k + 3) % 4])});
             fine.source_patch.push_back(mesh.source_patch[q]);
             fine.target_patch.push_back(mesh.target_patch[q]);
         }
     }
     for (std::size_t r = 0; r < mesh.rim.size(); ++r) {
-        const Index middle = mesh.nodes_per_layer + mesh.middles.rim_side[r];
-        fine.rim.push_back({number[index(mesh.rim[r][0])], number[index(middle)]});
-        fine.rim.push_back({number[index(middle)], number[index(mesh.rim[r][1])]});
+        fine.rim.push_back({mesh.rim[r][0], middle(mesh.middles.rim_side[r])});
+        fine.rim.push_back({middle(mesh.middles.rim_side[r]), mesh.rim[r][1]});
     }
     for (int l = 0; l < fine.layers; ++l)
         for (std::size_t r = 0; r < mesh.rim.size(); ++r)
             fine.wall_patch.insert(fine.wall_patch.end(), 2,
                                    mesh.wall_patch[static_cast<std::size_t>(l / 2) * mesh.rim.size() + r]);
-    // Each quad of the skin sets its nine nodes.
-    const std::size_t quads = mesh.quads.size();
-    const auto at = [&](std::size_t level, Index node) -> Vec3& {
-        return fine.nodes[level * index(fine.nodes_per_layer) + index(number[index(node)])];
-    };
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
-        std::array<Vec3, 9> p;
-        p.fill(Vec3::Zero());
-        for (std::size_t n = 0; n < nodes.count; ++n) p[n] = mesh.node(index(nodes.node[n]));
-        if (nodes.count == 8) {
-            for (std::size_t k = 0; k < 4; ++k) p[8] += p[4 + k] / 2 - p[k] / 4;
-        }
-        if (i < 2 * quads) {
-            const std::size_t level = i < quads ? 0 : static_cast<std::size_t>(fine.layers), q = i % quads;
-            for (std::size_t k = 0; k < 4; ++k) {
-                const std::size_t corner = i < quads ? (4 - k) % 4
-                                                     : k; // the source's quads run the other way
-                const std::size_t side = i < quads ? 3 - k : k;
-                at(level, mesh.quads[q][corner]) = p[k];
-                at(level, mesh.nodes_per_layer + mesh.middles.side_of[q][side]) = p[4 + k];
-            }
-            at(level, mesh.nodes_per_layer + sides + static_cast<Index>(q)) = p[8];
-            continue;
-        }
-        const std::size_t wall = i - 2 * quads, low = 2 * (wall / mesh.rim.size()),
-                          r = wall % mesh.rim.size();
-        const Index from = mesh.rim[r][0], to = mesh.rim[r][1];
-        const Index middle = mesh.nodes_per_layer + mesh.middles.rim_side[r];
-        at(low, from) = p[0], at(low, to) = p[1], at(low + 2, to) = p[2], at(low + 2, from) = p[3];
-        at(low, middle) = p[4], at(low + 1, to) = p[5], at(low + 2, middle) = p[6], at(low + 1, from) = p[7];
-        at(low + 1, middle) = p[8];
-    }
-    return fine;
+    for (Index n = 0; n < fine.nodes_per_layer; ++n) fine.nodes.push_back(nodes(n));
+    result.nodes.on_skin = nodes;
+    return result;
 }
 
 } // namespace lacuna::sweep

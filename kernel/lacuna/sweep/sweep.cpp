@@ -99,7 +99,17 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                          const SweepOptions& options, const RunContext& context)
 {
     Swept& swept = result.swept;
-    Elevated elevated = elevate(shape, swept.mesh, result.faces, options.second_order, context);
+    PlacedLayers layers;
+    layers.plan = swept.plan;
+    if (swept.layers) layers.nodes = std::move(*swept.layers);
+    Elevated elevated = elevate(shape, swept.mesh, result.faces, options.second_order, context,
+                                swept.layers ? &layers : nullptr, options.crew);
+    swept.layers.reset();
+    swept.plan.reset();
+    if (elevated.layers) {
+        swept.layers = std::move(elevated.layers->nodes);
+        swept.plan = std::move(elevated.layers->plan);
+    }
     swept.report.push_back(std::move(elevated.report));
     const quality::Quality& quality = elevated.quality;
     swept.min_scaled_jacobian = quality.min_scaled_jacobian;
@@ -113,8 +123,9 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                                                       ", below the limit of " +
                                                       in_full(options.min_scaled_jacobian));
     }
-    swept.fidelity = compare(shape, finer_skin(swept.mesh), result.faces, kept, quality.volume,
-                             {options.max_deviation, options.beside.between}, context);
+    const FinerSkin fine = finer_skin(swept.skin());
+    swept.fidelity = compare(shape, fine.mesh, result.faces, kept, quality.volume,
+                             {options.max_deviation, options.beside.between}, context, &fine.nodes);
     for (FaceFidelity& face : swept.fidelity.faces) {
         face.quads /= 4;
         face.side *= 2;

@@ -197,11 +197,12 @@ void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept
     good.reset();
 }
 
-/// Whether nothing but the placing of layers has a say in where nodes inside are.
+/// Whether nothing but the placing of layers has a say in where nodes inside are. Neighbours look for each
+/// other's middle nodes in meshes that are held.
 bool may_be_layered(const SweepOptions& options)
 {
-    return options.layered && options.order == 1 && options.boundary_layers.empty() &&
-           options.interior != Interior::normals;
+    return options.layered && (options.order == 1 || !options.beside.settle) &&
+           options.boundary_layers.empty() && options.interior != Interior::normals;
 }
 
 /// Whether all faces of an end came with a mesh that can stay.

@@ -3,7 +3,9 @@
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/layered.h>
+#include <lacuna/quality/layered.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <span>
@@ -57,6 +59,7 @@ Received read_mesh(Reader& reader, const RunContext& context)
     put_mesh(reader, received.mesh);
     received.mesh.nodes = plan->source.nodes;
     received.mesh.quads = plan->source.quads;
+    received.mesh.middles = sweep::middles_of(*plan, received.mesh);
     received.layers = sweep::placed_layers(std::move(plan), context);
     return received;
 }
@@ -80,16 +83,13 @@ mesh::NodeNumbers read_numbers(Reader& reader, const mesh::HexMesh& mesh)
 }
 
 /// Values of a metric, of some layers at a time.
-io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metric, const RunContext& context)
+/// @param average_volume  of all cells, where the metric needs it
+io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metric, double average_volume,
+                          const RunContext& context)
 {
-    return {quality::metric_name(metric), [layered, metric, &context](int first, int last) {
-                mesh::HexMesh part;
-                part.nodes_per_layer = layered.mesh.nodes_per_layer;
-                part.layers = last - first;
-                part.quads = layered.mesh.quads;
-                part.nodes.resize(mesh::corner_count(part));
-                layered.nodes.place(first, last + 1, part.nodes, context);
-                return quality::metric_values(part, metric, context);
+    return {quality::metric_name(metric), [layered, metric, average_volume, &context](int first, int last) {
+                const mesh::HexMesh part = mesh::make_layers(layered, first, last, {}, context);
+                return quality::metric_values(part, metric, context, average_volume);
             }};
 }
 
@@ -97,8 +97,13 @@ io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metr
 void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, const LayeredFile& file,
                  const Team* team, const RunContext& context)
 {
+    const bool needs_average = std::any_of(
+        file.quality.begin(), file.quality.end(),
+        [](quality::Metric metric) { return quality::metric_info(metric).needs_average_volume; });
+    const double average = needs_average ? quality::mean_volume(layered, context, team) : 1;
     std::vector<io::LayeredField> fields;
-    for (const quality::Metric metric : file.quality) fields.push_back(field_of(layered, metric, context));
+    for (const quality::Metric metric : file.quality)
+        fields.push_back(field_of(layered, metric, average, context));
     const std::string ending = io::ending_of(path.text());
     if (ending == ".msh")
         io::write_msh(layered, path, {file.binary, file.version, {}, file.partition}, fields, context, team);
@@ -155,12 +160,6 @@ bool is_layered(const std::string& ending)
     io::DeckFormat format{};
     return ending == ".msh" || ending == ".vtu" || ending == ".pvtu" || ending == ".vtk" ||
            (io::find_deck_format(ending, format) && io::is_layered(format));
-}
-
-bool is_layered(quality::Metric metric)
-{
-    return metric != quality::Metric::relative_size_squared && metric != quality::Metric::shape_and_size &&
-           metric != quality::Metric::shear_and_size;
 }
 
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,

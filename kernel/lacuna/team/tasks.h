@@ -28,13 +28,11 @@ struct LayeredFile {
 
 /// Whether files of an ending (".msh") are written a layer at a time.
 bool is_layered(const std::string& ending);
-/// Whether a metric can be made so; not where it compares each cell with the mean of all.
-bool is_layered(quality::Metric metric);
 
 /// Write a mesh whose nodes are made as they are written, in the format that the path's ending says: with a
 /// crew, where there is one.
 /// @param plan  what the layers are placed by.
-/// @pre  is_layered() of the ending and of the metrics
+/// @pre  is_layered() of the ending
 /// @throw  as `io::write_msh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);

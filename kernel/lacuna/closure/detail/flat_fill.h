@@ -32,8 +32,9 @@ std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const s
 /// face away from the source, or slope by 60° at most, are the target, others are walls: risers, where the
 /// target lies at several heights.
 /// @param volume  out: sealed.
-/// @return  nothing where each loop is flat by itself, where what fills them is no flat face, and where the
-///          target has neither the source's loops nor several heights.
+/// @return  nothing where each loop is flat by itself, where one lies on a ball, a round cylinder or a cone,
+///          where what fills them is no flat face, and where the target has neither the source's loops nor
+///          several heights.
 std::optional<Closure> fill_missing_end(topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.

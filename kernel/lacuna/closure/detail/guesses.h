@@ -19,8 +19,9 @@ bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 ///
 /// - A bent void face whose rim says nothing of its inside: a membrane, or one with more than four corners.
 ///   Where a person named the roles a membrane is the end that is missing (Algorithm 4), and closing tells
-///   what it leaves open; over a rim of more than four corners it is in doubt where the smoothest faces over
-///   the rim, a membrane and a thin plate, differ, or straight sides tell of several flat faces.
+///   what it leaves open; it is in doubt where the smoothest faces over its rim, a membrane and a thin plate,
+///   differ, or straight sides tell of several flat faces.
+/// - A bent void face whose rim lies on other quadrics that are far off it.
 /// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
 ///   there.
 std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);

@@ -57,7 +57,7 @@ public:
     NodeReader(const NodeReader&) = delete;
     NodeReader& operator=(const NodeReader&) = delete;
 
-    [[nodiscard]] std::size_t count() const { return mesh::corner_count(mesh_) + mesh_.middles.nodes.size(); }
+    [[nodiscard]] std::size_t count() const { return mesh::corner_count(mesh_) + mesh::middle_count(mesh_); }
     /// A node of the skin.
     [[nodiscard]] Vec3 on_skin(Index node) const
     {
@@ -67,13 +67,15 @@ public:
     template <class Visit>
     void each(std::size_t begin, std::size_t end, const Visit& visit) const
     {
-        if (!cache_) {
+        if (!corners_.made) {
             for (std::size_t n = begin; n < end; ++n) visit(n, mesh_.node(n));
             return;
         }
         while (begin < end) {
-            const auto part = cache_->part(begin / step_);
-            const std::size_t first = begin / step_ * step_, last = std::min(end, first + part->size());
+            const Made& of = begin < middles_.begin ? corners_ : middles_;
+            const std::size_t number = std::min((begin - of.begin) / of.step, of.parts - 1);
+            const auto part = of.made->part(number);
+            const std::size_t first = of.begin + number * of.step, last = std::min(end, first + part->size());
             for (; begin < last; ++begin) visit(begin, (*part)[begin - first]);
         }
     }
@@ -82,7 +84,7 @@ public:
     char* copy(std::size_t begin, std::size_t end, char* out) const
     {
         static_assert(sizeof(Vec3) == 3 * sizeof(double));
-        if (!cache_ && end <= mesh_.nodes.size()) {
+        if (!corners_.made && end <= mesh_.nodes.size()) {
             std::memcpy(out, mesh_.nodes[begin].data(), (end - begin) * sizeof(Vec3));
             return out + (end - begin) * sizeof(Vec3);
         }
@@ -94,10 +96,16 @@ public:
     }
 
 private:
+    /// Nodes that follow each other and are made in parts: as many in each, but for the last.
+    struct Made {
+        std::size_t begin = 0; ///< number of the first
+        std::size_t step = 1, parts = 1;
+        std::shared_ptr<LayerCache<Vec3>> made{}; ///< null: they are held
+    };
+
     const mesh::HexMesh& mesh_;
     const mesh::LayeredNodes* layers_ = nullptr;
-    std::shared_ptr<LayerCache<Vec3>> cache_;
-    std::size_t step_ = 0; ///< nodes of a part
+    Made corners_, middles_;
 };
 
 /// A number for every cell, held or made, and those of the cells behind the skin.

@@ -7,21 +7,21 @@
 
 namespace lacuna::quads::paving {
 
-/// The edge length to aim for: what the region asks for, limited near the boundary by the lengths of its
-/// given sides.
+/// Edge lengths to aim for: what a region asks for, limited near the boundary by the lengths of its given
+/// sides.
 ///
-/// At distance d from a boundary node with sides of length l it lies between l − g d and l + g d, with g the
-/// grading. Where the sides have about the length asked, that changes nothing and the region's own size is
-/// handed back. A region without a size has its mean boundary side.
-/// @param grading  change of size over distance; the default keeps neighbouring edges within 1.3 of each
-///                 other [-].
-/// @param alike    a side has about the length asked where the two differ by less than this factor [-].
-std::function<double(const Vec2&)> size_with_boundary(const PlanarRegion& region, double grading = 0.3,
-                                                      double alike = 1.6);
-
-/// Sides of a ring may be 1 / 0.6 times as long as asked, or as short, and rows still of the size asked: what
-/// rings are laid out with and all meshes judged by.
-inline constexpr double kRingGrading = 0.3, kRingAlike = 1.75;
+/// At distance d from a boundary node with sides of length l it lies between l − 0.3 d and l + 0.3 d, which
+/// keeps neighbouring edges within 1.3 of each other. Where the sides have about the length asked, that
+/// changes nothing and the region's own size is handed back. A region without a size has its mean boundary
+/// side.
+struct BoundarySizes {
+    std::function<double(const Vec2&)> usual;
+    /// The same where sides differ by a little more from what is asked. Those of a ring may be 1 / 0.6 times
+    /// as long, or as short, and rows still of the size asked: what rings are laid out with and all meshes
+    /// judged by.
+    std::function<double(const Vec2&)> ring;
+};
+BoundarySizes sizes_with_boundary(const PlanarRegion& region);
 
 /// About how many quads a region gets: its area over that of a square on a mean boundary side.
 double quads_within(const PlanarRegion& region);

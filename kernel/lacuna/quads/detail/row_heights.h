@@ -11,7 +11,7 @@ namespace lacuna::quads::paving {
 /// high as asked. Smoothing alone lets rows grow where sides bend away.
 ///
 /// Only the inner neighbour of a boundary node with two quads is moved, and only where the worst quad around
-/// it stays good or gets no worse.
+/// it stays good or gets no worse; only the latter where the row is as high as is promised.
 void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region,
                          const std::function<double(const Vec2&)>& height);
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <span>
 
 /// Cells of either kind of mesh as columns, so that a level of nodes is fetched once for the cells below and
@@ -62,9 +61,9 @@ std::size_t chunk_width(const Cells& cells, std::size_t lanes)
     return lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, cells.layers()));
 }
 
-/// Corners of a level of up to a batch of columns, into `corner[0..3]`; idle lanes repeat the last column.
+/// Corners of a level of up to a batch of columns; idle lanes repeat the last column.
 template <int N, class Cells>
-void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, double (*corner)[3][N])
+void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, LevelBatch<N>& corner)
 {
     for (int lane = 0; lane < N; ++lane) {
         const LevelCorners corners = cells.corners(
@@ -72,6 +71,21 @@ void load_level(const Cells& cells, std::size_t first, int filled, std::size_t l
         for (std::size_t c = 0; c < 4; ++c)
             for (int d = 0; d < 3; ++d) corner[c][d][lane] = (*corners[c])[d];
     }
+}
+
+/// Have memory fetch what comes next while a batch is worked on. Levels of a column lie far apart, so that
+/// the processor does not guess it.
+template <int N, class Cells>
+void fetch_after(const Cells& cells, std::size_t first, std::size_t end, std::size_t layer)
+{
+    const auto fetch = [&](std::size_t begin, std::size_t level) {
+        for (std::size_t column = begin; column < std::min(begin + N, end); ++column) {
+            const LevelCorners corners = cells.corners(column, level);
+            for (const std::size_t c : {0, 2}) __builtin_prefetch(corners[c]); // neighbours share the others
+        }
+    };
+    if (layer + 1 < cells.layers()) return fetch(first, layer + 2);
+    for (const std::size_t level : {0, 1}) fetch(first + N, level);
 }
 
 /// Call `body(batch, first cell, filled lanes)` for the columns [begin, end) from the source up: the upper
@@ -82,10 +96,11 @@ void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, cons
     CellBatch<N> batch;
     for (std::size_t first = begin; first < end; first += N) {
         const int filled = static_cast<int>(std::min<std::size_t>(N, end - first));
-        load_level<N>(cells, first, filled, 0, batch.corner);
+        load_level<N>(cells, first, filled, 0, batch.level[batch.low]);
         for (std::size_t layer = 0; layer < cells.layers(); ++layer) {
-            if (layer > 0) std::memcpy(batch.corner, batch.corner + 4, sizeof batch.corner / 2);
-            load_level<N>(cells, first, filled, layer + 1, batch.corner + 4);
+            if (layer > 0) batch.low = 1 - batch.low;
+            load_level<N>(cells, first, filled, layer + 1, batch.level[1 - batch.low]);
+            fetch_after<N>(cells, first, end, layer);
             body(batch, layer * cells.columns() + first, filled);
         }
     }

@@ -39,6 +39,27 @@ public:
     HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed,
                    const RunContext& context = {});
 
+    /// Some fields spread over the nodes.
+    class Fields {
+    public:
+        /// Of one node x, y and z of the first field, of the second and so on, and room for one number more
+        /// to be read behind; null: it is fixed, or joined to none.
+        [[nodiscard]] const double* of(std::size_t node) const
+        {
+            return place_[node] < 0 ? nullptr : &rows_[static_cast<std::size_t>(place_[node]) * 3 * kFields];
+        }
+
+    private:
+        friend class HarmonicSpread;
+        std::span<const Index> place_;
+        std::vector<double> rows_;
+    };
+
+    /// Spread up to `kFields` fields, on one thread.
+    /// @param values  fields × fixed.size(), field-major.
+    /// @return  which refers to this
+    [[nodiscard]] Fields spread(std::span<const Vec3> values) const;
+
     /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] +=
     /// value.
     /// @param values  fields × fixed.size(), field-major.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/detail/layer_map.h>
 #include <lacuna/sweep/layers.h>
 
 #include <Eigen/Core>
@@ -29,11 +30,6 @@ public:
     [[nodiscard]] std::string report() const;
 
 private:
-    /// An inner layer before its residual: from_source · source node + from_target · target node + shift.
-    struct LayerMap {
-        Eigen::Matrix3d from_source, from_target;
-        Vec3 shift;
-    };
     void fit_straight(std::span<const double> heights);
     void fit_rims(std::span<const double> heights, const PlacementOptions& options,
                   const RunContext& context);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/sweep/second_order.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 /// What placing middle nodes shares. Internal to this folder.
@@ -17,8 +22,53 @@ enum class Middle : std::uint8_t {
     settled, ///< on the skin, where geometry or a given mesh puts it
 };
 
-/// Of each place in `MiddleNodes::nodes`.
-using MiddleStates = std::vector<Middle>;
+/// Where the middle nodes of a mesh's skin stand in an array of them alone, whose length goes by the skin.
+class SkinPlaces {
+public:
+    static constexpr std::size_t kInside = std::numeric_limits<std::size_t>::max();
+
+    /// @param mesh  with numbers of its sides
+    explicit SkinPlaces(const mesh::HexMesh& mesh);
+    /// Of a place among all middle nodes; `kInside`: it is not on the skin.
+    [[nodiscard]] std::size_t of(std::size_t place) const
+    {
+        const std::size_t level = place / period_, slot = place % period_;
+        if (slot < on_level_ && level == 0) return slot;
+        if (slot < on_level_ && level == layers_) return on_level_ + slot;
+        return rank_[slot] < 0 ? kInside : 2 * on_level_ + level * ring_ + index(rank_[slot]);
+    }
+    [[nodiscard]] std::size_t count() const { return 2 * on_level_ + layers_ * ring_; }
+
+private:
+    std::size_t period_, on_level_, layers_;
+    std::size_t ring_ = 0;    ///< of a level and the layer over it
+    std::vector<Index> rank_; ///< of each place on a level and the layer over it, among those; -1: inside
+};
+
+/// The middle nodes of a mesh's skin, by their places among all middle nodes.
+class SkinMiddles {
+public:
+    explicit SkinMiddles(const mesh::HexMesh& mesh)
+        : places_(mesh), nodes_(places_.count(), Vec3::Zero()), states_(places_.count(), Middle::open)
+    {
+    }
+    [[nodiscard]] Vec3& node(std::size_t place) { return nodes_[places_.of(place)]; }
+    [[nodiscard]] const Vec3& node(std::size_t place) const { return nodes_[places_.of(place)]; }
+    void set(std::size_t place, Middle state) { states_[places_.of(place)] = state; }
+    /// Of any middle node.
+    [[nodiscard]] Middle state(std::size_t place) const
+    {
+        const std::size_t at = places_.of(place);
+        return at == SkinPlaces::kInside ? Middle::inside : states_[at];
+    }
+    /// As `SkinPlaces` has them.
+    [[nodiscard]] const std::vector<Vec3>& nodes() const { return nodes_; }
+
+private:
+    SkinPlaces places_;
+    std::vector<Vec3> nodes_;
+    std::vector<Middle> states_;
+};
 
 /// A frame of a side: bends are told in it, over the side's length, so that they can be taken elsewhere.
 struct SideFrame {
@@ -62,29 +112,60 @@ private:
     std::vector<Chord> chords_;
 };
 
+/// Levels whose nodes tell how a column runs past the middle of a layer.
+struct ColumnWindow {
+    static constexpr int kMost = 4; ///< for a cubic
+
+    int first, count;
+};
+ColumnWindow column_window(int layers, int layer);
+
 /// How a column of nodes runs past the middle of an upright side, less the straight side: a cubic through
 /// four nodes, over running lengths; fewer where there are fewer. No more than a fifth of the side.
-Vec3 column_bend(const mesh::HexMesh& mesh, Index node, int layer);
+/// @param column  its nodes on the levels of a `column_window()`. @param low  which of them is below
+Vec3 column_bend(std::span<const Vec3> column, std::size_t low);
 
-/// Place the middle nodes of the skin. @return  how many were given, on exact geometry, on facets
+/// The same of a column of the rim.
+Vec3 rim_bend(const mesh::SkinNodes& corners, Index node, int layer);
+
+/// The middle of a quad by the middles of its sides and its corners: transfinite.
+inline Vec3 middle_of_quad(const std::array<Vec3, 4>& sides, const std::array<Vec3, 4>& corners)
+{
+    return (sides[0] + sides[1] + sides[2] + sides[3]) / 2 -
+           (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+}
+
+/// The middle of a cell by those of its faces and sides and its corners: transfinite.
+inline Vec3 middle_of_cell(const std::array<Vec3, 6>& faces, const std::array<Vec3, 12>& sides,
+                           const std::array<Vec3, 8>& corners)
+{
+    const auto sum = [](const auto& nodes) {
+        Vec3 all = Vec3::Zero();
+        for (const Vec3& node : nodes) all += node;
+        return all;
+    };
+    return sum(faces) / 2 - sum(sides) / 4 + sum(corners) / 8;
+}
+
+/// How many middle nodes of the skin were given, are on exact geometry, on facets.
 struct SkinCounts {
     std::size_t given = 0, exact = 0, facets = 0;
 };
-SkinCounts place_skin(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                      const std::vector<FaceId>& faces, const LevelBlend& blend,
-                      const SecondOrderOptions& options, MiddleStates& states, const RunContext& context);
-/// Put the middles of the skin's quads where they are given, and project the others where their faces say so.
-/// @return  how many were given
-std::size_t place_skin_centres(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                               const std::vector<FaceId>& faces, const SecondOrderOptions& options,
-                               MiddleStates& states, const RunContext& context);
 
-/// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
-void place_centres(mesh::HexMesh& mesh, const MiddleStates& states, std::size_t cell);
+/// The middle nodes of a mesh's skin.
+struct PlacedSkin {
+    SkinMiddles middles;
+    SkinCounts counts;
+};
+/// Place the middle nodes of the skin, those of its quads too if the mesh is to have them.
+/// @param corners  of a mesh with numbers of its sides
+PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes& corners,
+                      const std::vector<FaceId>& faces, const SecondOrderOptions& options,
+                      const RunContext& context);
 
 /// Move middle nodes until every cell is valid. @return  how many cells were not. @throw as `elevate()`
 std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                           const std::vector<FaceId>& faces, const MiddleStates& states,
+                           const std::vector<FaceId>& faces, const SkinMiddles& skin,
                            const RunContext& context);
 
 } // namespace lacuna::sweep

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/void_geometry.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Algorithm 6, or 5 where two sides are one closed edge: a bilinear Coons patch over arc length.
+/// @param sides     four, in walking order
+/// @param follower  null, or what the patch follows instead, as `fill()` says.
+/// @throw InvalidInput  the patch folds.
+VoidFilling fill_transfinite(const topology::Model& model,
+                             const std::vector<std::vector<topology::EdgeUse>>& sides,
+                             const Follower* follower, const RunContext& context);
+
+} // namespace lacuna::closure

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/rim_quadrics.h>
+
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/topology/use_places.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <set>
+#include <span>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+using Powers = Eigen::Vector<double, 10>;
+
+/// Share of a rim's own spread off its plane that its points may be off a quadric. A choice: points of a mesh
+/// lie on it but for rounding.
+constexpr double kOnIt = 1e-4;
+/// How many conditions more than are needed to find what goes through a rim have to be met. A choice.
+constexpr Eigen::Index kSpare = 4;
+/// How far a quadric may be from a special one, as a share of its largest coefficient. A choice: the quadric
+/// goes through the rim all the same.
+constexpr double kSpecial = 0.01;
+/// Cosine between a form's slope and the plane's normal up to which the quadric stands up, as the walls that
+/// end at the rim do, and the share of the rim along which it may. A choice: a shaft as wide as the tube that
+/// ends on it stands up at two places.
+constexpr double kStandsUp = 0.05, kStanding = 0.1;
+
+Powers powers_at(const Vec3& p)
+{
+    Powers powers;
+    powers << p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x(), p, 1;
+    return powers;
+}
+
+Eigen::Matrix4d form_of(const Powers& q)
+{
+    Eigen::Matrix4d form;
+    form << 2 * q[0], q[3], q[5], q[6], //
+        q[3], 2 * q[1], q[4], q[7],     //
+        q[5], q[4], 2 * q[2], q[8],     //
+        q[6], q[7], q[8], 2 * q[9];
+    return form;
+}
+
+/// A place as a quadric's form takes it.
+Eigen::Vector4d in_frame(const Quadric& quadric, const Vec3& place)
+{
+    Eigen::Vector4d at;
+    at << (place - quadric.centre) / quadric.unit, 1;
+    return at;
+}
+
+/// The frame in which points spread alike every way.
+struct EvenFrame {
+    Vec3 centre = Vec3::Zero();
+    double unit = 0; ///< the largest spread [model length]
+    Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity();
+};
+
+std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
+{
+    EvenFrame frame;
+    const auto share = 1 / static_cast<double>(points.size());
+    for (const Vec3& p : points) frame.centre += share * p;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : points) spread += share * (p - frame.centre) * (p - frame.centre).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    constexpr double kInPlane = 1e-12;
+    if (!(axes.eigenvalues()(0) > kInPlane * axes.eigenvalues()(2))) return std::nullopt;
+    frame.unit = std::sqrt(axes.eigenvalues()(2));
+    frame.stretch = axes.operatorInverseSqrt();
+    return frame;
+}
+
+/// Forms that span those which vanish on some points, in units of their frame; none where there are too few
+/// points to say so.
+std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const EvenFrame& frame)
+{
+    Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
+    for (const Vec3& p : points) {
+        const Powers powers = powers_at(frame.stretch * (p - frame.centre));
+        sum += powers * powers.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> fit(sum);
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::Index forms = 0;
+    while (forms < 10 && fit.eigenvalues()(forms) <= kOnIt * kOnIt * static_cast<double>(count)) ++forms;
+    if (forms > 2 || forms * (count - 10 + forms) < kSpare) return {};
+    Eigen::Matrix4d back = Eigen::Matrix4d::Identity();
+    back.topLeftCorner<3, 3>() = frame.unit * frame.stretch;
+    std::vector<Eigen::Matrix4d> result;
+    for (Eigen::Index i = 0; i < forms; ++i) {
+        const Eigen::Matrix4d form = back.transpose() * form_of(fit.eigenvectors().col(i)) * back;
+        result.push_back(form / form.norm());
+    }
+    return result;
+}
+
+// --- what is special about a form; 0 where it is ------------------------------------------------------
+
+/// How a form bends along its axes, rising.
+Vec3 bends_of(const Eigen::Matrix4d& form)
+{
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly)
+        .eigenvalues();
+}
+
+double off_ball(const Eigen::Matrix4d& form)
+{
+    const Vec3 bends = bends_of(form);
+    return (bends(2) - bends(0)) / bends.cwiseAbs().maxCoeff();
+}
+
+Eigen::Vector4d singular_values(const Eigen::Matrix4d& form)
+{
+    Eigen::Vector4d values =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(form, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
+    std::ranges::sort(values, std::greater{});
+    return values / values(0);
+}
+
+double off_plane_pair(const Eigen::Matrix4d& form) { return singular_values(form)(2); }
+
+/// Of a round cylinder or a round cone.
+double off_round_cone(const Eigen::Matrix4d& form)
+{
+    constexpr double kBendsAtAll = 1e-2;
+    const Vec3 bends = bends_of(form);
+    double unlike = 1;
+    for (const Eigen::Index i : {0, 1}) {
+        const double more = std::max(std::abs(bends(i)), std::abs(bends(i + 1)));
+        if (more > kBendsAtAll * bends.cwiseAbs().maxCoeff())
+            unlike = std::min(unlike, (bends(i + 1) - bends(i)) / more);
+    }
+    return unlike + singular_values(form)(3);
+}
+
+/// Of a cylinder of any section.
+double off_cylinder(const Eigen::Matrix4d& form)
+{
+    const Vec3 values = form.leftCols<3>().jacobiSvd().singularValues();
+    return values(2) / values(0);
+}
+
+/// The forms cos t · a + sin t · b at which something is special.
+std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
+                                           const std::function<double(const Eigen::Matrix4d&)>& off)
+{
+    constexpr int kSteps = 360, kHalvings = 40;
+    const auto at = [&](double t) -> Eigen::Matrix4d { return std::cos(t) * a + std::sin(t) * b; };
+    const double step = std::numbers::pi / kSteps;
+    std::array<double, kSteps> values{};
+    for (int k = 0; k < kSteps; ++k) values[static_cast<std::size_t>(k)] = off(at(k * step));
+    std::vector<Eigen::Matrix4d> found;
+    for (int k = 0; k < kSteps; ++k) {
+        const auto value = [&](int i) { return values[static_cast<std::size_t>((i + kSteps) % kSteps)]; };
+        if (value(k) > value(k - 1) || value(k) >= value(k + 1)) continue;
+        double t = k * step, width = step, least = value(k);
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            width *= 0.7;
+            for (const double other : {t - width, t + width}) {
+                const double there = off(at(other));
+                if (there >= least) continue;
+                least = there;
+                t = other;
+                break;
+            }
+        }
+        if (least <= kSpecial) found.push_back(at(t));
+    }
+    return found;
+}
+
+/// How the points of a rim are meant.
+enum class RimIs {
+    straight, ///< between them
+    curved,   ///< but between those that are far from each other
+};
+
+std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops, RimIs rim)
+{
+    constexpr double kFar = 0.25; // of the rim's extent: twelve facets of a circle are no further
+    constexpr std::size_t kPieces = 4;
+    std::vector<std::vector<Vec3>> chains;
+    Eigen::AlignedBox3d box;
+    for (const Loop& loop : loops)
+        for (const Vec3& p : chains.emplace_back(use_places(model, loop.uses))) box.extend(p);
+    const double far = kFar * box.diagonal().norm();
+    std::vector<Vec3> places;
+    for (const std::vector<Vec3>& chain : chains) {
+        for (std::size_t i = 1; i < chain.size(); ++i) {
+            const bool parted = rim == RimIs::straight || (chain[i] - chain[i - 1]).norm() > far;
+            const std::vector<Vec3> along = geometry::even_places(std::span(chain).subspan(i - 1, 2),
+                                                                  parted ? kPieces : 1);
+            places.insert(places.end(), along.begin() + 1, along.end());
+        }
+    }
+    return places;
+}
+
+/// The sheet of a quadric that all of a rim lies on; nothing where there is none.
+std::optional<QuadricSheet> sheet_through(std::span<const Vec3> rim, const Quadric& quadric,
+                                          const geometry::Plane& plane)
+{
+    constexpr double kNoSlope = 1e-6; // of the steepest: where two planes meet
+    std::vector<Vec3> slopes;
+    double steepest = 0;
+    for (const Vec3& p : rim) {
+        slopes.emplace_back((quadric.form * in_frame(quadric, p)).head<3>());
+        steepest = std::max(steepest, slopes.back().norm());
+    }
+    std::size_t rising = 0, falling = 0;
+    for (const Vec3& slope : slopes) {
+        const double rise = slope.dot(plane.normal);
+        const double enough = std::max(kStandsUp * slope.norm(), kNoSlope * steepest);
+        rising += rise > enough ? 1 : 0;
+        falling += -rise > enough ? 1 : 0;
+    }
+    const auto most = (1 - kStanding) * static_cast<double>(rim.size());
+    if (std::min(rising, falling) > 0 || static_cast<double>(rising + falling) < most) return std::nullopt;
+    return QuadricSheet{quadric, plane, rising > 0 ? 1.0 : -1.0};
+}
+
+RimShapes shapes_through(std::span<const Vec3> rim, const geometry::Plane& plane)
+{
+    RimShapes result;
+    const std::optional<EvenFrame> frame = even_frame(rim);
+    if (!frame) return result;
+    const std::vector<Eigen::Matrix4d> forms = forms_through(rim, *frame);
+    const auto add = [&](std::vector<QuadricSheet>& to, const Eigen::Matrix4d& form) {
+        if (auto sheet = sheet_through(rim, {frame->centre, frame->unit, form}, plane))
+            to.push_back(std::move(*sheet));
+    };
+    if (forms.size() == 1) add(result.told, forms.front());
+    if (forms.size() != 2) return result;
+    for (const auto& off : {off_ball, off_round_cone, off_plane_pair})
+        for (const Eigen::Matrix4d& form : special_forms(forms[0], forms[1], off)) add(result.told, form);
+    for (const Eigen::Matrix4d& form : special_forms(forms[0], forms[1], off_cylinder))
+        add(result.possible, form);
+    return result;
+}
+
+/// Whether a given face at the edges of some loops lies on a quadric: what is missing does not lie on it too,
+/// where it is a pair of planes.
+bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const Quadric& quadric)
+{
+    std::set<EdgeId> rim;
+    for (const Loop& loop : loops)
+        for (const EdgeUse& use : loop.uses) rim.insert(use.edge);
+    const auto is_on_it = [&](Index point) {
+        const Eigen::Vector4d at = in_frame(quadric, model.at(point));
+        return std::abs(at.dot(quadric.form * at)) <= kOnIt * at.squaredNorm();
+    };
+    return std::ranges::any_of(model.faces, [&](const Face& face) {
+        const bool beside = std::ranges::any_of(face.loops, [&](const Loop& loop) {
+            return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) { return rim.contains(use.edge); });
+        });
+        return beside && face.origin == Origin::given &&
+               std::ranges::all_of(face.triangles,
+                                   [&](const Triangle& t) { return std::ranges::all_of(t, is_on_it); });
+    });
+}
+
+} // namespace
+
+std::optional<double> QuadricSheet::height(const Vec2& place) const
+{
+    const Eigen::Vector4d foot = in_frame(quadric, geometry::from_plane(plane, place));
+    Eigen::Vector4d way;
+    way << plane.normal, 0;
+    const double a = way.dot(quadric.form * way), b = way.dot(quadric.form * foot);
+    const double c = foot.dot(quadric.form * foot);
+    // Places of the rim may be beyond where the sheet stands up by rounding.
+    constexpr double kRounding = 1e-6;
+    const double inside = b * b - a * c;
+    if (inside < -kRounding * (b * b + std::abs(a * c))) return std::nullopt;
+    const double root = side * std::sqrt(std::max(0.0, inside));
+    const double off = b * side > 0 ? -c / (b + root) : (root - b) / a;
+    if (!std::isfinite(off)) return std::nullopt;
+    return off * quadric.unit;
+}
+
+bool is_pair_of_planes(const Quadric& quadric) { return off_plane_pair(quadric.form) <= kSpecial; }
+
+RimShapes shapes_of_rim(const Model& model, const std::vector<Loop>& loops, const geometry::Plane& plane)
+{
+    const auto shapes_as = [&](RimIs rim) {
+        RimShapes shapes = shapes_through(rim_places(model, loops, rim), plane);
+        std::erase_if(shapes.told, [&](const QuadricSheet& sheet) {
+            return is_pair_of_planes(sheet.quadric) && holds_given_face(model, loops, sheet.quadric);
+        });
+        return shapes;
+    };
+    RimShapes curved = shapes_as(RimIs::curved);
+    if (!curved.told.empty()) return curved;
+    RimShapes straight = shapes_as(RimIs::straight);
+    return straight.told.empty() ? curved : straight;
+}
+
+} // namespace lacuna::closure

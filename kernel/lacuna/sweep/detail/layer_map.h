@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/sweep/detail/harmonic_spread.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <span>
+
+namespace lacuna::sweep {
+
+/// An inner layer before its residual: from_source · source node + from_target · target node + shift.
+struct LayerMap {
+    Eigen::Matrix3d from_source, from_target;
+    Vec3 shift;
+};
+
+/// Nodes [begin, end) of some layers, and what is added to them.
+///
+/// A place has the same bits with vectors of any width, and with any other layers.
+/// @param maps       of up to `HarmonicSpread::kFields` layers
+/// @param residuals  null: none
+/// @param out        the first node of the first layer; of the next layer `stride` further
+void map_nodes(std::span<const LayerMap> maps, const Vec3* source, const Vec3* target, std::size_t begin,
+               std::size_t end, const HarmonicSpread::Fields* residuals, Vec3* out, std::size_t stride);
+
+} // namespace lacuna::sweep

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/sweep/detail/harmonic_spread.h>
+#include <lacuna/sweep/detail/middle_skin.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Places the middle nodes of a mesh by those of its skin, some layers at a time, whether the mesh holds its
+/// corners or they are made. What the walls bend is known once; any layer can then be placed alone.
+class MiddlePlacer {
+public:
+    /// @param corners  of a mesh with numbers of its sides; must outlive this.
+    /// @param skin     as `SkinPlaces` has it; must outlive this.
+    MiddlePlacer(const mesh::SkinNodes& corners, std::span<const Vec3> skin, const RunContext& context = {});
+
+    /// As `mesh::LayeredNodes::place_middles`. The same for any range and number of threads, to the bit.
+    void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
+
+    /// A middle node of the skin, by its place.
+    [[nodiscard]] const Vec3& on_skin(std::size_t place) const { return skin_[at_skin_.of(place)]; }
+
+private:
+    class Corners;
+
+    [[nodiscard]] std::vector<Vec3> bends_of_end(int level, const Vec3* nodes) const;
+    void blend_ends(const RunContext& context);
+    void bend_columns(const RunContext& context);
+    void place_level(int level, const Corners& corners, Vec3* out) const;
+    void place_columns(int layer, const Corners& corners, Vec3* out) const;
+    void place_level_centres(int level, const Corners& corners, Vec3* out) const;
+    void place_layer_centres(int layer, const Corners& corners, Vec3* out) const;
+
+    const mesh::HexMesh& mesh_;
+    mesh::SkinNodes corners_;
+    std::span<const Vec3> skin_;
+    mesh::MiddlePlaces places_;
+    SkinPlaces at_skin_;
+    LevelBlend blend_;
+    std::vector<std::uint8_t> rim_side_; ///< of each side of the source, whether it is on the rim
+    std::vector<std::uint8_t> rim_node_; ///< and of each node
+    /// What the ends bend beyond their blend from the rim, and how far up each level is; empty: nothing.
+    std::vector<Vec3> first_, last_;
+    std::vector<double> share_;
+    bool columns_bend_ = false;
+    std::optional<HarmonicSpread> spread_; ///< of what the columns' cubics leave of the walls' bends
+    std::vector<Vec3> beyond_;             ///< of each layer, of the rim: that
+};
+
+} // namespace lacuna::sweep

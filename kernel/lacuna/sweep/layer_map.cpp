@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/layer_map.h>
+
+#include <lacuna/core/vector_code.h>
+
+#include <array>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Columns of a matrix by which a node is multiplied, in the order in which they are added: for x and y the
+/// first, second and third, for z the second, third and first. The last number is idle.
+struct Columns {
+    Four column[3];
+};
+
+Columns columns_of(const Eigen::Matrix3d& matrix)
+{
+    Columns columns;
+    for (int k = 0; k < 3; ++k)
+        columns.column[k] = Four{matrix(0, k), matrix(1, k), matrix(2, (k + 1) % 3), 0};
+    return columns;
+}
+
+/// A layer's map, and where its nodes go.
+struct Layer {
+    Columns from_source, from_target;
+    Four shift;
+    Vec3* out;
+};
+using Layers = std::array<Layer, HarmonicSpread::kFields>;
+
+/// What the columns are multiplied by.
+struct Factors {
+    Four first, second, third;
+
+    LACUNA_INLINE explicit Factors(const Vec3& p)
+    {
+        const Four all{p[0], p[1], p[2], 0};
+        first = __builtin_shufflevector(all, all, 0, 0, 1, 3);
+        second = __builtin_shufflevector(all, all, 1, 1, 2, 3);
+        third = __builtin_shufflevector(all, all, 2, 2, 0, 3);
+    }
+};
+
+/// Rows of residuals lie in another order than nodes: they are fetched ahead.
+LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
+                                        std::size_t end)
+{
+    constexpr std::size_t kAhead = 8, kLine = 8; // nodes; numbers of a cache line
+    if (residuals == nullptr) return nullptr;
+    if (const double* row = i + kAhead < end ? residuals->of(i + kAhead) : nullptr) {
+        __builtin_prefetch(row);
+        __builtin_prefetch(row + kLine);
+    }
+    return residuals->of(i);
+}
+
+LACUNA_INLINE void map_each(const Layers& layers, std::size_t count, const Vec3* source, const Vec3* target,
+                            std::size_t begin, std::size_t end, const HarmonicSpread::Fields* residuals)
+{
+    for (std::size_t i = begin; i < end; ++i) {
+        const Factors s(source[i]), t(target[i]);
+        const double* residual = residual_of(residuals, i, end);
+        for (std::size_t l = 0; l < count; ++l) {
+            const Layer& layer = layers[l];
+            const Four *a = layer.from_source.column, *b = layer.from_target.column;
+            Four place = (a[0] * s.first + a[1] * s.second + a[2] * s.third) +
+                         (b[0] * t.first + b[1] * t.second + b[2] * t.third) + layer.shift;
+            if (residual != nullptr) place += *reinterpret_cast<const Four*>(residual + 3 * l);
+            for (int d = 0; d < 3; ++d) layer.out[i][d] = place[d];
+        }
+    }
+}
+
+#if defined(LACUNA_WIDER_VECTORS)
+[[gnu::target("avx2")]] void map_avx2(const Layers& layers, std::size_t count, const Vec3* source,
+                                      const Vec3* target, std::size_t begin, std::size_t end,
+                                      const HarmonicSpread::Fields* residuals)
+{
+    map_each(layers, count, source, target, begin, end, residuals);
+}
+#endif
+
+} // namespace
+
+void map_nodes(std::span<const LayerMap> maps, const Vec3* source, const Vec3* target, std::size_t begin,
+               std::size_t end, const HarmonicSpread::Fields* residuals, Vec3* out, std::size_t stride)
+{
+    Layers layers;
+    for (std::size_t l = 0; l < maps.size(); ++l) {
+        const Vec3& shift = maps[l].shift;
+        layers[l] = {columns_of(maps[l].from_source), columns_of(maps[l].from_target),
+                     Four{shift[0], shift[1], shift[2], 0}, out + l * stride};
+    }
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx2()) return map_avx2(layers, maps.size(), source, target, begin, end, residuals);
+#endif
+    map_each(layers, maps.size(), source, target, begin, end, residuals);
+}
+
+} // namespace lacuna::sweep
