@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <memory>
@@ -15,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -252,14 +255,25 @@ TEST_CASE("what a kill left while a file was replaced goes with the next replaci
     const std::string word = folder.file(".a.txt.replacing-1x");
     const std::string begin = folder.file(".a.txt.replacing-");
     // Numbers of processes come again: in a container they are often the same.
-    for (const std::string& left : {begin + "1-0", begin + std::to_string(::getpid()) + "-3", other, word})
-        test::put_bytes(left, "whole");
+    const std::string mine = begin + std::to_string(::getpid()) + "-3";
+    const std::string held = begin + "1-1";
+    for (const std::string& left : {begin + "1-0", mine, held, other, word}) test::put_bytes(left, "whole");
     test::put_bytes(folder.file("a.txt"), "before");
-    io::WholeFile file(folder.file("a.txt"));
-    file.append("after");
-    file.commit();
+    const int writer = ::open(held.c_str(), O_RDONLY | O_CLOEXEC);
+    REQUIRE(writer >= 0);
+    REQUIRE(::flock(writer, LOCK_EX | LOCK_NB) == 0);
+    const auto replace = [&] {
+        io::WholeFile file(folder.file("a.txt"));
+        file.append("after");
+        file.commit();
+    };
+    replace();
     CHECK(test::bytes_of(folder.file("a.txt")) == "after");
-    for (const std::string& path : {other, word}) CHECK(std::filesystem::exists(path));
+    for (const std::string& path : {held, other, word}) CHECK(std::filesystem::exists(path));
+    CHECK(folder.entries() == 4);
+    ::close(writer); // as a kill does
+    replace();
+    CHECK(!std::filesystem::exists(held));
     CHECK(folder.entries() == 3);
 }
 
@@ -274,9 +288,15 @@ TEST_CASE("many that replace one file at once leave one whole file")
             file.commit();
         }
     };
+    std::array<std::string, kThreads> errors;
     std::vector<std::thread> threads;
-    for (int t = 0; t < kThreads; ++t) threads.emplace_back(write, static_cast<char>('a' + t));
+    for (int t = 0; t < kThreads; ++t)
+        threads.emplace_back([&, t] {
+            const char letter = static_cast<char>('a' + t);
+            errors[t] = test::error_code([&] { write(letter); });
+        });
     for (std::thread& thread : threads) thread.join();
+    for (const std::string& error : errors) CHECK(error.empty());
     const std::string bytes = test::bytes_of(folder.file("a.txt"));
     REQUIRE(bytes.size() == 1000);
     CHECK(bytes == std::string(1000, bytes.front()));

@@ -15,6 +15,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -53,9 +54,30 @@ std::string prefix_beside(const std::string& name, const char* state)
 std::string unfinished_prefix(const std::string& name) { return prefix_beside(name, "unfinished"); }
 std::string replacing_prefix(const std::string& name) { return prefix_beside(name, "replacing"); }
 
-std::string numbered(const std::string& prefix, int attempt)
+std::string numbered(const std::string& prefix, std::uint64_t number)
 {
-    return prefix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    return prefix + std::to_string(::getpid()) + "-" + std::to_string(number);
+}
+
+/// A number that no name had before it.
+std::uint64_t new_number()
+{
+    std::uint64_t number = 0;
+    if (::getentropy(&number, sizeof number) == 0) return number;
+    timespec now = {};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+/// Whether the process that wrote a file is gone: those that live hold a lock on theirs. A file system
+/// without locks does not tell, and none is taken for left over there.
+bool is_abandoned(int folder, const char* name)
+{
+    const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return false;
+    const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    ::close(descriptor);
+    return locked;
 }
 
 /// So long nothing was written to a file that is left over [s]. Its process may run on another machine, where
@@ -167,7 +189,8 @@ void WholeFile::open_unnamed()
 #endif
 }
 
-void WholeFile::remove_left_over(const std::string& prefix, bool written_to)
+void WholeFile::remove_left_over(const std::string& prefix,
+                                 const std::function<bool(const LeftOver&)>& is_left_over) const
 {
     const int listed = ::openat(folder_->descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (listed < 0) return;
@@ -179,17 +202,15 @@ void WholeFile::remove_left_over(const std::string& prefix, bool written_to)
     while (const dirent* const entry = ::readdir(folder)) {
         const std::string_view name = entry->d_name;
         if (!name.starts_with(prefix)) continue;
-        pid_t process = 0;
+        LeftOver file{listed, entry->d_name};
         const char* const number = name.data() + prefix.size();
-        const auto read = std::from_chars(number, name.data() + name.size(), process);
-        if (read.ec != std::errc() || *read.ptr != '-' || process <= 0) continue;
-        const bool runs = ::kill(process, 0) == 0 || errno != ESRCH;
-        if (written_to && runs) continue;
+        const auto read = std::from_chars(number, name.data() + name.size(), file.process);
+        if (read.ec != std::errc() || *read.ptr != '-' || file.process <= 0) continue;
         struct stat status = {};
         if (::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode))
             continue;
-        if (written_to && std::time(nullptr) - status.st_mtime < kLeftOver) continue;
-        ::unlinkat(listed, entry->d_name, 0);
+        file.written = status.st_mtime;
+        if (is_left_over(file)) ::unlinkat(listed, entry->d_name, 0);
     }
     ::closedir(folder);
 }
@@ -197,9 +218,12 @@ void WholeFile::remove_left_over(const std::string& prefix, bool written_to)
 void WholeFile::open_named()
 {
     const std::string prefix = unfinished_prefix(name_);
-    remove_left_over(prefix, true);
+    remove_left_over(prefix, [](const LeftOver& file) {
+        const bool runs = ::kill(file.process, 0) == 0 || errno != ESRCH;
+        return !runs && std::time(nullptr) - file.written >= kLeftOver;
+    });
     // The name is taken by whoever makes the file first, so that two writers never share one.
-    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+    for (std::uint64_t attempt = 0; descriptor_ < 0; ++attempt) {
         unfinished_ = numbered(prefix, attempt);
         descriptor_ = ::openat(folder_->descriptor(), unfinished_.c_str(),
                                O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -299,24 +323,18 @@ void WholeFile::publish_unnamed()
     };
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
-    // Linking replaces nothing; renaming does. The name in between lives for two system calls. Who finds one
-    // takes it for left over, for numbers of processes tell nothing in containers: then it is gone again.
-    constexpr int kAttempts = 1000; // far more writers of one file than there are
+    // Linking replaces nothing; renaming does. The name in between lives for two system calls. The number of
+    // a process does not tell that one is left over, for in containers they come again; its lock does.
+    ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
-    remove_left_over(prefix, false);
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        const std::string between = numbered(prefix, attempt);
-        if (!link_as(between)) {
-            if (errno != EEXIST) fail(errno);
-            continue;
-        }
-        if (::renameat(folder_->descriptor(), between.c_str(), folder_->descriptor(), name_.c_str()) == 0)
-            return;
-        const int error = errno;
-        ::unlinkat(folder_->descriptor(), between.c_str(), 0);
-        if (error != ENOENT) fail(error);
-    }
-    fail(EBUSY);
+    remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });
+    // A name that nobody had: who finds the one before it abandoned removes no other.
+    const std::string between = numbered(prefix, new_number());
+    if (!link_as(between)) fail(errno);
+    if (::renameat(folder_->descriptor(), between.c_str(), folder_->descriptor(), name_.c_str()) == 0) return;
+    const int error = errno;
+    ::unlinkat(folder_->descriptor(), between.c_str(), 0);
+    fail(error);
 }
 
 void WholeFile::commit()

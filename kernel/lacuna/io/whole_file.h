@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <ctime>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -103,10 +105,15 @@ private:
     ssize_t write_some(std::uint64_t offset, std::string_view bytes);
     void open_unnamed();
     void open_named();
-    /// Remove files beside the place whose names begin so.
-    /// @param written_to  they may still be: those stay whose process runs on this machine, or that were
-    ///                    written to within the hour.
-    void remove_left_over(const std::string& prefix, bool written_to);
+    struct LeftOver {
+        int folder;              ///< it is in
+        const char* name;        ///< inside the folder
+        pid_t process = 0;       ///< that made it, by its name
+        std::time_t written = 0; ///< last [s]
+    };
+    /// Remove files beside the place whose names begin so and that are left over.
+    void remove_left_over(const std::string& prefix,
+                          const std::function<bool(const LeftOver&)>& is_left_over) const;
     void publish_unnamed();
     void remove_placed() const noexcept;
 
