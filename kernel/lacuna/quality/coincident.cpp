@@ -255,6 +255,40 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
     return least_of(found);
 }
 
+/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... side by side. @return  whether all
+/// are finite.
+bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
+{
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    constexpr std::size_t kNumbers = 12;
+    alignas(64) double low[kNumbers], high[kNumbers], zero[kNumbers] = {};
+    std::fill_n(low, kNumbers, kNone);
+    std::fill_n(high, kNumbers, -kNone);
+    const double* number = points.empty() ? nullptr : points.front().data();
+    const std::size_t fours = points.size() / 4;
+    for (std::size_t f = 0; f < fours; ++f, number += kNumbers) {
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            const double value = number[i];
+            low[i] = value < low[i] ? value : low[i];
+            high[i] = value > high[i] ? value : high[i];
+            zero[i] += 0 * value; // not a number as soon as one of them is not finite
+        }
+    }
+    Vec3 zeros(0, 0, 0);
+    for (std::size_t i = 0; i < kNumbers; i += 3) {
+        if (fours > 0) {
+            box.extend(Vec3(low[i], low[i + 1], low[i + 2]));
+            box.extend(Vec3(high[i], high[i + 1], high[i + 2]));
+        }
+        zeros += Vec3(zero[i], zero[i + 1], zero[i + 2]);
+    }
+    for (const Vec3& point : points.subspan(4 * fours)) {
+        box.extend(point);
+        zeros += 0 * point;
+    }
+    return zeros == Vec3(0, 0, 0);
+}
+
 } // namespace
 
 Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext& context)
@@ -264,12 +298,8 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
     std::vector<char> finite(chunks, 1);
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            Vec3 zero(0, 0, 0);
-            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
-                boxes[c].extend(points[p]);
-                zero += 0 * points[p]; // not a number as soon as one of them is not finite
-            }
-            finite[c] = zero == Vec3(0, 0, 0) ? 1 : 0;
+            const std::size_t first = c * kChunk;
+            finite[c] = extend(boxes[c], points.subspan(first, std::min(kChunk, points.size() - first)));
         }
     });
     Eigen::AlignedBox3d bounds;

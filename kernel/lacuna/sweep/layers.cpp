@@ -138,8 +138,15 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     }
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
     // Of both ends together, so that it does not matter which of them is called the source.
-    std::vector<double> weights = side_weights(graph, source_.quads, source_.nodes);
-    const std::vector<double> target_weights = side_weights(graph, source_.quads, target_);
+    std::vector<double> weights, target_weights;
+    parallel_for(context, 2, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t which = begin; which < end; ++which) {
+            if (which == 0)
+                weights = side_weights(graph, source_.quads, source_.nodes);
+            else
+                target_weights = side_weights(graph, source_.quads, target_);
+        }
+    });
     for (std::size_t k = 0; k < weights.size(); ++k) weights[k] += target_weights[k];
     spread_.emplace(graph, weights, columns_.rim, context);
 }
