@@ -2,8 +2,7 @@
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 
 #include <lacuna/geometry/segment.h>
-
-#include <Eigen/Eigenvalues>
+#include <lacuna/geometry/spread.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +52,9 @@ std::vector<Side> sides_of(const CadWire& wire, const std::set<std::size_t>& edg
 
 bool is_flat(const std::vector<Side>& sides)
 {
-    Vec3 middle = Vec3::Zero();
-    for (const Side& side : sides) middle += side.from / static_cast<double>(sides.size());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Side& side : sides) spread += (side.from - middle) * (side.from - middle).transpose();
-    const Vec3 squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+    std::vector<Vec3> ends;
+    for (const Side& side : sides) ends.push_back(side.from);
+    const Vec3 squares = geometry::spread_of(ends).square;
     return squares[0] <= kFlat * kFlat * squares[2];
 }
 

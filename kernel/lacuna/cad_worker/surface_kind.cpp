@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/geometry/spread.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -52,13 +53,7 @@ std::vector<Bend> bends_of(int tag, const ParameterBox& box)
 /// Do all points lie on one line, to a part of `size`?
 bool collinear(const std::vector<Vec3>& points, double size, double precision)
 {
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-    for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, solver.eigenvalues()[1])) <=
-           precision * size * std::sqrt(static_cast<double>(points.size()));
+    return std::sqrt(std::max(0.0, geometry::spread_of(points).square[1])) <= precision * size;
 }
 
 std::string kind_by_bending(int tag, const ParameterBox& box)

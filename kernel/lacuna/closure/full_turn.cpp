@@ -6,9 +6,8 @@
 #include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/spread.h>
 #include <lacuna/topology/section.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -38,35 +37,19 @@ struct Candidate {
     double length = 0; ///< of what it crosses of the walls [model length]
 };
 
-/// Where the walls are: their centroid, and the axes of their second moments of area.
-struct Middle {
-    Vec3 place = Vec3::Zero();
-    Eigen::Matrix3d axes;
-};
-
-Middle middle_of(const Model& model)
+/// Where the walls are, by area.
+geometry::Spread spread_of_walls(const Model& model)
 {
-    double area = 0;
-    Middle middle;
-    const auto for_each = [&](const auto& use) {
-        for (const Face& face : model.faces) {
-            for (const Triangle& t : face.triangles) {
-                const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-                use((a + b + c) / 3, (b - a).cross(c - a).norm() / 2);
-            }
+    std::vector<Vec3> middles;
+    std::vector<double> areas;
+    for (const Face& face : model.faces) {
+        for (const Triangle& t : face.triangles) {
+            const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+            middles.push_back((a + b + c) / 3);
+            areas.push_back((b - a).cross(c - a).norm() / 2);
         }
-    };
-    for_each([&](const Vec3& p, double weight) {
-        middle.place += weight * p;
-        area += weight;
-    });
-    middle.place /= area;
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for_each([&](const Vec3& p, double weight) {
-        moments += weight / area * (p - middle.place) * (p - middle.place).transpose();
-    });
-    middle.axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
-    return middle;
+    }
+    return geometry::spread_of(middles, areas);
 }
 
 double section_length(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
@@ -90,28 +73,25 @@ double section_length(const Model& model, const std::vector<FaceId>& faces, cons
 /// Planes that cross the walls, those that do along the shortest lines first.
 std::vector<Candidate> candidates_of(const Model& model, const RunContext& context)
 {
-    const std::vector<FaceId> faces = [&] {
-        const std::vector<FaceId> all = all_faces(model);
-        return all;
-    }();
-    const Middle middle = middle_of(model);
+    const std::vector<FaceId> faces = all_faces(model);
+    const geometry::Spread walls = spread_of_walls(model);
     std::vector<Candidate> found;
     for (int a = 0; a < 3; ++a) {
-        const Vec3 axis = middle.axes.col(a);
+        const Vec3 axis = walls.axis.col(a);
         // A round wall starts at a vertex: a plane near its seam, yet not through it, would leave a sliver.
         Vec3 first = Vec3::Zero();
         for (const Vertex& vertex : model.vertices) {
-            const Vec3 out = model.at(vertex.point) - middle.place;
+            const Vec3 out = model.at(vertex.point) - walls.centre;
             first = out - axis.dot(out) * axis;
             if (first.norm() > model.tolerance) break;
         }
-        if (!(first.norm() > model.tolerance)) first = middle.axes.col((a + 1) % 3);
+        if (!(first.norm() > model.tolerance)) first = walls.axis.col((a + 1) % 3);
         first.normalize();
         for (int k = 0; k < kDirections; ++k) {
             check_cancelled(context);
             const double angle = std::numbers::pi * k / kDirections;
             const Vec3 normal = std::cos(angle) * axis.cross(first) - std::sin(angle) * first;
-            Candidate candidate{geometry::plane_across(middle.place, normal)};
+            Candidate candidate{geometry::plane_across(walls.centre, normal)};
             candidate.length = section_length(model, faces, candidate.plane);
             if (candidate.length > 0) found.push_back(candidate);
         }

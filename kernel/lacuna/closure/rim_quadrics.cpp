@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 
 #include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/spread.h>
 #include <lacuna/topology/use_places.h>
 
 #include <Eigen/Dense>
@@ -70,17 +71,12 @@ struct EvenFrame {
 
 std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
 {
-    EvenFrame frame;
-    const auto share = 1 / static_cast<double>(points.size());
-    for (const Vec3& p : points) frame.centre += share * p;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Vec3& p : points) spread += share * (p - frame.centre) * (p - frame.centre).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    const geometry::Spread spread = geometry::spread_of(points);
     constexpr double kInPlane = 1e-12;
-    if (!(axes.eigenvalues()(0) > kInPlane * axes.eigenvalues()(2))) return std::nullopt;
-    frame.unit = std::sqrt(axes.eigenvalues()(2));
-    frame.stretch = axes.operatorInverseSqrt();
-    return frame;
+    if (!(spread.square(0) > kInPlane * spread.square(2))) return std::nullopt;
+    const Vec3 stretches = spread.square.cwiseSqrt().cwiseInverse();
+    return EvenFrame{spread.centre, std::sqrt(spread.square(2)),
+                     spread.axis * stretches.asDiagonal() * spread.axis.transpose()};
 }
 
 /// Forms that span those which vanish on some points, in units of their frame; none where there are too few

@@ -2,8 +2,7 @@
 #include <lacuna/geometry/newell.h>
 
 #include <lacuna/core/error.h>
-
-#include <Eigen/Eigenvalues>
+#include <lacuna/geometry/spread.h>
 
 #include <cmath>
 #include <limits>
@@ -15,18 +14,9 @@ namespace {
 /// Unit normal of the plane with the least sum of squared distances.
 Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
 {
-    Vec3 mean = Vec3::Zero();
-    std::size_t count = 0;
-    for (const std::vector<Vec3>& loop : loops) {
-        for (const Vec3& point : loop) mean += point;
-        count += loop.size();
-    }
-    mean /= static_cast<double>(count);
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    for (const std::vector<Vec3>& loop : loops)
-        for (const Vec3& point : loop) scatter += (point - mean) * (point - mean).transpose();
-    // Eigenvalues come in rising order.
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+    std::vector<Vec3> points;
+    for (const std::vector<Vec3>& loop : loops) points.insert(points.end(), loop.begin(), loop.end());
+    return spread_of(points).axis.col(0);
 }
 
 /// Largest distance of a point from the first one.

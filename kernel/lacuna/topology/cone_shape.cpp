@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/cone_shape.h>
 
+#include <lacuna/geometry/spread.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -25,31 +27,20 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
     if (face.kind == "plane" || face.kind == "sphere") return {};
-    struct Facet {
-        Vec3 normal;
-        double area = 0;
-    };
-    std::vector<Facet> facets;
-    Vec3 mean = Vec3::Zero();
-    double area = 0;
+    std::vector<Vec3> normals;
+    std::vector<double> areas;
     for (const Triangle& t : face.triangles) {
         const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
         if (!(n.norm() > 0)) continue;
-        facets.push_back({n.normalized(), n.norm()});
-        mean += n;
-        area += n.norm();
+        normals.push_back(n.normalized());
+        areas.push_back(n.norm());
     }
-    if (facets.size() < 4) return {};
-    mean /= area;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Facet& facet : facets)
-        spread += facet.area / area * (facet.normal - mean) * (facet.normal - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    const Vec3 shares = axes.eigenvalues(); // rising
-    if (shares[0] > kMostOff || shares[1] < kLeastSpread) return {};
+    if (normals.size() < 4) return {};
+    const geometry::Spread spread = geometry::spread_of(normals, areas);
+    if (spread.square[0] > kMostOff || spread.square[1] < kLeastSpread) return {};
     ConeShape cone;
-    cone.axis = axes.eigenvectors().col(0);
-    const double lean = std::abs(mean.dot(cone.axis));
+    cone.axis = spread.axis.col(0);
+    const double lean = std::abs(spread.centre.dot(cone.axis));
     if (lean < kLeastLean || lean > kMostLean) return {};
     // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the rest,
     // with the slope s that the normals say. Facets are chords, so it is measured anew about that axis.
@@ -59,7 +50,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto count = static_cast<Eigen::Index>(used.size());
     const Vec3 origin = model.at(used.front());
-    const Eigen::Matrix<double, 3, 2> across = axes.eigenvectors().rightCols<2>();
+    const Eigen::Matrix<double, 3, 2> across = spread.axis.rightCols<2>();
     Eigen::MatrixXd left(count, 4), line(count, 2);
     Eigen::VectorXd right(count);
     const double square = lean * lean / (1 - lean * lean);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/face_radius.h>
 
+#include <lacuna/geometry/spread.h>
 #include <lacuna/topology/cone_shape.h>
 
 #include <Eigen/Dense>
@@ -51,34 +52,33 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     for (const char* other : {"plane", "cone", "torus"}) // as the CAD file says; a piece may look otherwise
         if (face.kind == other) return {};
     std::vector<Index> used;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    double area = 0;
+    std::vector<Vec3> normals;
+    std::vector<double> areas;
     for (const Triangle& t : face.triangles) {
         used.insert(used.end(), t.begin(), t.end());
         const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
         if (!(n.norm() > 0)) continue;
-        spread += n * n.transpose() / n.norm();
-        area += n.norm();
+        normals.push_back(n.normalized());
+        areas.push_back(n.norm());
     }
-    if (!(area > 0)) return {};
+    if (normals.empty()) return {};
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     Eigen::MatrixXd points(static_cast<Eigen::Index>(used.size()), 3);
     for (std::size_t p = 0; p < used.size(); ++p)
         points.row(static_cast<Eigen::Index>(p)) = model.at(used[p]).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread / area);
-    const Eigen::Vector3d share = axes.eigenvalues(); // of the normals along each axis, squared; rising
-    if (share[1] < kMostOff * kMostOff) return {};    // all look one way
-    if (share[0] >= kMostOff) {
+    const geometry::Spread looks = geometry::spread_about(Vec3::Zero(), normals, areas);
+    if (looks.square[1] < kMostOff * kMostOff) return {}; // all look one way
+    if (looks.square[0] >= kMostOff) {
         const auto sphere = fitted(points);
         // The corners of one row of facets round a cone lie on a sphere as well.
         if (!sphere || cone_shape(model, id)) return {};
         return RoundShape{sphere->radius, sphere->centre, {}};
     }
-    const Eigen::Matrix<double, 3, 2> across = axes.eigenvectors().rightCols<2>();
+    const Eigen::Matrix<double, 3, 2> across = looks.axis.rightCols<2>();
     const auto circle = fitted(points * across);
     if (!circle) return {};
-    const Vec3 axis = axes.eigenvectors().col(0);
+    const Vec3 axis = looks.axis.col(0);
     const Eigen::VectorXd along = points * axis;
     const Vec3 centre = across * circle->centre + axis * (along.minCoeff() + along.maxCoeff()) / 2;
     return RoundShape{circle->radius, centre, axis};
