@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/close_class.h>
+
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/void_edges.h>
+#include <lacuna/closure/detail/void_faces.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/core/error.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+void note(Closure& closure, const std::string& algorithm)
+{
+    auto& list = closure.algorithms;
+    if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
+}
+
+void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
+              const Tools& tools)
+{
+    const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
+    VoidFilling filling = fill(volume, loops, tools.bending(), name, tools.context);
+    note(closure, filling.algorithm);
+    closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
+}
+
+/// With no walls between them nothing but the match says how source and target face each other. Walls that
+/// are connected to the target alone turn with it.
+void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
+{
+    if (match.loops.empty() || !match.loops.front().flipped) return;
+    const std::vector<FaceId> all = all_faces(volume.model);
+    for (const std::vector<FaceId>& part : connected_parts(volume.model, all)) {
+        const auto holds = [&](Role role) {
+            return std::any_of(part.begin(), part.end(),
+                               [&](FaceId face) { return volume.role[face.index()] == role; });
+        };
+        if (holds(Role::target) && !holds(Role::source)) flip_faces(volume.model, part);
+    }
+}
+
+/// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace a free loop.
+void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
+{
+    for (const Loop& loop : void_loops(volume, closure.void_edges))
+        add_face(volume, closure, {loop}, Role::wall, tools);
+    note(closure, "Algorithm 3");
+}
+
+/// A loop with no wall at all is connected by void edges alone.
+void check_matched(const OpenVolume& volume, const matching::Match& match)
+{
+    const auto uses = edge_uses(volume.model);
+    for (std::size_t l = 0; l < match.source_loops.size(); ++l) {
+        const std::vector<EdgeUse>& rim = match.source_loops[l].uses;
+        const bool bare = std::all_of(rim.begin(), rim.end(),
+                                      [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        const bool matched = std::any_of(match.vertices.begin(), match.vertices.end(), [&](const auto& pair) {
+            return std::any_of(rim.begin(), rim.end(),
+                               [&](const EdgeUse& use) { return use_from(volume.model, use) == pair.first; });
+        });
+        if (!bare || matched) continue;
+        throw NotClosed("closure.unmatched_loop",
+                        "source loop " + std::to_string(l + 1) + ", with " +
+                            name_of(volume.model, rim.front().edge) +
+                            ", has no wall and none of its vertices is matched to the target; pair some by "
+                            "hand with match{ vertices = … }");
+    }
+}
+
+/// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
+/// Class III is the same with every vertex on a wall: void edges only where its wall does not go all the way.
+void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
+{
+    if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
+    if (closure.value == VolumeClass::III) note(closure, "Algorithm 9");
+    turn_target_to_source(volume, match);
+    if (closure.value != VolumeClass::III) {
+        matching::apply_splits(volume, match);
+        check_matched(volume, match);
+    }
+    const bool smooth = tools.way.edges == EdgeShape::smooth;
+    closure.void_edges = make_void_edges(volume, match, tools.by_hand,
+                                         {tools.bending(), smooth, smooth ? tools.follower : nullptr},
+                                         tools.context);
+    if (!closure.void_edges.empty() || closure.value != VolumeClass::III) note(closure, "Algorithm 2");
+    add_void_walls(volume, tools, closure);
+}
+
+Loop reversed(const Rim& rim)
+{
+    Loop loop;
+    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
+        loop.uses.push_back({use->edge, !use->reversed});
+    return loop;
+}
+
+/// A missing target with the source's shape, moved to the walls' rim by the affine map that the walls'
+/// sections give.
+VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
+                         const RunContext& context)
+{
+    const Model& model = volume.model;
+    OpenVolume capped = volume; // the walls say how they lead only between two ends
+    add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
+    const Follower follower(capped, matching::side_lines(capped, context), context);
+    if (!follower.leads()) {
+        throw NotClosed("closure.nothing_parallel",
+                        name + " cannot be parallel to the given end: the walls do not say how it is "
+                               "carried to their rim; use cap = \"flat\"");
+    }
+    std::vector<Vec3> points;
+    for (const Vec3& p : model.points) points.push_back(follower.carried(p));
+    std::vector<Triangle> triangles;
+    double sides = 0;
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Triangle& t : model[face].triangles) {
+            triangles.push_back(t);
+            for (std::size_t i = 0; i < 3; ++i)
+                sides += (points[static_cast<std::size_t>(t[(i + 1) % 3])] -
+                          points[static_cast<std::size_t>(t[i])])
+                             .norm();
+        }
+    }
+    return fill_as(volume, loops, geometry::FacetTree(points, triangles),
+                   sides / static_cast<double>(3 * triangles.size()), name, context);
+}
+
+/// Eq. (3) and (4): the free loops of source and walls are the target's.
+void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
+{
+    note(closure, "Algorithm 10");
+    const Model& model = volume.model;
+    std::set<EdgeId> on_source;
+    for (const FaceId face : volume.faces(Role::source)) {
+        for (const Loop& loop : model[face].loops) {
+            for (const EdgeUse& use : loop.uses) on_source.insert(use.edge);
+        }
+    }
+    std::vector<Loop> loops;
+    for (const Rim& rim : free_loops(volume)) {
+        for (const EdgeUse& use : rim.uses) {
+            if (!on_source.contains(use.edge)) continue;
+            throw NotClosed("closure.wall_missing",
+                            name_of(model, use.edge) +
+                                " of the source has no wall; without a target every wall must be there "
+                                "(class IV): name the wall, or the target");
+        }
+        loops.push_back(reversed(rim));
+    }
+    const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
+    if (loops.size() != wanted) {
+        throw NotClosed("closure.loop_counts", "the source has " + std::to_string(wanted) +
+                                                   " loops and the walls leave " +
+                                                   std::to_string(loops.size()) +
+                                                   " free loops for the target; a sweep needs as many on "
+                                                   "both ends: check the walls, or name the target");
+    }
+    if (tools.way.planes) {
+        if (auto filled = fill_missing_end(volume, tools.context)) {
+            closure.void_edges = std::move(filled->void_edges);
+            closure.void_faces = std::move(filled->void_faces);
+            note(closure, "Algorithm 4");
+            return;
+        }
+    }
+    if (tools.way.cap == Cap::flat) {
+        add_face(volume, closure, loops, Role::target, tools);
+        return;
+    }
+    VoidFilling filling = parallel_cap(volume, loops, "void face 1", tools.context);
+    note(closure, filling.algorithm);
+    closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::target));
+}
+
+/// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's. Departure: a
+/// floor round a loop is part of that end, with which it would make cells of no thickness as a wall.
+void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
+{
+    note(closure, "Algorithm 11");
+    const EndLoops ends = group_loops(volume);
+    for (const Role role : {Role::source, Role::target}) {
+        const std::vector<Loop>& end = role == Role::source ? ends.source : ends.target;
+        const std::vector<FaceId> floors = floors_round(volume, end);
+        add_face(volume, closure, end, role, tools);
+        for (const FaceId floor : floors) {
+            volume.role[floor.index()] = role;
+            closure.notes.push_back(name_of(volume.model, floor) + " lies in the plane of " +
+                                    (role == Role::source ? "the source" : "the target") +
+                                    " and is taken as a part of it");
+            log_line(tools.context, closure.notes.back());
+        }
+    }
+}
+
+} // namespace
+
+Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Tools& tools)
+{
+    Closure closure;
+    closure.value = value;
+    switch (value) {
+    case VolumeClass::closed:
+        break;
+    case VolumeClass::I:
+    case VolumeClass::II:
+    case VolumeClass::III:
+        close_between_ends(volume, match, tools, closure);
+        break;
+    case VolumeClass::IV:
+        close_class_four(volume, tools, closure);
+        break;
+    case VolumeClass::V:
+        close_class_five(volume, tools, closure);
+        break;
+    }
+    if (enclosed_volume(volume) < 0) {
+        const std::vector<FaceId> all = all_faces(volume.model);
+        flip_faces(volume.model, all);
+    }
+    return closure;
+}
+
+} // namespace lacuna::closure
