@@ -2,6 +2,7 @@
 #include "support/cancelling.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/minimal_area.h>
 
 #include <doctest/doctest.h>
@@ -85,7 +86,7 @@ double least_angle(const MinimalArea& surface)
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 u = at(surface.points, t[(k + 1) % 3]) - at(surface.points, t[k]);
             const Vec3 v = at(surface.points, t[(k + 2) % 3]) - at(surface.points, t[k]);
-            least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi);
+            least = std::min(least, geometry::angle_between(u, v) * 180 / std::numbers::pi);
         }
     }
     return least;

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/union_find.h>
 
 #include <algorithm>
@@ -299,7 +300,7 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
         return samples;
     };
     const auto turn = [](const Sample& a, const Sample& b) {
-        return std::atan2(a.tangent.cross(b.tangent).norm(), a.tangent.dot(b.tangent));
+        return geometry::angle_between(a.tangent, b.tangent);
     };
     std::vector<Sample> samples = sample(evenly(low, high, kFineSides / 2));
     constexpr int kRounds = 6;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/face_grid.h>
 
+#include <lacuna/geometry/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -53,7 +55,7 @@ double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
     const double floor_a = 1e-9 * a.du.norm() * a.dv.norm();
     const double floor_b = 1e-9 * b.du.norm() * b.dv.norm();
     if (!(na.norm() > floor_a) || !(nb.norm() > floor_b)) return 0;
-    return std::atan2(na.cross(nb).norm(), na.dot(nb));
+    return geometry::angle_between(na, nb);
 }
 
 /// For each interval along an axis, the largest length and the largest turn over all lines across.

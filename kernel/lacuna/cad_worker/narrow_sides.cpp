@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/segment.h>
 #include <lacuna/geometry/spread.h>
 
@@ -33,7 +34,7 @@ double sag_of(const std::vector<Vec3>& line, std::size_t side)
     const auto bend = [&](std::size_t at) {
         if (at == 0 || at + 1 >= line.size()) return 0.0;
         const Vec3 in = line[at] - line[at - 1], out = line[at + 1] - line[at];
-        return std::atan2(in.cross(out).norm(), in.dot(out));
+        return geometry::angle_between(in, out);
     };
     return (line[side + 1] - line[side]).norm() * std::max(bend(side), bend(side + 1)) / 8;
 }

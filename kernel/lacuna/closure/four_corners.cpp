@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
 #include <lacuna/topology/use_places.h>
@@ -47,7 +48,7 @@ bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
     std::reverse(back.begin(), back.end());
     const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
                leaves = -geometry::end_tangent(back);
-    return std::atan2(arrives.cross(leaves).norm(), arrives.dot(leaves)) > kCorner * std::numbers::pi / 180;
+    return geometry::angle_between(arrives, leaves) > kCorner * std::numbers::pi / 180;
 }
 
 std::vector<std::size_t> sharp_corners(const Model& model, const Loop& loop)

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/use_places.h>
@@ -126,7 +127,7 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
     std::vector<double> turns;
     for (std::size_t i = 2; i < chain.size(); ++i) {
         const Vec3 before = chain[i - 1] - chain[i - 2], after = chain[i] - chain[i - 1];
-        turns.push_back(std::atan2(before.cross(after).norm(), before.dot(after)));
+        turns.push_back(geometry::angle_between(before, after));
     }
     std::ranges::sort(turns, std::greater{});
     return turns;

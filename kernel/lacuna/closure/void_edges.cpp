@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/topology/use_places.h>
@@ -193,9 +194,7 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
 {
     const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
     const Vec3 chord = to - from;
-    const auto turn = [&](const Vec3& tangent) {
-        return std::atan2(tangent.cross(chord).norm(), tangent.dot(chord));
-    };
+    const auto turn = [&](const Vec3& tangent) { return geometry::angle_between(tangent, chord); };
     const double theta = std::min(turn(tangents.leave) + turn(tangents.arrive), kMostTurn);
     const double handle = chord.norm() / (3 * std::pow(std::cos(theta / 4), 2));
     const Vec3 a = from + handle * tangents.leave, b = to - handle * tangents.arrive;

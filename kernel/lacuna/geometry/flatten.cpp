@@ -2,6 +2,7 @@
 #include <lacuna/geometry/flatten.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/predicates.h>
@@ -235,7 +236,7 @@ bool is_tube(const Facets& facets)
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 &p = facets.points[index(t[k])], a = facets.points[index(t[(k + 1) % 3])] - p,
                        b = facets.points[index(t[(k + 2) % 3])] - p;
-            angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+            angle[index(t[k])] += angle_between(a, b);
         }
     }
     double turning = 0;

@@ -5,6 +5,8 @@
 // Liepa 2003). The turn across the sides i–m and m–k is taken against those chains' own best triangles.
 #include <lacuna/geometry/detail/polygon_cover.h>
 
+#include <lacuna/geometry/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -124,7 +126,7 @@ std::vector<std::size_t> coarse_corners(const CoverPolygon& polygon, std::span<c
         const Vec3 onward = place(i + 1) - place(i);
         const Vec3 before = place(i) - place(i + count - 1);
         length[i] = onward.norm();
-        turn[i] = std::atan2(before.cross(onward).norm(), before.dot(onward));
+        turn[i] = angle_between(before, onward);
     }
     const double all_length = std::accumulate(length.begin(), length.end(), 0.0);
     const double all_turn = std::max(std::accumulate(turn.begin(), turn.end(), 0.0), 1.0);

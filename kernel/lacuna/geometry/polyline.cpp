@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/polyline.h>
 
-#include <algorithm>
+#include <lacuna/geometry/angle.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lacuna::geometry {
@@ -72,7 +73,7 @@ double sag(std::span<const Vec3> points)
     for (std::size_t i = 0; i + 2 < points.size(); ++i) {
         const Vec3 a = points[i + 1] - points[i], b = points[i + 2] - points[i + 1];
         if (a.dot(b) <= 0) continue;
-        const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+        const double angle = angle_between(a, b);
         most = std::max(most, std::max(a.norm(), b.norm()) * angle / 8);
     }
     return most;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/tips.h>
 
+#include <lacuna/geometry/angle.h>
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -21,7 +23,7 @@ std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Trian
             const Vec3& at = points[index(t[k])];
             const Vec3 a = points[index(t[(k + 1) % 3])] - at;
             const Vec3 b = points[index(t[(k + 2) % 3])] - at;
-            angle[index(t[k])] += std::atan2(a.cross(b).norm(), a.dot(b));
+            angle[index(t[k])] += angle_between(a, b);
             turn[index(t[k])] += t[(k + 1) % 3] - std::int64_t{t[(k + 2) % 3]};
         }
     }

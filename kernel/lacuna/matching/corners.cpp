@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/corners.h>
 
+#include <lacuna/geometry/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +20,7 @@ constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)
 {
-    return std::atan2(in.cross(out).norm(), in.dot(out)) * 180 / std::numbers::pi;
+    return geometry::angle_between(in, out) * 180 / std::numbers::pi;
 }
 
 /// The turn of a chain from its first side to its second, or from its last but one to its last [degrees].

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/edge_turning.h>
 
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/edge_nodes.h>
 
@@ -32,7 +33,7 @@ std::vector<Vec3> line_of(const Model& model, EdgeId edge)
 double bend(const Vec3& before, const Vec3& at, const Vec3& after)
 {
     const Vec3 in = at - before, out = after - at;
-    const double angle = std::atan2(in.cross(out).norm(), in.dot(out));
+    const double angle = geometry::angle_between(in, out);
     return angle < kCorner ? angle : 0;
 }
 

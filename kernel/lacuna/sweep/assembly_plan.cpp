@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/surface/default_size.h>
@@ -317,7 +318,7 @@ private:
             sides += (b - a).norm() / size(edge.member, (a + b) / 2);
             if (i == 0) continue;
             const Vec3 before = a - model(edge.member).at(e.points[i - 1]);
-            turn += std::atan2(before.cross(b - a).norm(), before.dot(b - a));
+            turn += geometry::angle_between(before, b - a);
         }
         return std::max(sides, turn * member.options.curvature / (2 * std::numbers::pi));
     }

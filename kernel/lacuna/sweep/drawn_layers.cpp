@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/drawn_layers.h>
 
+#include <lacuna/geometry/angle.h>
 #include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
@@ -73,7 +74,7 @@ Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
         way.along[i] = (way.points[std::min(i + 1, kSteps)] - way.points[i > 0 ? i - 1 : 0]).normalized();
     for (std::size_t i = 1; i < kSteps; ++i) {
         const Vec3 in = way.points[i] - way.points[i - 1], out = way.points[i + 1] - way.points[i];
-        const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
+        const double turn = geometry::angle_between(in, out);
         if (turn > kCorner || in.norm() < slow || out.norm() < slow) continue;
         way.turned[i] += turn / 2; // it is spread over the steps beside it
         way.turned[i + 1] += turn / 2;

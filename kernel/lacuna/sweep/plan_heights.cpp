@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/surface/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
 
@@ -45,7 +46,7 @@ double turning_of(const std::vector<Vec3>& points)
     double sum = 0;
     for (std::size_t i = step; i + step < points.size(); i += step) {
         const Vec3 in = points[i] - points[i - step], out = points[i + step] - points[i];
-        sum += std::atan2(in.cross(out).norm(), in.dot(out));
+        sum += geometry::angle_between(in, out);
     }
     return sum * kTurnChords / (kTurnChords - 1);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/sweep/assembly.h>
@@ -273,7 +274,7 @@ double facet_sag(const Model& model, const Face& face)
                        n = area_of(model, face.triangles[other->second]);
             const double side = (model.at(b) - model.at(a)).norm();
             if (!(m.norm() > 0) || !(n.norm() > 0) || !(side > 0)) continue;
-            const double angle = std::atan2(m.cross(n).norm(), m.dot(n));
+            const double angle = geometry::angle_between(m, n);
             sag = std::max(sag, angle / 8 * 2 * std::max(m.norm(), n.norm()) / side);
         }
     }

@@ -2,6 +2,7 @@
 #include <lacuna/topology/detail/patches.h>
 
 #include <lacuna/core/edge_key.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 
@@ -144,7 +145,7 @@ void measure_facets(const Model& model, const std::vector<bool>& is_vertex, Smoo
                 if (found == inside.end()) continue;
                 const Vec3 a = model.at(t[(i + 1) % 3]) - model.at(t[i]);
                 const Vec3 b = model.at(t[(i + 2) % 3]) - model.at(t[i]);
-                found->second += std::atan2(a.cross(b).norm(), a.dot(b));
+                found->second += geometry::angle_between(a, b);
             }
         }
     }
