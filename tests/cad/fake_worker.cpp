@@ -77,6 +77,7 @@ int main()
             if (how == "opcode") channel.send(Opcode::hello, {});
             if (how == "indices") reply.faces[0].triangles[0][1] = 1'000'000;
             if (how == "edges") reply.edges[0].points = {2, 1};
+            if (how == "form") reply.edges[0].form = {Vec3(0, 0, 0)};
             if (how == "solids") reply.solids = {{-1}};
             if (how == "nan") reply.points[0].x() = std::numeric_limits<double>::quiet_NaN();
             std::string bytes = encode(reply);

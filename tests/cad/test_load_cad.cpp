@@ -37,6 +37,45 @@ TEST_CASE("a solid of any known shape and file format encloses its volume, outwa
     }
 }
 
+TEST_CASE("points of lines and ellipses are Gmsh's to rounding, and nobody is asked for them")
+{
+    const test::TempFolder folder;
+    constexpr double kScale = 0.001, kPlaces = 9;
+    const auto build = [] {
+        occ::addBox(100, 50, -30, 1, 2, 3);
+        occ::addCylinder(7, 0, 0, 1, 2, 3, 2);
+        occ::addTorus(0, 30, 0, 5, 1, -1, 2); // part of a turn
+        occ::addCone(0, -40, 0, 3, 1, 2, 2, 1);
+        const int oval = occ::addEllipse(-50, 0, 3, 4, 2);
+        occ::addPlaneSurface({occ::addCurveLoop({oval})});
+    };
+    const std::string path = folder.gmsh("curves.brep", build);
+    cad::LoadOptions options;
+    options.scale = kScale;
+    const topology::Model model = cad::load({path}, options);
+    test::kill_worker();
+    REQUIRE(std::filesystem::remove(path)); // and it cannot be read again
+
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    build();
+    occ::synchronize();
+    for (const topology::Edge& edge : model.edges) {
+        CAPTURE(edge.tag);
+        std::vector<double> params, places;
+        for (int i = 0; i <= kPlaces; ++i)
+            params.push_back(edge.params.front() + i / kPlaces * (edge.params.back() - edge.params.front()));
+        std::vector<Vec3> points(params.size());
+        edge.curve->evaluate(params, points);
+        gmsh::model::getValue(1, edge.tag, params, places);
+        for (std::size_t i = 0; i < params.size(); ++i) {
+            const Vec3 exact = kScale * Vec3(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+            CHECK((points[i] - exact).norm() <= 1e-13 * exact.norm());
+        }
+    }
+    gmsh::finalize();
+}
+
 TEST_CASE("face tags, areas and centres are those of the plain import in Gmsh")
 {
     const test::TempFolder folder;

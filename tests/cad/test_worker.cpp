@@ -328,7 +328,7 @@ TEST_CASE("a CAD process that lies does no harm")
         CHECK(has(words, path));
     }
     for (const std::string how :
-         {"length", "opcode", "descriptors", "indices", "edges", "solids", "nan", "text", "half"}) {
+         {"length", "opcode", "descriptors", "indices", "edges", "form", "solids", "nan", "text", "half"}) {
         CAPTURE(how);
         const Fake fake(how);
         const std::string words = failure([&] { (void)cad::load({path}); });

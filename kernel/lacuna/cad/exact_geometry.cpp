@@ -114,6 +114,10 @@ void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunCo
 void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
                         const RunContext& context) const
 {
+    if (!plain_.form.empty()) {
+        std::ranges::transform(params, points.begin(), [&](double t) { return plain_.at(t); });
+        return;
+    }
     for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
         check_cancelled(context);
         const std::size_t count = std::min(kAtOnce, points.size() - from);

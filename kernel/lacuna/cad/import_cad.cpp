@@ -12,7 +12,8 @@ using namespace cad_protocol;
 
 namespace {
 
-void add_edges(topology::Model& model, LoadReply& reply, const std::shared_ptr<const CadSource>& source)
+void add_edges(topology::Model& model, LoadReply& reply, double scale,
+               const std::shared_ptr<const CadSource>& source)
 {
     for (std::size_t p = 0; p < reply.vertex_tags.size(); ++p)
         model.vertices.push_back({static_cast<Index>(p), reply.vertex_tags[p], topology::Origin::given});
@@ -28,7 +29,9 @@ void add_edges(topology::Model& model, LoadReply& reply, const std::shared_ptr<c
             const LoadReply::LeftOut& face = reply.left_out[index(f)];
             left_out.push_back({face.tag, source->path(), face.why});
         }
-        edge.curve = std::make_shared<CadCurve>(source, cad.curve, std::move(left_out));
+        for (Vec3& part : cad.form) part *= scale;
+        geometry::PlainCurve plain{std::move(cad.form)};
+        edge.curve = std::make_shared<CadCurve>(source, cad.curve, std::move(plain), std::move(left_out));
         model.edges.push_back(std::move(edge));
     }
 }
@@ -82,7 +85,7 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
     model.source = source->path();
     model.notes = std::move(reply.notes);
     model.points = std::move(reply.points);
-    add_edges(model, reply, source);
+    add_edges(model, reply, scale, source);
     for (LoadReply::Face& cad : reply.faces) {
         topology::Face face;
         face.tag = cad.tag;

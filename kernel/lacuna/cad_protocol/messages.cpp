@@ -27,7 +27,7 @@ void put(A& with, M& m)
         with(m.files), with(m.tolerance), with(m.scale);
     } else if constexpr (std::is_same_v<T, LoadReply::Edge>) {
         with(m.tag), with(m.curve), with(m.from), with(m.to), with(m.params), with(m.points),
-            with(m.left_out);
+            with(m.left_out), with(m.form);
     } else if constexpr (std::is_same_v<T, LoadReply::LeftOut>) {
         with(m.tag), with(m.why);
     } else if constexpr (std::is_same_v<T, LoadReply::Face>) {
@@ -144,6 +144,8 @@ void check(const LoadReply& m)
                 "an edge that does not run between its ends");
         for (const double t : edge.params) require(std::isfinite(t), "a parameter that is no number");
         require_below(edge.left_out, m.left_out.size(), "an edge of no face left out");
+        require(edge.form.empty() || edge.form.size() == 2 || edge.form.size() == 3, "a curve of no form");
+        require_finite(edge.form, "a curve's form that is none");
     }
     for (const LoadReply::Face& face : m.faces) {
         for (const Triangle& t : face.triangles) {

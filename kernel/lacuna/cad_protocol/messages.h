@@ -73,6 +73,7 @@ struct LoadReply {
         std::vector<double> params;
         std::vector<Index> points;
         std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces that had it
+        std::vector<Vec3> form = {};      ///< of the curve, as PlainCurve has it [file length]; or nothing
     };
     /// A face that could not be cut, and is no sliver.
     struct LeftOut {

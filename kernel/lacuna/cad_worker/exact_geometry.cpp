@@ -2,11 +2,13 @@
 #include <lacuna/cad_worker/exact_geometry.h>
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/geometry/plain_curve.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
@@ -232,6 +234,34 @@ std::vector<Vec3> curve_points(int tag, const std::vector<double>& params)
     std::vector<double> values;
     gmsh::model::getValue(1, tag, params, values);
     return unflat(values);
+}
+
+std::vector<Vec3> plain_form(int tag, double first, double last)
+{
+    std::string kind;
+    gmsh::model::getType(1, tag, kind);
+    const bool line = kind == "Line";
+    if (!line && kind != "Circle" && kind != "Ellipse") return {};
+    // First derivatives are exact, second ones differences.
+    const Vec3 start = curve_points(tag, {0.0}).front();
+    constexpr double kQuarter = std::numbers::pi / 2; // not quite: its cosine is 6e-17
+    const std::vector<Vec3> along = curve_tangents(tag, {0.0, kQuarter});
+    geometry::PlainCurve plain{{start, along[0]}};
+    if (!line) {
+        const Vec3 out = std::cos(kQuarter) * along[0] - along[1];
+        plain.form = {start - out, out, along[0]};
+    }
+    std::vector<double> params;
+    for (const double share : {0.0, 0.1, 0.3, 0.45, 0.6, 0.8, 1.0})
+        params.push_back(first + share * (last - first));
+    const std::vector<Vec3> points = curve_points(tag, params);
+    double size = 0, off = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        size = std::max(size, points[i].cwiseAbs().maxCoeff());
+        off = std::max(off, (plain.at(params[i]) - points[i]).norm());
+    }
+    constexpr double kRounding = 1e-14; // of the coordinates
+    return off <= kRounding * size ? std::move(plain.form) : std::vector<Vec3>();
 }
 
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params)

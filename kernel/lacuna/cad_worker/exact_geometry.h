@@ -43,6 +43,9 @@ std::vector<Vec3> evaluate_curve(const CadSource& source, int tag, const std::ve
 // Gmsh's flat arrays as vectors. Lengths are those of the file; within a session, the model being current.
 
 std::vector<Vec3> curve_points(int tag, const std::vector<double>& params);
+/// The form of a curve that is a straight line or an ellipse from one parameter to another; else nothing. Not
+/// by its kind alone: it is compared with the curve, to rounding.
+std::vector<Vec3> plain_form(int tag, double first, double last);
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params);
 std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv);
 

@@ -291,8 +291,10 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
         if (!used[e]) continue;
         const CadEdge& cad = wire.edges[e];
         const CadPiece& piece = wire.pieces[cad.master];
-        reply.edges.push_back({cad.tag, wire.curves[piece.curve].tag, piece.from, piece.to, cad.params,
-                               cad.points, std::move(left_out[e])});
+        const int curve = wire.curves[piece.curve].tag;
+        reply.edges.push_back({cad.tag, curve, piece.from, piece.to, cad.params, cad.points,
+                               std::move(left_out[e]),
+                               plain_form(curve, cad.params.front(), cad.params.back())});
     }
     for (std::size_t f = 0; f < wire.faces.size(); ++f) {
         CadFacets& facets = cut.faces[f];

@@ -5,6 +5,7 @@
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/left_out.h>
 #include <lacuna/geometry/exact.h>
+#include <lacuna/geometry/plain_curve.h>
 
 #include <cstdint>
 #include <memory>
@@ -91,8 +92,10 @@ private:
 /// A curve of a loaded model.
 class CadCurve final : public geometry::ExactCurve {
 public:
-    CadCurve(std::shared_ptr<const CadSource> source, int tag, std::vector<LeftOutFace> left_out)
-        : source_(std::move(source)), tag_(tag), left_out_(std::move(left_out))
+    /// @param plain  the same curve, where it is so plain that the CAD process need not be asked.
+    CadCurve(std::shared_ptr<const CadSource> source, int tag, geometry::PlainCurve plain,
+             std::vector<LeftOutFace> left_out)
+        : source_(std::move(source)), tag_(tag), plain_(std::move(plain)), left_out_(std::move(left_out))
     {
     }
     void evaluate(std::span<const double> params, std::span<Vec3> points,
@@ -106,6 +109,7 @@ public:
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
+    geometry::PlainCurve plain_;
     std::vector<LeftOutFace> left_out_;
 };
 
