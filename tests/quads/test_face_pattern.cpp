@@ -318,6 +318,36 @@ TEST_CASE("a pointed notch is a slit of the grid: no irregular node, however dee
     }
 }
 
+TEST_CASE(
+    "a hole with a sharp and a blunt end is a slit of the grid: no irregular node, at any number of sides")
+{
+    constexpr double kSide = 0.1;
+    for (const int sides : {4, 5, 6, 7, 9}) {
+        for (const double lean : {0.0, 0.1, 0.25}) {
+            CAPTURE(sides);
+            CAPTURE(lean);
+            // From the sharp end along below to the blunt one, where nodes lie closer, and back above.
+            const double chord = kSide * sides;
+            Outline hole;
+            for (int i = 0; i < 2 * sides; ++i) {
+                const double at = std::pow(std::abs(1 - static_cast<double>(i) / sides), 1.5);
+                const double half = 0.35 * std::sqrt(at) * (1 - at), middle = lean * at * (1 - at);
+                hole.emplace_back(1 + chord * (at - 0.5),
+                                  0.7 + chord * (middle + (i < sides ? -half : half)));
+            }
+            Outline box;
+            const auto add = [&](const Vec2& from, const Vec2& to, int n) {
+                for (int i = 0; i < n; ++i) box.emplace_back(from + (to - from) * i / n);
+            };
+            add({0, 0}, {2, 0}, 20);
+            add({2, 0}, {2, 1.4}, 14);
+            add({2, 1.4}, {0, 1.4}, 20);
+            add({0, 1.4}, {0, 0}, 14);
+            check_pattern(region_of({box, hole}, kSide), 0, 0.6);
+        }
+    }
+}
+
 TEST_CASE("holes take four irregular nodes each, in straight grids and in rings")
 {
     std::vector<Outline> plate{rounded({3, 1}, {0, 0, 0, 0}, 0.1)};

@@ -20,8 +20,6 @@ std::array<int, 2> step_of(int quarter)
 
 int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
 
-int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
-
 void add(CountedLoop& loop, CountedRun& run, int by)
 {
     run.count += by;

@@ -154,7 +154,7 @@ struct FacePattern {
     int rows = 1;          ///< between a loop and the corners that the grid has along its round parts
     int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
     int corners = 0;       ///< nodes at which rows of a ring change their number of sides
-    HalfEnds half = HalfEnds::soft;
+    TurnStyle style = TurnStyle::soft;
 };
 
 /// Where quads fold, move inner nodes to the middle of their neighbours a few times, if that leaves the worst
@@ -231,7 +231,7 @@ private:
 
     bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1, pattern_.half);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1, pattern_.style);
         if (!headed) return false;
         set_soft_rows(*headed, pattern_.rows);
         loops_[l] = std::move(*headed);
@@ -438,8 +438,9 @@ public:
     void run()
     {
         for (std::size_t l = 1; l < region_.loops.size() && !is_fine_; ++l) try_round(l);
-        if (!is_fine_) try_straight(HalfEnds::soft);
-        if (!is_square_ && has_half_ends_) try_straight(HalfEnds::hard);
+        if (!is_fine_) try_straight(TurnStyle::soft);
+        if (!is_square_ && has_half_ends_) try_straight(TurnStyle::hard_ends);
+        if (!is_square_ && has_doubtful_turns(region_)) try_straight(TurnStyle::few_soft);
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
@@ -467,24 +468,24 @@ private:
     }
 
     /// With straight lines.
-    void try_straight(HalfEnds half)
+    void try_straight(TurnStyle style)
     {
         constexpr std::size_t kMost = 3; // meshes made where one is good; a choice
         const std::size_t before = made_.size();
-        for (const int rows : rows_to_try(fitting_rows(half))) {
+        for (const int rows : rows_to_try(fitting_rows(style))) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
-            const PatternFiller filler = fill({0, rows, 0, 0, half});
+            const PatternFiller filler = fill({0, rows, 0, 0, style});
             if (filler.turns() == 0) return; // more rows change nothing
         }
     }
 
     /// Rows that suit the soft turns of all loops in a straight grid.
-    [[nodiscard]] int fitting_rows(HalfEnds half) const
+    [[nodiscard]] int fitting_rows(TurnStyle style) const
     {
         const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
         int most = 1;
         for (const Loop& loop : region_.loops) {
-            const auto headed = head_loop(region_.points, loop, frame, kStraightWeight, 1, half);
+            const auto headed = head_loop(region_.points, loop, frame, kStraightWeight, 1, style);
             if (headed) most = std::max(most, quads::fitting_rows(*headed));
         }
         return most;

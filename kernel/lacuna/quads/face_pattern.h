@@ -16,7 +16,8 @@ namespace lacuna::quads {
 ///    to its next corners one to three rows of quads are laid, and the grid turns behind them: in a node of
 ///    three quads where the region bulges, of five where it is bent inward. These are the only irregular
 ///    nodes, so that there are as few as the boundary's corners allow.
-/// 3. Soft turns are moved along until every loop closes in the grid.
+/// 3. Soft turns are moved along until every loop closes in the grid; then others, where no angle gets below
+///    54° or above 126°.
 /// 4. Holes are placed in the grid where the boundary's own grid coordinates, interpolated, put them.
 /// 5. The grid's cells within the loops are the quads. Inner nodes are smoothed.
 ///
@@ -29,7 +30,8 @@ namespace lacuna::quads {
 /// A disc so gets a square within rows; a ring whose loops have as many sides each gets rows alone; slots,
 /// rounded rectangles, plates with holes and flanges get one grid with four irregular nodes for each round
 /// loop.
-/// Ends of 135° are tried as soft turns and, where those are too many for the quads asked, as hard ones.
+/// Ends of 135° are tried as soft turns and, where those are too many for the quads asked, as hard ones. Where
+/// headings with fewer soft turns fit hardly worse, as at the blunt end of a slit, they are tried last.
 /// @return valid meshes, the likeliest first: with lines round a hole, then straight ones, by rows; none
 ///         after one that is as good as such meshes get. None at all where the numbers of sides fit no
 ///         grid, or quads would fold.

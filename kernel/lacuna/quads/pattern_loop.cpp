@@ -65,10 +65,25 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
     return angles;
 }
 
+/// Whether a turn takes place rows further in, since the boundary's own differs too much from it.
+bool is_soft(double own, int turn, TurnStyle style)
+{
+    const double limit = turn < 0                        ? kSoftCorner * (2 - turn)
+                         : style == TurnStyle::hard_ends ? kSoftEnd
+                                                         : kSoftHalf;
+    return turn != 0 && std::abs(own - turn) > limit;
+}
+
+/// What a soft turn costs where few are wanted: half as much as a side across the grid. A choice.
+constexpr double kSoftTurn = 0.5;
+
 /// Headings of least cost from one of the first side.
 class HeadingSearch {
 public:
-    HeadingSearch(const LoopAngles& angles, double weight) : angles_(angles), weight_(weight) {}
+    HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
+        : angles_(angles), weight_(weight), style_(style)
+    {
+    }
 
     /// @return the cost; the headings in `best`.
     double run(int start, std::vector<int>& best)
@@ -128,10 +143,15 @@ private:
     {
         return weight_ * square(angles_.direction[i] - h);
     }
-    [[nodiscard]] double node_cost(std::size_t i, int turn) const { return square(angles_.turn[i] - turn); }
+    [[nodiscard]] double node_cost(std::size_t i, int turn) const
+    {
+        const bool costs = style_ == TurnStyle::few_soft && is_soft(angles_.turn[i], turn, style_);
+        return square(angles_.turn[i] - turn) + (costs ? kSoftTurn : 0);
+    }
 
     const LoopAngles& angles_;
     double weight_;
+    TurnStyle style_;
 };
 
 /// Start the loop at another of its nodes.
@@ -284,6 +304,62 @@ std::array<int, 2> excess_of(const PatternLoop& loop)
     return excess;
 }
 
+/// A turn moved by a side, so that a loop is nearer to closing.
+struct TurnMove {
+    std::size_t side = 0, from = 0, to = 0; ///< the side that changes its heading, the nodes of the turn
+    int heading = 0;                        ///< that it gets
+    std::array<int, 2> left{};              ///< excess afterwards
+};
+
+/// By how much the boundary turns at a node [right angles].
+double own_turn(const PatternLoop& loop, std::size_t i)
+{
+    return i > 0 ? loop.direction[i] - loop.direction[i - 1]
+                 : loop.direction[0] + loop.turns - loop.direction[loop.size() - 1];
+}
+
+/// Whether the quads of a turn at a node would have angles of 54° to 126° there, a sine of 0.8.
+bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
+{
+    constexpr double kOffSquare = 0.4; // a choice, not a measurement
+    if (turn < -2 || turn > 1 || loop.movable[i]) return false;
+    return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
+}
+
+/// @param hard  of turns that the boundary makes itself, where the nodes they leave and get to allow it; else
+///              of those that may be anywhere.
+/// @return nothing where none brings the loop nearer to closing
+std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<int, 2>& excess, bool hard)
+{
+    const std::size_t n = loop.size();
+    std::optional<TurnMove> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+        const int turn = loop.turn(i);
+        if (turn == 0 || (loop.movable[i] != 0) == hard) continue;
+        const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+        for (const bool forward : {true, false}) {
+            // The side that takes the heading of its neighbour, and the node the turn moves to.
+            const std::size_t changed = forward ? i : before, next = forward ? after : before;
+            const int there = loop.turn(next) + turn;
+            if (hard ? !may_turn(loop, i, 0) || !may_turn(loop, next, there) : loop.turn(next) != 0) continue;
+            const int h = loop.heading[changed] + (forward ? -turn : turn);
+            std::array<int, 2> now = excess;
+            for (const auto& [heading, by] : {std::pair{loop.heading[changed], -1}, {h, 1}}) {
+                const int quarter = ((heading % 4) + 4) % 4;
+                now[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? by : -by;
+            }
+            if (badness(now) >= badness(excess)) continue;
+            const double cost = square(loop.direction[changed] - h) -
+                                square(loop.direction[changed] - loop.heading[changed]);
+            if (cost >= least) continue;
+            least = cost;
+            best = {changed, i, next, h, now};
+        }
+    }
+    return best;
+}
+
 const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
 
 } // namespace
@@ -347,10 +423,10 @@ bool has_half_ends(const PlanarRegion& region)
 }
 
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame, double side_weight, int rows, HalfEnds half)
+                                     const LoopFrame& frame, double side_weight, int rows, TurnStyle style)
 {
     const LoopAngles angles = angles_of(points, loop, frame);
-    HeadingSearch search(angles, side_weight);
+    HeadingSearch search(angles, side_weight, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
     double least = std::numeric_limits<double>::infinity();
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
@@ -363,14 +439,22 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     if (headed.heading.empty()) return std::nullopt;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
-        const double limit = turn < 0                 ? kSoftCorner * (2 - turn)
-                             : half == HalfEnds::hard ? kSoftEnd
-                                                      : kSoftHalf;
-        const bool soft = turn != 0 && std::abs(angles.turn[i] - turn) > limit;
+        const bool soft = is_soft(angles.turn[i], turn, style);
         headed.soft.push_back(soft ? rows : 0);
         headed.movable.push_back(soft ? 1 : 0);
     }
     return headed;
+}
+
+bool has_doubtful_turns(const PlanarRegion& region)
+{
+    const LoopFrame frame{false, Vec2::Zero(), main_angle(region)};
+    return std::ranges::any_of(region.loops, [&](const std::vector<Index>& loop) {
+        const auto soft = head_loop(region.points, loop, frame, kStraightWeight, 1);
+        if (!soft || std::ranges::find(soft->movable, 1) == soft->movable.end()) return false;
+        const auto few = head_loop(region.points, loop, frame, kStraightWeight, 1, TurnStyle::few_soft);
+        return few && few->heading != soft->heading;
+    });
 }
 
 int fitting_rows(const PatternLoop& loop)
@@ -456,45 +540,16 @@ bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<
 
 bool close_pattern_loop(PatternLoop& loop, int period)
 {
-    const std::size_t n = loop.size();
     auto excess = excess_of(loop);
     excess[0] -= period;
     while (excess[0] != 0 || excess[1] != 0) {
-        double least = std::numeric_limits<double>::infinity();
-        std::size_t side = n, from = 0, to = 0;
-        int becomes = 0;
-        std::array<int, 2> left{};
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!loop.movable[i] || loop.turn(i) == 0) continue;
-            const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
-            for (const bool forward : {true, false}) {
-                // The side that takes the heading of its neighbour, and the node the turn moves to.
-                const std::size_t changed = forward ? i : before, next = forward ? after : before;
-                if (loop.turn(next) != 0) continue;
-                const int h = loop.heading[changed] + (forward ? -loop.turn(i) : loop.turn(i));
-                std::array<int, 2> now = excess;
-                for (const auto& [heading, by] : {std::pair{loop.heading[changed], -1}, {h, 1}}) {
-                    const int quarter = ((heading % 4) + 4) % 4;
-                    now[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? by : -by;
-                }
-                if (now[0] * now[0] + now[1] * now[1] >= excess[0] * excess[0] + excess[1] * excess[1])
-                    continue;
-                const double cost = square(loop.direction[changed] - h) -
-                                    square(loop.direction[changed] - loop.heading[changed]);
-                if (cost >= least) continue;
-                least = cost;
-                side = changed;
-                from = i;
-                to = next;
-                becomes = h;
-                left = now;
-            }
-        }
-        if (side == n) return false;
-        loop.heading[side] = becomes;
-        loop.movable[from] = 0;
-        loop.movable[to] = 1;
-        excess = left;
+        auto move = cheapest_move(loop, excess, false);
+        if (!move) move = cheapest_move(loop, excess, true);
+        if (!move) return false;
+        loop.heading[move->side] = move->heading;
+        loop.movable[move->to] = loop.movable[move->from];
+        loop.movable[move->from] = 0;
+        excess = move->left;
     }
     return true;
 }

@@ -20,22 +20,27 @@ namespace {
 /// time.
 constexpr double kFewForTrial = 200;
 
+bool may_be_tried(const CountTask& task, const StraightOptions& options)
+{
+    return !options.is_part && quads_asked(task) < kFewForTrial;
+}
+
 /// The loops of a region with headings in a straight grid.
 struct HeadedLoops {
     std::vector<PatternLoop> loops;
     double angle = 0;
-    HalfEnds half = HalfEnds::soft;
+    TurnStyle style = TurnStyle::soft;
     int fitting = 1;    ///< rows that suit the soft turns
     bool turns = false; ///< whether there are soft turns
 };
 
 /// @return nothing where a loop does not turn once about.
-std::optional<HeadedLoops> head_loops(const PlanarRegion& region, HalfEnds half)
+std::optional<HeadedLoops> head_loops(const PlanarRegion& region, TurnStyle style)
 {
-    HeadedLoops headed{{}, main_angle(region), half};
+    HeadedLoops headed{{}, main_angle(region), style};
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         auto loop = head_loop(region.points, region.loops[l], {false, Vec2::Zero(), headed.angle},
-                              kStraightWeight, 1, half);
+                              kStraightWeight, 1, style);
         if (!loop || loop->turns != (l == 0 ? 4 : -4)) return std::nullopt;
         headed.fitting = std::max(headed.fitting, fitting_rows(*loop));
         headed.turns = headed.turns || std::ranges::find(loop->movable, 1) != loop->movable.end();
@@ -85,7 +90,8 @@ std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const Co
     }
     std::vector<Index> nodes(made.points.size());
     std::iota(nodes.begin(), nodes.end(), 0);
-    auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), as.angle}, kStraightWeight, 1, as.half);
+    auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), as.angle}, kStraightWeight, 1,
+                            as.style);
     if (headed) set_soft_rows(*headed, rows);
     const double mean = length / static_cast<double>(nodes.size());
     std::vector<Quad> quads;
@@ -198,7 +204,7 @@ std::vector<int> run_counts(const ClosedLoops& closed)
 /// Numbers for one kind of ends, over the rows before soft turns, and over numbers of sides that are rounded
 /// from a few shares of those wanted, for rows add quads and columns take sides.
 /// @return those looked at, with what each costs; of a part none that is sure to cost more than another.
-std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, HalfEnds half)
+std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
     // What quads are worth, and rows, whose number is to be that of `fitting_rows()`; chosen on 40 of the
     // held family (benchmarks/pave/).
@@ -209,7 +215,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
     constexpr std::size_t kNear = 4; // of those, for the range that is promised
     const double asked = quads_asked(task);
-    const auto headed = head_loops(task.region, half);
+    const auto headed = head_loops(task.region, style);
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
@@ -248,12 +254,14 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
             if (!has_place) counts.cost += kOff;
             if (!options.few || has_place) {
+                least = std::min(least, counts.cost);
+                all.push_back(counts);
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
-                    counts.sides = counts_of(task, closed->loops);
+                    all.back().sides = counts_of(task, closed->loops);
+                    // Which of both is better is tried.
+                    if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
-                least = std::min(least, counts.cost);
-                all.push_back(std::move(counts));
             }
             if (!options.is_part && fits && has_place) return all;
         }
@@ -291,16 +299,17 @@ std::optional<Counts> straight_counts(const CountTask& task, const StraightOptio
 {
     // What soft ends are worth; chosen as what quads are.
     constexpr double kSoft = 2;
-    std::vector<Counts> all = counts_looked_at(task, options, HalfEnds::soft);
+    std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
+    const auto add = [&](TurnStyle style) {
+        for (Counts& counts : counts_looked_at(task, options, style)) all.push_back(std::move(counts));
+    };
+    if (may_be_tried(task, options) && has_doubtful_turns(task.region)) add(TurnStyle::few_soft);
     for (Counts& counts : all) counts.cost /= kSoft;
-    if (has_half_ends(task.region)) {
-        for (Counts& counts : counts_looked_at(task, options, HalfEnds::hard))
-            all.push_back(std::move(counts));
-    }
+    if (has_half_ends(task.region)) add(TurnStyle::hard_ends);
     const auto least = std::min_element(all.begin(), all.end(), is_cheaper);
     if (least == all.end()) return std::nullopt;
     Counts best = *least;
-    if (!options.is_part && quads_asked(task) < kFewForTrial) {
+    if (may_be_tried(task, options)) {
         if (auto filled = best_filled(task, std::move(all))) return filled;
     }
     return best;

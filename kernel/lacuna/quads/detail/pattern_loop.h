@@ -6,6 +6,7 @@
 #include <lacuna/quads/detail/submap_grid.h>
 #include <lacuna/quads/region.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -55,10 +56,11 @@ struct PatternLoop {
     }
 };
 
-/// What becomes of ends of 135°, half way to a side.
-enum class HalfEnds {
-    soft, ///< the grid turns behind a row, in a node of three quads
-    hard, ///< one quad has the whole angle
+/// Where a grid turns. Of ends of 135°, half way to a side, and of what is between a corner and a side.
+enum class TurnStyle {
+    soft,      ///< where the boundary fits best; behind a row, in a node of three quads, where it turns less
+    hard_ends, ///< the same, but one quad has the whole angle of an end of 135°
+    few_soft,  ///< on the boundary where that fits hardly worse: soft turns cost irregular nodes
 };
 
 /// Whether a region's boundary has such ends.
@@ -73,7 +75,10 @@ bool has_half_ends(const PlanarRegion& region);
 /// @return nothing where corners are so sharp that no headings suit them.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, double side_weight, int rows,
-                                     HalfEnds half = HalfEnds::soft);
+                                     TurnStyle style = TurnStyle::soft);
+
+/// Whether `TurnStyle::few_soft` gives some loop other headings in a straight grid than `TurnStyle::soft`.
+bool has_doubtful_turns(const PlanarRegion& region);
 
 /// How many rows suit the soft turns where a loop bulges: a third of the radius or so of the widest. 1 where
 /// there are none. Rows are to be laid behind all of them.
@@ -104,6 +109,9 @@ bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 /// @return false where rows would use a side twice.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
                       const std::function<double(const Vec2&)>& height);
+
+/// How far a loop is from closing, of its sides along headings 0 and 1 over those back; 0 where it closes.
+inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
 
 /// Move the turns that may be moved, by as little as possible, until the loop closes in the grid: as many
 /// sides one way as back.
