@@ -20,7 +20,7 @@ constexpr double kSameVolume = 1e-4;
 /// Curves no longer than this part of the diagonal are points: rounding, far below any tolerance.
 constexpr double kPole = 1e-9;
 
-std::vector<int> tags_of(int dim)
+std::vector<int> occ_tags(int dim)
 {
     gmsh::vectorpair entities;
     gmsh::model::occ::getEntities(entities, dim);
@@ -49,12 +49,12 @@ bool is_pole(int curve, double diagonal)
 std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
-    const std::vector<int> solids = tags_of(3);
+    const std::vector<int> solids = occ_tags(3);
     if (solids.size() != 1) return std::to_string(solids.size()) + " solids";
     gmsh::vectorpair faces;
     gmsh::model::getBoundary({{3, solids.front()}}, faces, false, false, false);
-    if (faces.size() != tags_of(2).size())
-        return std::to_string(tags_of(2).size() - faces.size()) + " faces beside the solid";
+    if (faces.size() != occ_tags(2).size())
+        return std::to_string(occ_tags(2).size() - faces.size()) + " faces beside the solid";
     std::map<int, int> uses;
     for (const auto& face : faces) {
         gmsh::vectorpair curves;
@@ -163,7 +163,7 @@ void write_whole(const Session& session, const std::string& path)
 void write_alone(Session& session, int solid, const SolidFiles& files)
 {
     gmsh::vectorpair others;
-    for (const int tag : tags_of(3))
+    for (const int tag : occ_tags(3))
         if (tag != solid) others.emplace_back(3, tag);
     if (!others.empty()) gmsh::model::occ::remove(others);
     // Faces, curves and points are many; read on from a file, the solid comes without those that are not its
@@ -193,13 +193,13 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
             session.refuse("cad.reads_back",
                            "the solid reads back with " + faults +
                                ", not as one closed solid; write the facets with write_facets");
-        const double volume = volume_of(tags_of(3).front());
+        const double volume = volume_of(occ_tags(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
             session.refuse("cad.reads_back", "the solid reads back with a volume of " +
                                                  std::to_string(volume) + ", not " +
                                                  std::to_string(expected) + "; write it as .brep");
         }
-        return std::pair(tags_of(2).size(), volume);
+        return std::pair(occ_tags(2).size(), volume);
     });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Costs of numbers that may not be, and of such with which there are not as many quads as promised, a
 /// quarter more or less: more than sides cost in the range that is promised for them.
-constexpr double kNever = std::numeric_limits<double>::infinity(), kOff = 1e6;
+constexpr double kNever = std::numeric_limits<double>::infinity(), kOffAsked = 1e6;
 
 /// The segments between the corners of a patch; none where a side is not one segment or bends.
 std::vector<std::size_t> sides_of_patch(const CountTask& task)
@@ -79,7 +79,7 @@ public:
         double quads = 0;
         for (std::size_t i = 0; i < side.count; ++i) quads += foot[i] * foot[(i + 1) % side.count];
         cost += kQuads * (quads - asked_) * (quads - asked_) / asked_;
-        return cost + (std::abs(quads - asked_) > asked_ / 4 ? kOff : 0);
+        return cost + (std::abs(quads - asked_) > asked_ / 4 ? kOffAsked : 0);
     }
 
 private:
@@ -126,7 +126,7 @@ std::optional<std::vector<int>> star_counts(const CountTask& task)
     for (const CountRange& range : {kSegment, kRingSegment}) {
         auto found = best_near(task, sides, cost_of, range);
         if (found && (!best || found->cost < best->cost)) best = std::move(found);
-        if (best && best->cost < kOff) break;
+        if (best && best->cost < kOffAsked) break;
     }
     if (!best) return std::nullopt;
     return std::move(best->sides);

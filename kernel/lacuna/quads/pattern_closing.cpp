@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pattern_loop.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lacuna::quads {
+namespace {
+
+/// How many more sides run along the headings 0 and 1 than back.
+std::array<int, 2> excess_of(const PatternLoop& loop)
+{
+    std::array<int, 2> excess{};
+    for (const int h : loop.heading) {
+        const int quarter = ((h % 4) + 4) % 4;
+        excess[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? 1 : -1;
+    }
+    return excess;
+}
+
+/// A turn moved by a side, so that a loop is nearer to closing.
+struct TurnMove {
+    std::size_t side = 0, from = 0, to = 0; ///< the side that changes its heading, the nodes of the turn
+    int heading = 0;                        ///< that it gets
+    std::array<int, 2> left{};              ///< excess afterwards
+};
+
+/// By how much the boundary turns at a node [right angles].
+double own_turn(const PatternLoop& loop, std::size_t i)
+{
+    return i > 0 ? loop.direction[i] - loop.direction[i - 1]
+                 : loop.direction[0] + loop.turns - loop.direction[loop.size() - 1];
+}
+
+/// Whether the quads of a turn at a node would have angles of 54° to 126° there, a sine of 0.8.
+bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
+{
+    constexpr double kOffSquare = 0.4; // a choice, not a measurement
+    if (turn < -2 || turn > 1 || loop.movable[i]) return false;
+    return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
+}
+
+/// @param hard  of turns that the boundary makes itself, where the nodes they leave and get to allow it; else
+///              of those that may be anywhere.
+/// @return nothing where none brings the loop nearer to closing
+std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<int, 2>& excess, bool hard)
+{
+    const std::size_t n = loop.size();
+    std::optional<TurnMove> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+        const int turn = loop.turn(i);
+        if (turn == 0 || (loop.movable[i] != 0) == hard) continue;
+        const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+        for (const bool forward : {true, false}) {
+            // The side that takes the heading of its neighbour, and the node the turn moves to.
+            const std::size_t changed = forward ? i : before, next = forward ? after : before;
+            const int there = loop.turn(next) + turn;
+            if (hard ? !may_turn(loop, i, 0) || !may_turn(loop, next, there) : loop.turn(next) != 0) continue;
+            const int h = loop.heading[changed] + (forward ? -turn : turn);
+            std::array<int, 2> now = excess;
+            for (const auto& [heading, by] : {std::pair{loop.heading[changed], -1}, {h, 1}}) {
+                const int quarter = ((heading % 4) + 4) % 4;
+                now[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? by : -by;
+            }
+            if (badness(now) >= badness(excess)) continue;
+            const auto off = [&](int heading) { return std::abs(loop.direction[changed] - heading); };
+            const double cost = off(h) * off(h) - off(loop.heading[changed]) * off(loop.heading[changed]);
+            if (cost >= least) continue;
+            least = cost;
+            best = {changed, i, next, h, now};
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+bool close_pattern_loop(PatternLoop& loop, int period)
+{
+    auto excess = excess_of(loop);
+    excess[0] -= period;
+    while (excess[0] != 0 || excess[1] != 0) {
+        auto move = cheapest_move(loop, excess, false);
+        if (!move) move = cheapest_move(loop, excess, true);
+        if (!move) return false;
+        loop.heading[move->side] = move->heading;
+        loop.movable[move->to] = loop.movable[move->from];
+        loop.movable[move->from] = 0;
+        excess = move->left;
+    }
+    return true;
+}
+
+bool trade_column_for_row(PatternLoop& loop)
+{
+    const std::size_t n = loop.size();
+    std::vector<std::size_t> ends; // sides that run along a row and then along a column
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = (i + n - 1) % n;
+        if (loop.turn(i) == 0 || loop.heading[before] % 2 != 0) continue;
+        if (!loop.movable[i] || loop.turn(before) != 0) return false;
+        ends.push_back(i);
+    }
+    if (ends.size() != 2) return false;
+    for (const std::size_t i : ends) {
+        const std::size_t before = (i + n - 1) % n;
+        loop.heading[before] += loop.turn(i);
+        std::swap(loop.movable[i], loop.movable[before]);
+    }
+    return true;
+}
+
+GridLoop positions_of(const PatternLoop& loop)
+{
+    constexpr std::array<GridPosition, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    GridLoop grid{loop.nodes, {}};
+    GridPosition at{0, 0};
+    for (const int h : loop.heading) {
+        grid.positions.push_back(at);
+        const GridPosition& step = kSteps[static_cast<std::size_t>(((h % 4) + 4) % 4)];
+        at = {at[0] + step[0], at[1] + step[1]};
+    }
+    return grid;
+}
+
+} // namespace lacuna::quads
