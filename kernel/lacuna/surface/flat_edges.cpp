@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/flat_edges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lacuna::surface {

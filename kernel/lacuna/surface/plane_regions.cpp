@@ -10,9 +10,9 @@ namespace lacuna::surface {
 
 namespace {
 
-using Loop = std::vector<PlaneUse>;
+using Walk = std::vector<PlaneUse>;
 
-std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Loop& loop)
+std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Walk& loop)
 {
     std::vector<Vec2> points;
     for (const PlaneUse& use : loop) {
@@ -68,7 +68,7 @@ std::map<std::size_t, std::vector<Spoke>> spokes_of(std::span<const PlaneChain> 
     return spokes;
 }
 
-std::vector<Loop> traced_loops(std::span<const PlaneChain> chains)
+std::vector<Walk> traced_loops(std::span<const PlaneChain> chains)
 {
     const std::map<std::size_t, std::vector<Spoke>> spokes = spokes_of(chains);
     const auto number = [](const PlaneUse& use) { return 2 * use.chain + (use.reversed ? 1 : 0); };
@@ -84,11 +84,11 @@ std::vector<Loop> traced_loops(std::span<const PlaneChain> chains)
         return around[(back + around.size() - 1) % around.size()].use;
     };
     std::vector<bool> done(2 * chains.size(), false);
-    std::vector<Loop> loops;
+    std::vector<Walk> loops;
     for (std::size_t h = 0; h < done.size(); ++h) {
         PlaneUse use{h / 2, h % 2 == 1};
         if (done[h] || !bounds(use)) continue;
-        Loop& loop = loops.emplace_back();
+        Walk& loop = loops.emplace_back();
         for (; !done[number(use)]; use = next(use)) {
             done[number(use)] = true;
             loop.push_back(use);
@@ -104,8 +104,8 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
     std::vector<PlaneRegion> regions;
     std::vector<std::vector<Vec2>> outlines;
     std::vector<double> areas;
-    std::vector<Loop> holes;
-    for (Loop& loop : traced_loops(chains)) {
+    std::vector<Walk> holes;
+    for (Walk& loop : traced_loops(chains)) {
         std::vector<Vec2> outline = points_of(chains, loop);
         const double area = area_of(outline);
         if (!(area > 0)) {
@@ -116,7 +116,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
         outlines.push_back(std::move(outline));
         areas.push_back(area);
     }
-    for (Loop& hole : holes) {
+    for (Walk& hole : holes) {
         const PlaneUse& use = hole.front();
         const std::vector<Vec2>& line = chains[use.chain].line;
         const Vec2 at = (line[0] + line[1]) / 2;

@@ -4,7 +4,6 @@
 #include <lacuna/core/ids.h>
 #include <lacuna/core/types.h>
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -21,12 +20,7 @@ struct FlatEdge {
         double at;
         std::size_t node;
     };
-    std::vector<Cut> cuts; ///< both ends among them; in order after `sort()`
-
-    void sort()
-    {
-        std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.at < b.at; });
-    }
+    std::vector<Cut> cuts; ///< both ends among them, in any order
 };
 
 /// The place of a polyline closest to a point.

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/closed_edges.h>
+
+#include <lacuna/geometry/polyline.h>
+#include <lacuna/surface/detail/flat_ends.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+/// A closed edge in the plane.
+struct Circle {
+    EdgeId edge;
+    Vec2 centre = Vec2::Zero();
+    double area = 0;           ///< signed
+    std::vector<Vec2> line;    ///< the first point repeated
+    std::vector<double> share; ///< of the edge's length at each point
+    [[nodiscard]] double radius() const { return std::sqrt(std::abs(area) / std::numbers::pi); }
+};
+
+/// Smooth closed edges that meet no other edge.
+std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
+                            std::span<const EdgeId> edges)
+{
+    std::map<VertexId, int> ends;
+    for (const Edge& edge : model.edges) {
+        ++ends[edge.from];
+        ++ends[edge.to];
+    }
+    std::vector<Circle> found;
+    for (const EdgeId id : edges) {
+        const Edge& edge = model[id];
+        if (edge.from != edge.to || ends[edge.from] != 2) continue;
+        constexpr double kSmooth = 0.7; ///< cosine of 45°; a choice, not a measurement
+        const Vec3 out = model.at(edge.points[1]) - model.at(edge.points[0]);
+        const Vec3 in = model.at(edge.points.back()) - model.at(edge.points[edge.points.size() - 2]);
+        if (out.dot(in) < kSmooth * out.norm() * in.norm()) continue;
+        const FlatEdge flat = flat_edge(model, map, id, target);
+        Circle circle{id, Vec2::Zero(), 0, flat.line, flat.at};
+        for (std::size_t i = 0; i + 1 < flat.line.size(); ++i) {
+            const Vec2 &a = flat.line[i], &b = flat.line[i + 1];
+            const double turn = (a.x() * b.y() - a.y() * b.x()) / 2;
+            circle.area += turn;
+            circle.centre += turn * (a + b) / 3;
+        }
+        if (!(std::abs(circle.area) > 0)) continue;
+        circle.centre /= circle.area;
+        found.push_back(std::move(circle));
+    }
+    return found;
+}
+
+/// How unlike what two closed edges enclose is: their distance and the difference of their radii, over
+/// the larger radius.
+double unlike(const Circle& a, const Circle& b)
+{
+    return ((a.centre - b.centre).norm() + std::abs(a.radius() - b.radius())) /
+           std::max(a.radius(), b.radius());
+}
+
+/// Directions from its centre at even steps along a closed edge [radian].
+std::vector<double> directions(const Circle& circle, std::size_t steps)
+{
+    std::vector<double> result;
+    for (std::size_t k = 0; k < steps; ++k) {
+        const geometry::PolylinePlace at = geometry::place_at(circle.share, static_cast<double>(k) /
+                                                                                static_cast<double>(steps));
+        const Vec2 p = (1 - at.fraction) * circle.line[at.segment] +
+                       at.fraction * circle.line[at.segment + 1] - circle.centre;
+        result.push_back(std::atan2(p.y(), p.x()));
+    }
+    return result;
+}
+
+/// The share of the target's edge over the source edge's start, by which they are turned least.
+ClosedPair turned(const Circle& low, const Circle& high)
+{
+    constexpr std::size_t kSteps = 360; ///< a degree is near enough for where an edge starts
+    const std::vector<double> a = directions(low, kSteps), b = directions(high, kSteps);
+    const bool back = (low.area > 0) != (high.area > 0);
+    std::size_t best = 0;
+    double most = -2;
+    for (std::size_t shift = 0; shift < kSteps; ++shift) {
+        double sum = 0;
+        for (std::size_t k = 0; k < kSteps; ++k)
+            sum += std::cos(a[k] - b[(back ? shift + kSteps - k : shift + k) % kSteps]);
+        if (sum <= most) continue;
+        most = sum;
+        best = shift;
+    }
+    const double from = static_cast<double>(best) / kSteps;
+    return {low.edge, high.edge, from, back ? from - 1 : from + 1};
+}
+
+} // namespace
+
+std::vector<ClosedPair> alike_closed_edges(const Model& model, const EndsMap& map,
+                                           std::span<const EdgeId> source, std::span<const EdgeId> target)
+{
+    // Circles half of whose larger radius apart still overlap by more than half. A choice, not a
+    // measurement.
+    constexpr double kAlike = 0.5;
+    const std::vector<Circle> low = circles(model, map, false, source);
+    const std::vector<Circle> high = circles(model, map, true, target);
+    std::vector<ClosedPair> pairs;
+    std::set<std::size_t> used_low, used_high;
+    for (;;) {
+        double least = kAlike;
+        std::optional<std::pair<std::size_t, std::size_t>> best;
+        for (std::size_t i = 0; i < low.size(); ++i) {
+            for (std::size_t j = 0; j < high.size(); ++j) {
+                if (used_low.contains(i) || used_high.contains(j) || unlike(low[i], high[j]) >= least)
+                    continue;
+                least = unlike(low[i], high[j]);
+                best = {i, j};
+            }
+        }
+        if (!best) return pairs;
+        used_low.insert(best->first);
+        used_high.insert(best->second);
+        pairs.push_back(turned(low[best->first], high[best->second]));
+    }
+}
+
+} // namespace lacuna::surface
