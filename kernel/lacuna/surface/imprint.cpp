@@ -12,7 +12,6 @@
 #include <lacuna/surface/detail/flat_ends.h>
 #include <lacuna/surface/detail/imprint_rims.h>
 #include <lacuna/surface/detail/imprint_rules.h>
-#include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/plane_regions.h>
 #include <lacuna/surface/detail/surface_curve.h>
 #include <lacuna/topology/split_edge.h>

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/matching/corners.h>
 #include <lacuna/surface/detail/imprint_rules.h>
+#include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/topology/split_edge.h>
 
 #include <algorithm>

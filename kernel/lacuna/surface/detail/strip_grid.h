@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/detail/given_wall.h>
+#include <lacuna/surface/detail/wall_net.h>
+
+#include <map>
+#include <span>
+#include <vector>
+
+/// A wall's grid in the strip that its linking surface is laid out to. Internal to this folder.
+namespace lacuna::surface {
+
+/// What is laid.
+struct StripTask {
+    const topology::Model& model;
+    const LinkingSurface& link;
+    const LinkingNodes& nodes;
+    std::span<const double> heights; ///< layers + 1, from 0 to 1
+    std::span<const int> line_of;    ///< side line of each node of the rim; -1: none
+    const BegunWall& begun;
+};
+
+struct StripGrid {
+    struct Pinned {
+        EdgeId edge;
+        double share; ///< of the edge's length
+        Vec2 place;   ///< in the strip
+    };
+    std::vector<Vec2> place;               ///< of each node, by layer · nodes + node
+    std::map<std::size_t, Pinned> on_edge; ///< nodes that lie on an edge
+    std::vector<std::size_t> stops;        ///< node of each stop of the net
+};
+
+/// Where each node lies in the strip: columns upright and layers as the plain rings draw them, then moved so
+/// that the net's nodes lie on it. The moves of the others are harmonic over the grid.
+/// @param map  of the linking surface; none where side lines alone say where nodes lie.
+/// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
+StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,
+                    const RunContext& context);
+
+} // namespace lacuna::surface

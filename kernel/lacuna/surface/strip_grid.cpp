@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/strip_grid.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/harmonic.h>
+#include <lacuna/surface/detail/chain_nodes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lacuna::surface {
+
+using namespace topology;
+
+namespace {
+
+double within(double at, double length) { return at >= length ? at - length : at; }
+
+class StripLayer {
+public:
+    StripLayer(const StripTask& task, const LinkingMap* map, const WallNet& net, const RunContext& context)
+        : model_(task.model),
+          link_(task.link),
+          nodes_(task.nodes),
+          heights_(task.heights.begin(), task.heights.end()),
+          line_of_(task.line_of),
+          given_(task.begun.given),
+          faces_(task.begun.mesh.face),
+          map_(map),
+          net_(net),
+          context_(context),
+          count_(task.nodes.source_at.size()),
+          layers_(task.heights.size() - 1)
+    {
+    }
+
+    StripGrid run()
+    {
+        if (!net_.levels.empty()) plan_levels();
+        lay_grid();
+        return std::move(laid_);
+    }
+
+private:
+    /// Give each level the layer nearest to it that leaves one for all others above and below it.
+    void plan_levels()
+    {
+        const auto layers = static_cast<int>(layers_);
+        const std::size_t count = net_.levels.size();
+        std::vector<std::vector<std::size_t>> below(count);
+        std::vector<int> above(count, 0), depth(count, 0);
+        for (std::size_t a = 0; a < count; ++a) {
+            for (std::size_t b = a + 1; b < count; ++b) {
+                if (net_.over_each_other(*map_, a, b)) below[b].push_back(a);
+            }
+        }
+        int most = 0;
+        for (std::size_t b = 0; b < count; ++b) {
+            for (const std::size_t a : below[b]) depth[b] = std::max(depth[b], depth[a] + 1);
+            most = std::max(most, depth[b] + 1);
+        }
+        for (std::size_t b = count; b-- > 0;) {
+            for (const std::size_t a : below[b]) above[a] = std::max(above[a], above[b] + 1);
+        }
+        if (most >= layers) {
+            throw NotSweepable("surface.too_few_layers",
+                               name_of(model_, net_.levels.front().edge) +
+                                   " runs round the walls between source and target, as do edges at " +
+                                   std::to_string(most) + " heights in all; each needs a layer to lie on, " +
+                                   "which takes layers = " + std::to_string(most + 1) + " or more, and " +
+                                   std::to_string(layers) + " are asked for");
+        }
+        for (std::size_t r = 0; r < count; ++r) {
+            int nearest = 1, lowest = 1;
+            for (int k = 1; k < layers; ++k) {
+                if (std::abs(heights_[static_cast<std::size_t>(k)] - net_.levels[r].height) <
+                    std::abs(heights_[static_cast<std::size_t>(nearest)] - net_.levels[r].height))
+                    nearest = k;
+            }
+            for (const std::size_t a : below[r]) lowest = std::max(lowest, level_layer_[a] + 1);
+            level_layer_.push_back(std::min(std::max(nearest, lowest), layers - 1 - above[r]));
+        }
+    }
+
+    /// Heights of a column's nodes: the layers', drawn to the rings it crosses.
+    [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
+    {
+        std::vector<std::pair<double, double>> knots{{0, 0}};
+        for (const auto& [layer, t] : at_layer) {
+            if (t > knots.back().second && t < 1)
+                knots.emplace_back(heights_[static_cast<std::size_t>(layer)], t);
+        }
+        knots.emplace_back(1, 1);
+        std::vector<double> result;
+        std::size_t k = 0;
+        for (const double h : heights_) {
+            while (k + 2 < knots.size() && h > knots[k + 1].first) ++k;
+            const auto& [h0, t0] = knots[k];
+            const auto& [h1, t1] = knots[k + 1];
+            result.push_back(t0 + (h - h0) / (h1 - h0) * (t1 - t0));
+        }
+        return result;
+    }
+
+    /// The same in the map's own t: without rings to meet, evenly up the walls.
+    [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
+    {
+        std::vector<double> at = column_heights(at_layer);
+        if (!at_layer.empty()) return at;
+        for (double& t : at) t = map_->from_even(t);
+        return at;
+    }
+
+    /// Where plain rings cross a column, by their layers.
+    [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
+    {
+        std::map<int, LinkingMap::Crossing> at_layer;
+        for (std::size_t r = 0; r < level_layer_.size(); ++r) {
+            if (!net_.levels[r].plain) continue;
+            const LinkingMap::Ring& ring = map_->rings()[*net_.levels[r].ring];
+            for (const LinkingMap::Crossing& crossing : LinkingMap::crossings(ring, s)) {
+                const auto [found, fresh] = at_layer.try_emplace(level_layer_[r], crossing);
+                if (!fresh && std::abs(crossing.t - ring.height) < std::abs(found->second.t - ring.height))
+                    found->second = crossing;
+            }
+        }
+        return at_layer;
+    }
+
+    /// Heights of a side line's nodes, drawn to where plain rings meet it.
+    [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
+    {
+        std::map<int, double> at_layer;
+        for (std::size_t u = 1; u < chain.uses().size(); ++u) {
+            const VertexId v = use_from(model_, chain.uses()[u]);
+            for (std::size_t r = 0; r < level_layer_.size(); ++r) {
+                if (!net_.levels[r].plain) continue;
+                const auto& vertices = map_->rings()[*net_.levels[r].ring].vertices;
+                if (std::find(vertices.begin(), vertices.end(), v) != vertices.end())
+                    at_layer[level_layer_[r]] = chain.start(u) / chain.length();
+            }
+        }
+        return column_heights(at_layer);
+    }
+
+    /// Where each node lies in the strip: columns upright and layers as the plain rings draw them, then moved
+    /// so that the net's nodes lie on it.
+    void lay_grid()
+    {
+        laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
+        for (std::size_t i = 0; i < count_; ++i) {
+            std::vector<double> at = heights_;
+            const double s = nodes_.source_at[i] / link_.source.length();
+            if (line_of_[i] >= 0) {
+                const LinkingLine& line = link_.lines[static_cast<std::size_t>(line_of_[i])];
+                at = line_heights(Chain(model_, line.line.uses));
+            } else if (map_ != nullptr) {
+                std::map<int, double> at_layer;
+                for (const auto& [layer, crossing] : crossings_at(s)) {
+                    at_layer[layer] = crossing.t;
+                    laid_.on_edge[static_cast<std::size_t>(layer) * count_ + i] = {crossing.edge, crossing.at,
+                                                                                   Vec2(s, crossing.t)};
+                }
+                at = map_heights(at_layer);
+            }
+            for (std::size_t k = 0; k <= layers_; ++k) laid_.place[k * count_ + i] = Vec2(s, at[k]);
+        }
+        if (map_ != nullptr && (given_.has_sides() || !net_.stops.empty())) follow_net();
+    }
+
+    // --- the net -------------------------------------------------------------------------------------
+
+    /// The node of each column of the net.
+    [[nodiscard]] std::vector<std::size_t> nodes_of_columns() const
+    {
+        std::vector<std::size_t> node;
+        for (const WallNet::Column& column : net_.columns) {
+            std::size_t nearest = 0;
+            double least = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double to = column.target_at
+                                      ? within(nodes_.target_at[i], link_.target.length()) - *column.target_at
+                                      : 0;
+                const double off = column.target_at && !column.source_at
+                                       ? std::abs(std::remainder(to / link_.target.length(), 1.0))
+                                       : std::abs(std::remainder(
+                                             nodes_.source_at[i] / link_.source.length() - column.at, 1.0));
+                if (off >= least) continue;
+                least = off;
+                nearest = i;
+            }
+            node.push_back(column.line ? nodes_.line[*column.line] : nearest);
+        }
+        for (std::size_t a = 0; a < node.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                const WallNet::Column &p = net_.columns[a], &q = net_.columns[b];
+                if (node[a] != node[b] || p.high < q.low || q.high < p.low) continue;
+                refuse_wall_edge(model_, q.line ? p.edge : q.edge,
+                                 "and " + name_of(model_, q.line ? q.edge : p.edge) +
+                                     " want the same column of nodes; ask for a smaller size");
+            }
+        }
+        return node;
+    }
+
+    [[nodiscard]] std::size_t layer_of(const WallNet::Stop& stop) const
+    {
+        if (stop.level == WallNet::kSource) return 0;
+        if (stop.level == WallNet::kTarget) return layers_;
+        return static_cast<std::size_t>(level_layer_[static_cast<std::size_t>(stop.level)]);
+    }
+
+    /// Put a node on an edge.
+    void pin(std::size_t node, std::size_t layer, EdgeId edge, double share, const Vec2& place)
+    {
+        if (layer == 0 || layer == layers_) return;
+        laid_.on_edge[layer * count_ + node % count_] = {edge, share, place};
+    }
+
+    void pin_long_edges(const std::vector<std::size_t>& column_node)
+    {
+        for (const WallNet::LongEdge& edge : net_.long_edges) {
+            const WallNet::Stop &low = net_.stops[edge.low], &high = net_.stops[edge.high];
+            const std::size_t from = layer_of(low), to = layer_of(high);
+            if (from >= to) {
+                refuse_wall_edge(model_, edge.upright->edge,
+                                 "runs up the walls past other edges in another order than the layers; ask "
+                                 "for more layers");
+            }
+            for (std::size_t k = from; k <= to; ++k) {
+                double f = (heights_[k] - heights_[from]) / (heights_[to] - heights_[from]);
+                if (edge.reversed) f = 1 - f;
+                pin(column_node[low.column], k, edge.upright->edge, f,
+                    place_on(edge.upright->pieces, edge.upright->edge, f));
+            }
+        }
+    }
+
+    /// The place in the strip of a share of an edge.
+    static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
+    {
+        constexpr double kSlack = 1e-9; ///< of the edge: rounding
+        for (const LinkingMap::Piece& piece : pieces) {
+            const double low = std::min(piece.from, piece.to), high = std::max(piece.from, piece.to);
+            if (piece.edge != edge || share < low - kSlack || share > high + kSlack) continue;
+            const double f = high > low ? (share - piece.from) / (piece.to - piece.from) : 0;
+            return piece.a + f * (piece.b - piece.a);
+        }
+        return pieces.front().a;
+    }
+
+    /// Nodes between the stops of a level lie on its edges, at even steps of the columns.
+    void pin_level(std::size_t number, const std::vector<std::size_t>& column_node)
+    {
+        const WallNet::Level& level = net_.levels[number];
+        const auto layer = static_cast<std::size_t>(level_layer_[number]);
+        if (!level.ring || level.plain) return;
+        const LinkingMap::Ring& ring = map_->rings()[*level.ring];
+        struct Anchor {
+            std::size_t node;
+            double s;
+        };
+        std::vector<Anchor> anchors;
+        for (const std::size_t stop : level.stops) {
+            const double s = net_.stops[stop].place.x();
+            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
+        }
+        std::sort(anchors.begin(), anchors.end(),
+                  [](const Anchor& a, const Anchor& b) { return a.node < b.node; });
+        for (std::size_t a = 0; a < anchors.size(); ++a) {
+            const Anchor& from = anchors[a];
+            Anchor to = anchors[(a + 1) % anchors.size()];
+            if (a + 1 == anchors.size()) to.node += count_;
+            while (to.s <= from.s + 1e-9) to.s += 1;
+            const double start = at_node(from.node), whole = at_node(to.node) - start;
+            for (std::size_t i = from.node + 1; i < to.node; ++i) {
+                const double s = from.s + (at_node(i) - start) / whole * (to.s - from.s);
+                const std::vector<LinkingMap::Crossing> found = LinkingMap::crossings(ring, s);
+                if (!found.empty())
+                    pin(i, layer, found.front().edge, found.front().at, Vec2(s, found.front().t));
+            }
+        }
+    }
+
+    /// s of a node, growing past whole turns.
+    [[nodiscard]] double at_node(std::size_t node) const
+    {
+        return nodes_.source_at[node % count_] / link_.source.length() +
+               static_cast<double>(node / count_); // NOLINT(bugprone-integer-division): whole turns
+    }
+
+    /// Pin nodes to the net, and move the others as the grid's harmonic field says.
+    void follow_net()
+    {
+        const std::vector<std::size_t> column_node = nodes_of_columns();
+        pin_long_edges(column_node);
+        for (std::size_t r = 0; r < net_.levels.size(); ++r) pin_level(r, column_node);
+        for (const WallNet::Stop& stop : net_.stops) {
+            const std::size_t node = column_node[stop.column], layer = layer_of(stop);
+            laid_.stops.push_back(layer * count_ + node);
+            for (const Edge& edge : model_.edges) {
+                if (edge.from != stop.vertex && edge.to != stop.vertex) continue;
+                const EdgeId id(static_cast<std::size_t>(&edge - model_.edges.data()));
+                pin(node, layer, id, edge.from == stop.vertex ? 0.0 : 1.0, stop.place);
+                break;
+            }
+        }
+        move_grid();
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (!rises(i)) spread_evenly(i);
+            if (!rises(i)) refuse_overlap();
+        }
+    }
+
+    /// Whether the nodes of a column lie one above the other in the strip, but for those that are given.
+    [[nodiscard]] bool rises(std::size_t node) const
+    {
+        for (std::size_t k = 0; k < layers_; ++k) {
+            if (laid_.place[(k + 1) * count_ + node].y() > laid_.place[k * count_ + node].y()) continue;
+            if (!given_.has_node(k, node) || !given_.has_node(k + 1, node)) return false;
+        }
+        return true;
+    }
+
+    /// Put the free nodes of a column between those that are given or on an edge, as the heights are.
+    void spread_evenly(std::size_t node)
+    {
+        const auto is_free = [&](std::size_t k) {
+            return k > 0 && k < layers_ && !given_.has_node(k, node) &&
+                   !laid_.on_edge.contains(k * count_ + node);
+        };
+        std::size_t low = 0;
+        for (std::size_t k = 1; k <= layers_; ++k) {
+            if (is_free(k)) continue;
+            const double from = laid_.place[low * count_ + node].y(), to = laid_.place[k * count_ + node].y();
+            for (std::size_t j = low + 1; j < k; ++j) {
+                const double f = (heights_[j] - heights_[low]) / (heights_[k] - heights_[low]);
+                laid_.place[j * count_ + node].y() = from + f * (to - from);
+            }
+            low = k;
+        }
+    }
+
+    [[noreturn]] void refuse_overlap() const
+    {
+        const std::string why = "draws the layers over each other; ask for more layers";
+        if (!net_.levels.empty()) refuse_wall_edge(model_, net_.levels.front().edge, why);
+        if (!net_.columns.empty()) refuse_wall_edge(model_, net_.columns.front().edge, why);
+        const auto given = std::find(given_.side.begin(), given_.side.end(), 1) - given_.side.begin();
+        throw NotSweepable("surface.wall_rows", "the mesh that " +
+                                                    name_of(model_, faces_[static_cast<std::size_t>(given)]) +
+                                                    " came with " + why);
+    }
+
+    /// How far a node is from where it belongs in the strip.
+    [[nodiscard]] double off_place(const Vec2& to, std::size_t node, Eigen::Index axis) const
+    {
+        const double off = to[axis] - laid_.place[node][axis];
+        return axis == 0 ? off - std::round(off) : off;
+    }
+
+    void move_grid()
+    {
+        // On a cylinder, where the grid closes on itself as the strip does.
+        constexpr double kTurn = 2 * std::numbers::pi;
+        std::vector<Vec3> points;
+        for (std::size_t k = 0; k <= layers_; ++k) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
+                points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                         heights_[k] * map_->height());
+            }
+        }
+        std::vector<Triangle> triangles;
+        const auto at = [&](std::size_t k, std::size_t i) {
+            return static_cast<Index>(k * count_ + i % count_);
+        };
+        for (std::size_t k = 0; k < layers_; ++k) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                triangles.push_back({at(k, i), at(k, i + 1), at(k + 1, i + 1)});
+                triangles.push_back({at(k, i), at(k + 1, i + 1), at(k + 1, i)});
+            }
+        }
+        for (const Eigen::Index axis : {0, 1}) {
+            std::map<Index, double> fixed;
+            for (std::size_t i = 0; i < count_; ++i) {
+                for (std::size_t k = 0; k <= layers_; ++k) {
+                    const bool still = k == 0 || k == layers_ || (axis == 0 && line_of_[i] >= 0);
+                    const Index point = given_.node[k * count_ + i];
+                    if (still)
+                        fixed[at(k, i)] = 0;
+                    else if (point >= 0)
+                        fixed[at(k, i)] = off_place(map_->place_of(point), k * count_ + i, axis);
+                }
+            }
+            for (const auto& [node, pinned] : laid_.on_edge) {
+                fixed.try_emplace(static_cast<Index>(node), off_place(pinned.place, node, axis));
+            }
+            geometry::HarmonicProblem problem;
+            problem.points = points;
+            problem.triangles = triangles;
+            problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 1);
+            for (const auto& [node, off] : fixed) {
+                problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), 0) = off;
+                problem.fixed.push_back(node);
+            }
+            const Eigen::MatrixXd moves = geometry::solve_harmonic(problem, context_);
+            for (std::size_t n = 0; n < laid_.place.size(); ++n)
+                laid_.place[n][axis] += moves(static_cast<Eigen::Index>(n), 0);
+        }
+    }
+
+    const Model& model_;
+    const LinkingSurface& link_;
+    const LinkingNodes& nodes_;
+    std::vector<double> heights_;
+    std::span<const int> line_of_;
+    const GivenWall& given_;
+    std::span<const FaceId> faces_;
+    const LinkingMap* map_;
+    const WallNet& net_;
+    const RunContext& context_;
+    std::size_t count_, layers_;
+    std::vector<int> level_layer_; ///< of each level of the net
+    StripGrid laid_;
+};
+
+} // namespace
+
+StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,
+                    const RunContext& context)
+{
+    return StripLayer(task, map, net, context).run();
+}
+
+} // namespace lacuna::surface
