@@ -30,8 +30,8 @@ namespace lacuna::quads {
 /// A disc so gets a square within rows; a ring whose loops have as many sides each gets rows alone; slots,
 /// rounded rectangles, plates with holes and flanges get one grid with four irregular nodes for each round
 /// loop.
-/// Ends of 135° are tried as soft turns and, where those are too many for the quads asked, as hard ones. Where
-/// headings with fewer soft turns fit hardly worse, as at the blunt end of a slit, they are tried last.
+/// Ends of 135° are tried as soft turns and, where those are too many for the quads asked, as hard ones.
+/// Where headings with fewer soft turns fit hardly worse, as at the blunt end of a slit, they are tried last.
 /// @return valid meshes, the likeliest first: with lines round a hole, then straight ones, by rows; none
 ///         after one that is as good as such meshes get. None at all where the numbers of sides fit no
 ///         grid, or quads would fold.

@@ -61,7 +61,8 @@ inline constexpr double kFewestEven = 8;
 /// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
 /// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
 /// Holes then get one column more or less where that puts their middle where it lies in the outer loop's
-/// grid, so that what is symmetric stays so (of fewer than 200 quads both are tried); and a ring with like holes about it a number that these divide.
+/// grid, so that what is symmetric stays so (of fewer than 200 quads both are tried); and a ring with like
+/// holes about it a number that these divide.
 /// @param region   with as many nodes as it would have without.
 /// @param segment  of the side from each boundary node to the next.
 /// @return  the number of sides of every segment; nothing where no grid fits.
