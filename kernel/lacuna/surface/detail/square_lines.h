@@ -22,6 +22,8 @@ namespace lacuna::surface {
 /// the volume, since what is shifted below is sheared above: the walls are meshed with few layers to know
 /// them. Where a side would become too long or too short, evenness counts for more. Lines of a grid leave a
 /// curved side as the neighbouring sides do (Coons).
+/// Where sections are unlike, as in a flat tube that becomes round, nodes then get places of their own on the
+/// target's rim: columns run straight from one place to the other, and the cosines of their lean count too.
 /// Faces that share edges are solved together. They keep what they have unless the worst angle gets better.
 /// Given and asked nodes stay, and so do those of edges on which boundary layers end.
 /// @post  counts are unchanged; what is symmetric stays so, to rounding.
