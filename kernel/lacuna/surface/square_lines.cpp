@@ -542,11 +542,46 @@ private:
     {
         constexpr double kStill = 1e-3; // [sides]; less than can be seen
         double weight = 1;
+        std::vector<Line> uneven; // with the weight before
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
             for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
-            if (is_even(lines)) return true;
+            if (is_even(lines)) {
+                if (!uneven.empty()) go_towards(lines, rungs, uneven);
+                return true;
+            }
+            uneven.clear();
+            for (const std::size_t l : lines) uneven.push_back(lines_[l]);
         }
         return false;
+    }
+
+    /// Move nodes of even sides towards places where they are squarer and not even: as far as sides stay so.
+    void go_towards(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                    const std::vector<Line>& uneven)
+    {
+        const double before = worst_cosine(lines, rungs);
+        std::vector<Line> even;
+        double share = 1;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const Line& line = even.emplace_back(lines_[lines[i]]);
+            const auto limit = [&](const std::vector<double>& from, const std::vector<double>& to) {
+                for (std::size_t k = 0; k + 1 < from.size(); ++k) {
+                    const double side = from[k + 1] - from[k], more = to[k + 1] - to[k] - side;
+                    const double room = more > 0 ? kLongest - side : kShortest - side;
+                    if (more != 0) share = std::min(share, room / more);
+                }
+            };
+            limit(line.at, uneven[i].at);
+            limit(line.above, uneven[i].above);
+        }
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            Line& line = lines_[lines[i]];
+            for (std::size_t k = 0; k < line.at.size(); ++k) line.at[k] += share * (uneven[i].at[k] - line.at[k]);
+            for (std::size_t k = 0; k < line.above.size(); ++k)
+                line.above[k] += share * (uneven[i].above[k] - line.above[k]);
+        }
+        if (worst_cosine(lines, rungs) < before) return;
+        for (std::size_t i = 0; i < lines.size(); ++i) lines_[lines[i]] = std::move(even[i]);
     }
 
     void take(const std::vector<std::size_t>& lines)
