@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/sparse_factor.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/surface/detail/section_line.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/walls.h>
 
@@ -35,71 +36,7 @@ constexpr double kWorthIt = 0.05;
 /// A grid's lines are straight at a side where its neighbours leave it within this share of a line's length;
 /// only then are sections of the volume above known from the walls. A choice.
 constexpr double kStraight = 0.1;
-/// Sections of the volume that a line is looked at in, evenly from source to target. A choice.
-constexpr std::size_t kSections = 5;
-constexpr std::size_t kSource = 0;
-double height_of(std::size_t section)
-{
-    return static_cast<double>(section) / static_cast<double>(kSections - 1);
-}
-
-/// A piece of an edge as a curve over its sides, 0 at its start.
-struct Line {
-    SeedPiece* piece = nullptr;
-    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be none
-    std::vector<double> at;                          ///< where the nodes stand, ends included [sides]
-    std::vector<double> above;                       ///< the same on the target; empty: as on the source
-    std::vector<std::size_t> variable;               ///< of each node; kNone for those that stay
-    std::vector<std::size_t> variable_above;
-    std::vector<double> steep; ///< with `above`: the side at each node over the length of its column
-    bool on_rim = false;
-
-    /// Where a node's column is in a section: on a straight way from the source to the target.
-    [[nodiscard]] double column(std::size_t section, std::size_t node) const
-    {
-        if (section == kSource || above.empty()) return at[node];
-        const double height = height_of(section);
-        return (1 - height) * at[node] + height * above[node];
-    }
-
-    /// A point of a section, and how it moves with u.
-    struct Spot {
-        Vec3 at, slope;
-    };
-    [[nodiscard]] Spot spot(std::size_t section, double u) const
-    {
-        const std::vector<Vec3>& p = points[section];
-        const auto last = static_cast<double>(p.size() - 1);
-        const double per_side = last / piece->count;
-        const double x = std::clamp(u * per_side, 0.0, last);
-        const std::size_t i = std::min(static_cast<std::size_t>(x), p.size() - 2);
-        const double f = x - static_cast<double>(i);
-        const Vec3 before = i > 0 ? Vec3(p[i - 1]) : Vec3(2 * p[0] - p[1]);
-        const Vec3 after = i + 2 < p.size() ? Vec3(p[i + 2]) : Vec3(2 * p[i + 1] - p[i]);
-        // A cubic with the slopes of the chords beside.
-        const Vec3 a = (p[i + 1] - before) / 2, b = (after - p[i]) / 2, c = p[i + 1] - p[i];
-        return {p[i] + f * (a + f * ((3 * c - 2 * a - b) + f * (a + b - 2 * c))),
-                per_side * (a + f * (2 * (3 * c - 2 * a - b) + 3 * f * (a + b - 2 * c)))};
-    }
-    [[nodiscard]] Vec3 place(std::size_t section, double u) const { return spot(section, u).at; }
-    /// Direction along the edge, over half a side each way, and how it turns with u.
-    [[nodiscard]] Spot tangent(std::size_t section, double u) const
-    {
-        const Spot before = spot(section, u - 0.5), after = spot(section, u + 0.5);
-        const Vec3 chord = after.at - before.at;
-        const double length = chord.norm();
-        if (length <= 0) return {Vec3::Zero(), Vec3::Zero()};
-        const Vec3 along = chord / length, slope = (after.slope - before.slope) / length;
-        return {along, slope - slope.dot(along) * along};
-    }
-    /// Where nodes stand that were not moved.
-    [[nodiscard]] std::vector<double> even() const
-    {
-        std::vector<double> places(at.size());
-        for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
-        return places;
-    }
-};
+using Line = SectionLine;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// A cosine and how it changes with the places of a line's two ends.
@@ -388,8 +325,8 @@ private:
         return line.above.empty() ? weight : weight / 2;
     }
 
-    /// What evenness counts more at the ends of a line, where a side is as high as the row along what meets it
-    /// there.
+    /// What evenness counts more at the ends of a line, where a side is as high as the row along what meets
+    /// it there.
     static double beside_end(std::size_t side, const std::vector<double>& u)
     {
         return side == 0 || side + 2 == u.size() ? kEnds : 1;
@@ -521,30 +458,15 @@ private:
             line.above = line.at;
             line.variable_above = line.variable;
             for (std::size_t& v : line.variable_above) v += v == kNone ? 0 : variables;
-            line.steep = steepness(line);
+            line.steep = line.steepness();
         }
-        if (square(lines, rungs, 2 * variables) && worst_cosine(lines, rungs) < before - kWorthIt) return true;
+        const bool even = square(lines, rungs, 2 * variables);
+        if (even && worst_cosine(lines, rungs) < before - kWorthIt) return true;
         for (std::size_t i = 0; i < lines.size(); ++i) {
             lines_[lines[i]].at = alike[i];
             lines_[lines[i]].above.clear();
         }
         return false;
-    }
-
-    /// The side at each node, over the length of its column.
-    static std::vector<double> steepness(const Line& line)
-    {
-        std::vector<double> steep;
-        for (std::size_t i = 0; i < line.at.size(); ++i) {
-            const auto u = static_cast<double>(i);
-            double side = 0, length = 0;
-            for (std::size_t k = 0; k < kSections; ++k) {
-                side += (line.place(k, u + 0.5) - line.place(k, u - 0.5)).norm() / kSections;
-                if (k > 0) length += (line.place(k, u) - line.place(k - 1, u)).norm();
-            }
-            steep.push_back(length > 0 ? side / length : 0);
-        }
-        return steep;
     }
 
     /// Move nodes to where the lines meet edges best. @return whether sides are even enough then
@@ -587,7 +509,8 @@ private:
         }
         for (std::size_t i = 0; i < lines.size(); ++i) {
             Line& line = lines_[lines[i]];
-            for (std::size_t k = 0; k < line.at.size(); ++k) line.at[k] += share * (uneven[i].at[k] - line.at[k]);
+            for (std::size_t k = 0; k < line.at.size(); ++k)
+                line.at[k] += share * (uneven[i].at[k] - line.at[k]);
             for (std::size_t k = 0; k < line.above.size(); ++k)
                 line.above[k] += share * (uneven[i].above[k] - line.above[k]);
         }
