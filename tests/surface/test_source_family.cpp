@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/measure_sources.h"
+#include "support/plan_prism.h"
 #include "support/random_sources.h"
 #include "support/source_family.h"
 
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 using namespace lacuna;
@@ -254,6 +256,70 @@ TEST_CASE("a side is round where it bulges outward, and not where it is bent inw
             CHECK(sides.size() == (sector ? 3 : 2));
             CHECK(round->radius == doctest::Approx(1).epsilon(0.01));
             CHECK(round->turn == doctest::Approx(std::acos(-1.0) / (sector ? 2 : 1)).epsilon(0.05));
+        }
+    }
+}
+
+namespace {
+
+/// A ring in halves, `flat` times as wide one way as the other, that becomes round on the way to its target.
+OpenVolume rounded_ring(double flat, double height)
+{
+    std::vector<test::PlanPatch> patches;
+    for (int k = 0; k < 4; ++k) {
+        const test::PlanMap part = [=](double s, double t) {
+            const double angle = (k + t) * std::numbers::pi / 2, radius = 0.8 + 0.2 * s;
+            return Vec2(radius * std::cos(angle), radius * std::sin(angle));
+        };
+        patches.push_back({k / 2, part, {0, 1 + k / 2, 0, 11 + k / 2}});
+    }
+    const test::SpaceMap map = [=](const Vec2& p, double h) {
+        return Vec3(p.x(), (flat + h * (1 - flat)) * p.y(), height * h);
+    };
+    return test::prism_over(patches, map, 24);
+}
+
+} // namespace
+
+TEST_CASE("lines over a flat ring that becomes round are square at both ends, where the way is long enough")
+{
+    for (const double flat : {0.4, 0.6}) {
+        for (const double height : {0.2, 1.0, 8.0}) {
+            for (const double quads : {40.0, 120.0, 400.0}) {
+                CAPTURE(flat);
+                CAPTURE(height);
+                CAPTURE(quads);
+                const test::FamilySource source{"", rounded_ring(flat, height)};
+                const Meshed made = mesh_family_source(source, quads);
+                if (made.seeds.corners.size() < 2) continue; // not mapped
+                REQUIRE(made.mesh.links.size() == 2);
+                const auto links = surface::linking_surfaces(source.volume);
+                std::array<std::vector<double>, 2> angle; // of nodes on the target
+                for (std::size_t l = 0; l < 2; ++l) {
+                    const surface::LinkingNodes& nodes = made.mesh.links[l];
+                    const surface::Chain &below = links[l].source, &above = links[l].target;
+                    // No column leans by more than half a right angle against even ones.
+                    for (std::size_t i = 0; i < nodes.source_at.size(); ++i) {
+                        const double from = nodes.source_at[i] / below.length(),
+                                     to = nodes.target_at[i] / above.length();
+                        CHECK(std::abs(std::remainder(to - from, 1)) * above.length() < height);
+                    }
+                    for (const Vec3& p : above.points(nodes.target_at))
+                        angle[l].push_back(std::atan2(p.y(), p.x()));
+                }
+                REQUIRE(angle[0].size() == angle[1].size());
+                double most_off = 0;
+                for (const double own : angle[0]) {
+                    double off = 4;
+                    for (const double other : angle[1])
+                        off = std::min(off, std::abs(std::remainder(own - other, 2 * std::numbers::pi)));
+                    most_off = std::max(most_off, off * double(angle[0].size()) / (2 * std::numbers::pi));
+                }
+                if (height < 8) continue;
+                CHECK(made.quality.min_scaled_jacobian > 0.8);
+                CHECK(made.quality.mean_scaled_jacobian > 0.95);
+                CHECK(most_off < 0.3); // of a side
+            }
         }
     }
 }

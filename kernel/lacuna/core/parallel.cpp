@@ -16,8 +16,10 @@ void parallel_for(const RunContext& context, std::size_t count, std::size_t grai
 {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
-    const auto wanted = static_cast<std::size_t>(thread_count(context));
-    const std::size_t threads = std::clamp<std::size_t>(count / grain, 1, wanted);
+    // The system is asked how many cores there are only where there is work for two threads.
+    const std::size_t most = count / grain;
+    const std::size_t threads =
+        most < 2 ? 1 : std::min(most, static_cast<std::size_t>(thread_count(context)));
 
     std::atomic<std::size_t> next{0};
     std::atomic<bool> stop{false};

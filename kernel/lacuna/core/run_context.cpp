@@ -23,6 +23,8 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
+    // Asking the system takes longer than a small loop.
+    if (context.threads > 0 && context.threads <= kMostThreads) return context.threads;
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;
 }

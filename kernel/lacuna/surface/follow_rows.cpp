@@ -44,7 +44,8 @@ Rows known_rows(const std::vector<WallMesh>& meshes, std::span<const LinkingNode
 } // namespace
 
 void follow_rows(std::vector<WallMesh>& meshes, const Model& model, std::span<const LinkingNodes> nodes,
-                 const std::vector<FollowedPanel>& followed, std::size_t layers, const RunContext& context)
+                 const std::vector<FollowedPanel>& followed, std::size_t layers, bool onto_faces,
+                 const RunContext& context)
 {
     const Rows rows = known_rows(meshes, nodes, followed, layers);
     for (std::size_t k = 1; k < layers; ++k) {
@@ -68,6 +69,7 @@ void follow_rows(std::vector<WallMesh>& meshes, const Model& model, std::span<co
             }
         }
     }
+    if (!onto_faces) return;
     for (const FollowedPanel& panel : followed) {
         std::vector<Vec3>& points = meshes[panel.link].points;
         const std::size_t n = nodes[panel.link].source_at.size();

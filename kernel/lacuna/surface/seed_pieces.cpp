@@ -73,24 +73,40 @@ std::size_t Seeds::piece_of(const LinkingSurface& link, const RimSegment& segmen
     return static_cast<std::size_t>(piece - own.begin());
 }
 
-std::vector<std::vector<double>> Seeds::shares(const LinkingSurface& link) const
+LinkingNodes Seeds::nodes(const LinkingSurface& link) const
 {
-    std::vector<std::vector<double>> all;
+    std::vector<std::vector<double>> source, target;
     for (const RimSegment& segment : link.segments) {
         const EdgeUse use = link.source.uses()[segment.use];
-        all.push_back(pieces.at(use.edge)[piece_of(link, segment)].shares(use.reversed));
+        const SeedPiece& piece = pieces.at(use.edge)[piece_of(link, segment)];
+        source.push_back(piece.shares(use.reversed));
+        target.push_back(piece.shares_above(use.reversed));
     }
-    return all;
+    return linking_nodes(link, source, target);
 }
 
-std::vector<double> SeedPiece::shares(bool reversed) const
+namespace {
+
+/// Shares of a piece as a use of the edge meets them.
+std::vector<double> shares_of(const SeedPiece& piece, std::vector<double> fractions, bool reversed)
 {
-    std::vector<double> shares = fractions();
-    for (double& f : shares) f = (f - from) / (to - from);
-    if (!reversed) return shares;
+    for (double& f : fractions) f = (f - piece.from) / (piece.to - piece.from);
+    if (!reversed) return fractions;
     std::vector<double> back{0};
-    for (std::size_t i = shares.size(); i-- > 1;) back.push_back(1 - shares[i]);
+    for (std::size_t i = fractions.size(); i-- > 1;) back.push_back(1 - fractions[i]);
     return back;
+}
+
+} // namespace
+
+std::vector<double> SeedPiece::shares(bool reversed) const { return shares_of(*this, fractions(), reversed); }
+
+std::vector<double> SeedPiece::shares_above(bool reversed) const
+{
+    if (fixed || placed_above.empty()) return shares(reversed);
+    std::vector<double> own{from};
+    own.insert(own.end(), placed_above.begin(), placed_above.end());
+    return shares_of(*this, std::move(own), reversed);
 }
 
 } // namespace lacuna::surface

@@ -6,6 +6,7 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/shape_size.h>
 #include <lacuna/surface/size_field.h>
+#include <lacuna/surface/walls.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <map>
@@ -39,6 +40,8 @@ struct SeedPiece {
     std::vector<double> kept{}; ///< nodes inside that were given, as fractions of the edge; with `fixed`
     /// Nodes inside where the lines of mapped faces meet the edge best, as fractions. Empty: by `wanted`.
     std::vector<double> placed{};
+    /// The same of what they are swept to on the target's rim, as if on this piece. Empty: as on the source.
+    std::vector<double> placed_above{};
     bool fixed = false; ///< the nodes of a given mesh, or asked for: none more, none less
     bool asked = false; ///< with `fixed`: by a person
     bool bends = false; ///< its bends asked for more sides than the size
@@ -51,6 +54,8 @@ struct SeedPiece {
     [[nodiscard]] std::vector<double> fractions() const;
     /// Shares of the piece at its nodes as a use of the edge meets them, from 0, below 1.
     [[nodiscard]] std::vector<double> shares(bool reversed) const;
+    /// The same of what they are swept to, on the target's rim.
+    [[nodiscard]] std::vector<double> shares_above(bool reversed) const;
 };
 
 /// A number of sides for parts of the source's rim that follow each other.
@@ -88,8 +93,8 @@ struct Seeds {
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
     /// The piece, among those of its edge, that a segment of a rim is.
     [[nodiscard]] std::size_t piece_of(const LinkingSurface& link, const RimSegment& segment) const;
-    /// Shares of each segment of a rim at its nodes, as `linking_nodes()` takes them.
-    [[nodiscard]] std::vector<std::vector<double>> shares(const LinkingSurface& link) const;
+    /// The nodes of a linking surface, on the source's rim and on the target's.
+    [[nodiscard]] LinkingNodes nodes(const LinkingSurface& link) const;
 };
 
 /// Assign numbers of sides to the edges of the source: by the size, or by the curvature where it wants more.
@@ -114,7 +119,8 @@ struct Seeds {
 /// is free. Free faces then get the counts of a grid one after the other, with what others have settled;
 /// those with the most loops first, for their loops must agree. Last, each free face with an odd total gets
 /// one more side on a rim edge of its own, or on an edge towards one; a mapped face between passes it on.
-/// Then nodes on the sides of mapped faces move along them, where the grid's lines are oblique to them.
+/// Then nodes on the sides of mapped faces move along them, where the grid's lines are oblique to them; on
+/// the target otherwise than on the source where the way between bends another way.
 /// @param sizing  sides for a full turn; with a gap no face is submapped that need not be, unless
 ///                `counts_across` is set: then the sides of mapped faces get the gap's quads at least. The
 ///                rest of it is in the size already.

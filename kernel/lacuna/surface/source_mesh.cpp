@@ -114,7 +114,7 @@ private:
 
     void add_link(const LinkingSurface& link)
     {
-        LinkingNodes nodes = linking_nodes(link, seeds_.shares(link));
+        LinkingNodes nodes = seeds_.nodes(link);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
         const std::vector<Vec3> points = link.source.points(nodes.source_at);
         for (const Vec3& p : points) add_node(p);

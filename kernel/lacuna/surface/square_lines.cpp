@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/sparse_factor.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/surface/detail/section_line.h>
 #include <lacuna/surface/edge_nodes.h>
 #include <lacuna/surface/walls.h>
 
@@ -27,43 +28,21 @@ constexpr int kPerSide = 4;
 constexpr int kSteps = 12, kRounds = 5;
 /// A side may become so much shorter and longer than it was: half of what is right for its size.
 constexpr double kShortest = 0.75, kLongest = 1.35;
+/// Evenness counts more at the ends of a line. A choice: with 1 a third of the rows along shared edges of
+/// flat rings were too low, with 4 their mean scaled Jacobians lose .01.
+constexpr double kEnds = 2;
 /// The worst cosine has to fall by so much, or nodes stay where they are: 3°. A choice.
 constexpr double kWorthIt = 0.05;
 /// A grid's lines are straight at a side where its neighbours leave it within this share of a line's length;
 /// only then are sections of the volume above known from the walls. A choice.
 constexpr double kStraight = 0.1;
-/// Sections of the volume that a line is looked at in, evenly from source to target. A choice.
-constexpr std::size_t kSections = 5;
-constexpr std::size_t kSource = 0;
-
-/// A piece of an edge as a curve over its sides, 0 at its start.
-struct Line {
-    SeedPiece* piece = nullptr;
-    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be none
-    std::vector<double> at;                          ///< where the nodes stand, ends included [sides]
-    std::vector<std::size_t> variable;               ///< of each node; kNone for those that stay
-    bool on_rim = false;
-
-    [[nodiscard]] Vec3 place(std::size_t section, double u) const
-    {
-        const std::vector<Vec3>& p = points[section];
-        const auto last = static_cast<double>(p.size() - 1);
-        const double x = std::clamp(u / piece->count * last, 0.0, last);
-        const std::size_t i = std::min(static_cast<std::size_t>(x), p.size() - 2);
-        const double f = x - static_cast<double>(i);
-        const Vec3 before = i > 0 ? Vec3(p[i - 1]) : Vec3(2 * p[0] - p[1]);
-        const Vec3 after = i + 2 < p.size() ? Vec3(p[i + 2]) : Vec3(2 * p[i + 1] - p[i]);
-        const Vec3 a = (p[i + 1] - before) / 2, b = (after - p[i]) / 2;
-        return (1 - f) * (1 - f) * ((1 + 2 * f) * p[i] + f * a) +
-               f * f * ((3 - 2 * f) * p[i + 1] - (1 - f) * b);
-    }
-    /// Along the edge, over half a side each way.
-    [[nodiscard]] Vec3 tangent(std::size_t section, double u) const
-    {
-        return (place(section, u + 0.5) - place(section, u - 0.5)).stableNormalized();
-    }
-};
+using Line = SectionLine;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// A cosine and how it changes with the places of a line's two ends.
+struct Cosine {
+    double value = 0, from = 0, to = 0;
+};
 
 struct Node {
     std::size_t line = 0, node = 0;
@@ -145,13 +124,13 @@ private:
     bool add_sections()
     {
         std::vector<LinkingNodes> nodes;
-        for (const LinkingSurface& link : links_) nodes.push_back(linking_nodes(link, seeds_.shares(link)));
+        for (const LinkingSurface& link : links_) nodes.push_back(seeds_.nodes(link));
         std::vector<double> heights;
         for (std::size_t k = 0; k < kSections; ++k)
-            heights.push_back(static_cast<double>(k) / (kSections - 1));
+            heights.push_back(height_of(k));
         std::vector<WallMesh> walls;
         try {
-            walls = mesh_walls(volume_, links_, nodes, heights, {}, context_);
+            walls = mesh_walls_on_facets(volume_, links_, nodes, heights, context_);
         } catch (const NotSweepable&) {
             return false; // more edges to follow than sections
         }
@@ -230,22 +209,30 @@ private:
         }
     }
 
-    /// Cosine between a line and the edge it starts from (0) or ends on (1).
-    [[nodiscard]] double cosine(const Rung& rung, std::size_t section, std::size_t side, double from,
-                                double to) const
+    /// Cosines between a line and the edges it starts from and ends on.
+    [[nodiscard]] std::array<Cosine, 2> cosines(const Rung& rung, std::size_t section) const
     {
         const Line &a = lines_[rung.from.line], &b = lines_[rung.to.line];
-        Vec3 way = b.place(section, to) - a.place(section, from);
-        if (section == kSource) way += rung.bend[side];
-        const Vec3 along = side == 0 ? a.tangent(section, from) : b.tangent(section, to);
-        const double length = way.norm();
-        return length > 0 ? way.dot(along) / length : 0;
+        const double u = at(rung.from, section), v = at(rung.to, section);
+        const Line::Spot from = a.spot(section, u), to = b.spot(section, v);
+        std::array<Cosine, 2> found{};
+        for (std::size_t side = 0; side < 2; ++side) {
+            Vec3 way = to.at - from.at;
+            if (section == kSource) way += rung.bend[side];
+            const double length = way.norm();
+            if (length <= 0) continue;
+            way /= length;
+            const Line::Spot along = side == 0 ? a.tangent(section, u) : b.tangent(section, v);
+            const Vec3 across = (along.at - way.dot(along.at) * way) / length;
+            found[side] = {way.dot(along.at), -from.slope.dot(across), to.slope.dot(across)};
+            (side == 0 ? found[side].from : found[side].to) += way.dot(along.slope);
+        }
+        return found;
     }
 
-    [[nodiscard]] double at(const Node& node) const { return lines_[node.line].at[node.node]; }
-    [[nodiscard]] std::size_t variable(const Node& node) const
+    [[nodiscard]] double at(const Node& node, std::size_t section) const
     {
-        return lines_[node.line].variable[node.node];
+        return lines_[node.line].column(section, node.node);
     }
 
     /// What a section of a line counts beside the lengths of sides.
@@ -257,7 +244,7 @@ private:
         for (const std::size_t r : rungs) {
             const std::size_t sections = rungs_[r].on_rims ? most : 1;
             for (std::size_t section = 0; section < sections; ++section) {
-                for (std::size_t side = 0; side < 2; ++side) visit(rungs_[r], section, side);
+                for (const Cosine& cosine : cosines(rungs_[r], section)) visit(rungs_[r], section, cosine);
             }
         }
     }
@@ -265,10 +252,38 @@ private:
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& rungs, std::size_t sections) const
     {
         double worst = 0;
-        for_cosines(rungs, sections, [&](const Rung& rung, std::size_t section, std::size_t side) {
-            worst = std::max(worst, std::abs(cosine(rung, section, side, at(rung.from), at(rung.to))));
+        for_cosines(rungs, sections, [&](const Rung&, std::size_t, const Cosine& cosine) {
+            worst = std::max(worst, std::abs(cosine.value));
         });
         return worst;
+    }
+
+    /// The same, with the cosines between edges and columns that were even.
+    [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
+                                      const std::vector<std::size_t>& rungs) const
+    {
+        double worst = worst_cosine(rungs, kSections);
+        for (const std::size_t l : lines) {
+            for_columns(lines_[l], [&](std::size_t, double slope) {
+                worst = std::max(worst, std::abs(slope) / std::hypot(1, slope));
+            });
+        }
+        return worst;
+    }
+
+    /// Whether some line meets edges otherwise in one section than in another.
+    [[nodiscard]] bool are_unlike(const std::vector<std::size_t>& rungs) const
+    {
+        return std::any_of(rungs.begin(), rungs.end(), [&](std::size_t r) {
+            const std::array<Cosine, 2> below = cosines(rungs_[r], kSource);
+            for (std::size_t section = 1; section < kSections; ++section) {
+                const std::array<Cosine, 2> own = cosines(rungs_[r], section);
+                for (std::size_t side = 0; side < 2; ++side) {
+                    if (std::abs(own[side].value - below[side].value) > kWorthIt) return true;
+                }
+            }
+            return false;
+        });
     }
 
     [[nodiscard]] double energy(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
@@ -276,13 +291,56 @@ private:
     {
         double sum = 0;
         for (const std::size_t l : lines) {
-            const std::vector<double>& u = lines_[l].at;
-            for (std::size_t i = 0; i + 1 < u.size(); ++i) sum += weight * std::pow(u[i + 1] - u[i] - 1, 2);
+            const double each = weight_of(lines_[l], weight);
+            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>&) {
+                for (std::size_t i = 0; i + 1 < u.size(); ++i)
+                    sum += each * beside_end(i, u) * std::pow(u[i + 1] - u[i] - 1, 2);
+            });
+            for_columns(lines_[l], [&](std::size_t, double slope) { sum += slope * slope; });
         }
-        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, std::size_t side) {
-            sum += share(rung) * std::pow(cosine(rung, section, side, at(rung.from), at(rung.to)), 2);
+        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t, const Cosine& cosine) {
+            sum += share(rung) * cosine.value * cosine.value;
         });
         return sum;
+    }
+
+    /// Visit the places of a line's nodes with their variables: on the source, and on the target where these
+    /// are others.
+    template <class Visit> static void for_ends(const Line& line, const Visit& visit)
+    {
+        visit(line.at, line.variable);
+        if (!line.above.empty()) visit(line.above, line.variable_above);
+    }
+
+    /// Visit the nodes whose columns run otherwise than even ones: sides along for a length up the walls.
+    template <class Visit> static void for_columns(const Line& line, const Visit& visit)
+    {
+        for (std::size_t i = 1; i + 1 < line.above.size(); ++i)
+            visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
+    }
+
+    /// What evenness counts at an end of a line: both ends together as one where they are the same.
+    static double weight_of(const Line& line, double weight)
+    {
+        return line.above.empty() ? weight : weight / 2;
+    }
+
+    /// What evenness counts more at the ends of a line, where a side is as high as the row along what meets
+    /// it there.
+    static double beside_end(std::size_t side, const std::vector<double>& u)
+    {
+        return side == 0 || side + 2 == u.size() ? kEnds : 1;
+    }
+
+    using Slope = std::pair<std::size_t, double>; ///< over a variable
+
+    /// What changes with a node's column in a section, by its variables.
+    void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
+    {
+        const Line& line = lines_[node.line];
+        const double height = line.above.empty() ? 0 : height_of(section);
+        if (height < 1) slopes.emplace_back(line.variable[node.node], (1 - height) * slope);
+        if (height > 0) slopes.emplace_back(line.variable_above[node.node], height * slope);
     }
 
     /// One step of Gauss and Newton. @return how far it goes [sides]
@@ -291,8 +349,7 @@ private:
     {
         std::vector<Eigen::Triplet<double>> entries;
         Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(variables));
-        const auto add = [&](std::size_t a, double da, std::size_t b, double db, double r, double w) {
-            const std::array<std::pair<std::size_t, double>, 2> own{{{a, da}, {b, db}}};
+        const auto add = [&](std::span<const Slope> own, double r, double w) {
             for (const auto& [v, dv] : own) {
                 if (v == kNone) continue;
                 right[static_cast<Eigen::Index>(v)] -= w * dv * r;
@@ -303,21 +360,25 @@ private:
             }
         };
         for (const std::size_t l : lines) {
-            const Line& line = lines_[l];
-            for (std::size_t i = 0; i + 1 < line.at.size(); ++i)
-                add(line.variable[i], -1, line.variable[i + 1], 1, line.at[i + 1] - line.at[i] - 1, weight);
+            const double each = weight_of(lines_[l], weight);
+            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>& variable) {
+                for (std::size_t i = 0; i + 1 < u.size(); ++i)
+                    add(std::array<Slope, 2>{{{variable[i], -1}, {variable[i + 1], 1}}}, u[i + 1] - u[i] - 1,
+                        each * beside_end(i, u));
+            });
+            for_columns(lines_[l], [&](std::size_t i, double slope) {
+                const Line& line = lines_[l];
+                add(std::array<Slope, 2>{
+                        {{line.variable[i], -line.steep[i]}, {line.variable_above[i], line.steep[i]}}},
+                    slope, 1);
+            });
         }
-        constexpr double kApart = 0.05; // of the points a slope is taken between [sides]
-        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, std::size_t side) {
-            const double a = at(rung.from), b = at(rung.to);
-            const double da = (cosine(rung, section, side, a + kApart, b) -
-                               cosine(rung, section, side, a - kApart, b)) /
-                              (2 * kApart);
-            const double db = (cosine(rung, section, side, a, b + kApart) -
-                               cosine(rung, section, side, a, b - kApart)) /
-                              (2 * kApart);
-            add(variable(rung.from), da, variable(rung.to), db, cosine(rung, section, side, a, b),
-                share(rung));
+        std::vector<Slope> own;
+        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, const Cosine& cosine) {
+            own.clear();
+            add_slopes(rung.from, section, cosine.from, own);
+            add_slopes(rung.to, section, cosine.to, own);
+            add(own, cosine.value, share(rung));
         });
         const auto n = static_cast<Eigen::Index>(variables);
         Eigen::SparseMatrix<double> matrix(n, n);
@@ -340,27 +401,30 @@ private:
     {
         for (const std::size_t l : lines) {
             Line& line = lines_[l];
-            for (std::size_t i = 0; i < line.at.size(); ++i) {
-                if (line.variable[i] != kNone)
-                    line.at[i] += length * move[static_cast<Eigen::Index>(line.variable[i])];
-            }
+            const auto shift_end = [&](std::vector<double>& at, const std::vector<std::size_t>& variable) {
+                for (std::size_t i = 0; i < at.size(); ++i) {
+                    if (variable[i] != kNone) at[i] += length * move[static_cast<Eigen::Index>(variable[i])];
+                }
+            };
+            shift_end(line.at, line.variable);
+            shift_end(line.above, line.variable_above);
         }
     }
 
     [[nodiscard]] bool is_even(const std::vector<std::size_t>& lines) const
     {
-        return std::all_of(lines.begin(), lines.end(), [&](std::size_t l) {
-            const std::vector<double>& u = lines_[l].at;
-            for (std::size_t i = 0; i + 1 < u.size(); ++i) {
-                if (u[i + 1] - u[i] < kShortest || u[i + 1] - u[i] > kLongest) return false;
-            }
-            return true;
-        });
+        bool even = true;
+        for (const std::size_t l : lines) {
+            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>&) {
+                for (std::size_t i = 0; i + 1 < u.size(); ++i)
+                    even = even && u[i + 1] - u[i] >= kShortest && u[i + 1] - u[i] <= kLongest;
+            });
+        }
+        return even;
     }
 
     void settle(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs)
     {
-        const double before = worst_cosine(rungs, kSections);
         std::size_t variables = 0;
         for (const std::size_t l : lines) {
             Line& line = lines_[l];
@@ -369,29 +433,108 @@ private:
             for (std::size_t i = 1; i + 1 < line.at.size(); ++i) line.variable[i] = variables++;
         }
         if (variables == 0) return;
+        const double before = worst_cosine(rungs, kSections);
+        const bool squarer = square(lines, rungs, variables) &&
+                             worst_cosine(rungs, kSections) < before - kWorthIt;
+        if (!squarer) {
+            for (const std::size_t l : lines) lines_[l].at = lines_[l].even();
+        }
+        if (settle_apart(lines, rungs, variables) || squarer) take(lines);
+    }
+
+    /// Give lines places of their own on the target, where the sections between differ and that helps.
+    /// @return whether it does
+    bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                      std::size_t variables)
+    {
+        const bool swept = std::all_of(rungs.begin(), rungs.end(),
+                                       [&](std::size_t r) { return rungs_[r].on_rims; });
+        if (!swept || !are_unlike(rungs)) return false;
+        const double before = worst_cosine(rungs, kSections);
+        std::vector<std::vector<double>> alike;
+        for (const std::size_t l : lines) {
+            Line& line = lines_[l];
+            alike.push_back(line.at);
+            line.above = line.at;
+            line.variable_above = line.variable;
+            for (std::size_t& v : line.variable_above) v += v == kNone ? 0 : variables;
+            line.steep = line.steepness();
+        }
+        const bool even = square(lines, rungs, 2 * variables);
+        if (even && worst_cosine(lines, rungs) < before - kWorthIt) return true;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            lines_[lines[i]].at = alike[i];
+            lines_[lines[i]].above.clear();
+        }
+        return false;
+    }
+
+    /// Move nodes to where the lines meet edges best. @return whether sides are even enough then
+    bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                std::size_t variables)
+    {
         constexpr double kStill = 1e-3; // [sides]; less than can be seen
         double weight = 1;
+        std::vector<Line> uneven; // with the weight before
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
             for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
-            if (!is_even(lines)) continue;
-            if (worst_cosine(rungs, kSections) < before - kWorthIt) take(lines);
-            return;
+            if (is_even(lines)) {
+                if (!uneven.empty()) go_towards(lines, rungs, uneven);
+                return true;
+            }
+            uneven.clear();
+            for (const std::size_t l : lines) uneven.push_back(lines_[l]);
         }
+        return false;
+    }
+
+    /// Move nodes of even sides towards places where they are squarer and not even: as far as sides stay so.
+    void go_towards(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                    const std::vector<Line>& uneven)
+    {
+        const double before = worst_cosine(lines, rungs);
+        std::vector<Line> even;
+        double share = 1;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const Line& line = even.emplace_back(lines_[lines[i]]);
+            const auto limit = [&](const std::vector<double>& from, const std::vector<double>& to) {
+                for (std::size_t k = 0; k + 1 < from.size(); ++k) {
+                    const double side = from[k + 1] - from[k], more = to[k + 1] - to[k] - side;
+                    const double room = more > 0 ? kLongest - side : kShortest - side;
+                    if (more != 0) share = std::min(share, room / more);
+                }
+            };
+            limit(line.at, uneven[i].at);
+            limit(line.above, uneven[i].above);
+        }
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            Line& line = lines_[lines[i]];
+            for (std::size_t k = 0; k < line.at.size(); ++k)
+                line.at[k] += share * (uneven[i].at[k] - line.at[k]);
+            for (std::size_t k = 0; k < line.above.size(); ++k)
+                line.above[k] += share * (uneven[i].above[k] - line.above[k]);
+        }
+        if (worst_cosine(lines, rungs) < before) return;
+        for (std::size_t i = 0; i < lines.size(); ++i) lines_[lines[i]] = std::move(even[i]);
     }
 
     void take(const std::vector<std::size_t>& lines)
     {
         for (const std::size_t l : lines) {
             Line& line = lines_[l];
-            std::vector<double> nodes = line.piece->fractions(), placed;
+            std::vector<double> nodes = line.piece->fractions();
             nodes.push_back(line.piece->to);
-            for (std::size_t i = 1; i + 1 < line.at.size(); ++i) {
-                if (line.variable[i] == kNone) break;
-                const auto k = std::min(static_cast<std::size_t>(line.at[i]), nodes.size() - 2);
-                placed.push_back(nodes[k] +
-                                 (line.at[i] - static_cast<double>(k)) * (nodes[k + 1] - nodes[k]));
-            }
-            line.piece->placed = std::move(placed);
+            const auto fractions = [&](const std::vector<double>& at) {
+                std::vector<double> placed;
+                for (std::size_t i = 1; i + 1 < at.size(); ++i) {
+                    if (line.variable[i] == kNone) break;
+                    const auto k = std::min(static_cast<std::size_t>(at[i]), nodes.size() - 2);
+                    placed.push_back(nodes[k] + (at[i] - static_cast<double>(k)) * (nodes[k + 1] - nodes[k]));
+                }
+                return placed;
+            };
+            line.piece->placed = fractions(line.at);
+            line.piece->placed_above = fractions(line.above);
         }
     }
 

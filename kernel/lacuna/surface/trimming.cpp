@@ -91,7 +91,6 @@ Trimming::Trimming(const Model& model, FaceId face) : model_(&model), face_(face
         add_loop(loop, facet_of_side);
     }
     tree_ = geometry::FacetTree(model.points, thin);
-    measure_clearance();
 }
 
 void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_side)
@@ -137,26 +136,30 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
     }
 }
 
-void Trimming::measure_clearance()
+Trimming::Clearance Trimming::clearance_of(Index triangle) const
 {
-    if (sides_.empty()) return;
-    for (const Triangle& t : (*model_)[face_].triangles) {
-        const Vec3 centre = (model_->at(t[0]) + model_->at(t[1]) + model_->at(t[2])) / 3;
-        double reach = 0;
-        for (const Index corner : t) reach = std::max(reach, (model_->at(corner) - centre).norm());
-        Clearance clear{std::sqrt(tree_.closest(centre).distance2) - reach, Vec3::Zero()};
-        const Vec3 &a = model_->at(t[0]), &b = model_->at(t[1]), &c = model_->at(t[2]);
-        const double twice = (b - a).cross(c - a).norm();
-        clear.heights = {twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm()};
-        clearance_.push_back(clear);
-    }
+    const Triangle& t = (*model_)[face_].triangles[index(triangle)];
+    const Vec3 &a = model_->at(t[0]), &b = model_->at(t[1]), &c = model_->at(t[2]);
+    const Vec3 centre = (a + b + c) / 3;
+    double reach = 0;
+    for (const Index corner : t) reach = std::max(reach, (model_->at(corner) - centre).norm());
+    Clearance clear{std::sqrt(tree_.closest(centre).distance2) - reach, Vec3::Zero()};
+    const double twice = (b - a).cross(c - a).norm();
+    clear.heights = {twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm()};
+    return clear;
+}
+
+void Trimming::measure_clearance() const
+{
+    for (std::size_t t = 0; t < (*model_)[face_].triangles.size(); ++t)
+        clearance_.push_back(clearance_of(static_cast<Index>(t)));
 }
 
 /// Well inside: no border within the way the point went from its facet, or that way ends over the same facet.
-bool Trimming::is_clear(const Projected& point) const
+bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
-    const Clearance& clear = clearance_[index(point.triangle)];
+    const Clearance clear = measured ? clearance_[index(point.triangle)] : clearance_of(point.triangle);
     return reach < clear.facet || reach < point.from->barycentric.cwiseProduct(clear.heights).minCoeff();
 }
 
@@ -178,9 +181,12 @@ bool Trimming::is_near(const Projected& point, Near& near) const
 void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
+    // All facets are measured once, where there are as many points; few points have theirs measured.
+    const bool measured = points.size() >= (*model_)[face_].triangles.size();
+    if (measured) std::call_once(once_, [&] { measure_clearance(); });
     std::vector<char> clear(points.size(), 0);
     parallel_for(context, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i]) ? 1 : 0;
+        for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i], measured) ? 1 : 0;
     });
     std::vector<Near> near;
     for (std::size_t i = 0; i < points.size(); ++i) {

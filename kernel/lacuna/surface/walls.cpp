@@ -2,6 +2,7 @@
 #include <lacuna/surface/walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/geometry/swept_patch.h>
@@ -65,12 +66,14 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
 class WallMesher {
 public:
     WallMesher(const OpenVolume& volume, const LinkingSurface& link, const LinkingNodes& nodes,
-               const GivenColumns& columns, std::span<const double> heights, const RunContext& context)
+               const GivenColumns& columns, std::span<const double> heights, bool exact,
+               const RunContext& context)
         : volume_(volume),
           model_(volume.model),
           link_(link),
           nodes_(nodes),
           heights_(heights.begin(), heights.end()),
+          exact_(exact),
           context_(context),
           count_(nodes.source_at.size()),
           layers_(heights.size() - 1),
@@ -238,7 +241,10 @@ private:
         const Face& f = model_[face];
         if (f.kind != "plane" && !inside.empty()) {
             const std::vector<Vec3> patch = inside;
-            Projector(model_, {face}).project(inside, context_);
+            if (exact_)
+                Projector(model_, {face}).project(inside, context_);
+            else
+                put_on_facets(face, inside);
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
@@ -255,6 +261,12 @@ private:
         }
         set_faces(face, first, last);
         return f.origin != Origin::given || !folds(first, last);
+    }
+
+    void put_on_facets(FaceId face, std::span<Vec3> points) const
+    {
+        const geometry::FacetTree tree(model_.points, model_[face].triangles);
+        for (Vec3& p : points) p = tree.closest(p).point;
     }
 
     /// True when a quad between two columns has a corner turned over against the quad's own normal.
@@ -298,7 +310,9 @@ private:
             }
         }
         for (const auto& [face, work] : on_face) {
-            const std::vector<Vec3> points = points_at(model_, face, work.first);
+            const Face& f = model_[face];
+            const std::vector<Vec3> points =
+                points_at({model_.points, f.triangles, f.uv, exact_ ? f.surface.get() : nullptr}, work.first);
             for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[work.second[j]] = points[j];
         }
     }
@@ -308,6 +322,7 @@ private:
     const LinkingSurface& link_;
     const LinkingNodes& nodes_;
     std::vector<double> heights_;
+    bool exact_; ///< nodes on exact faces; else on the facets
     const RunContext& context_;
     std::size_t count_, layers_;
     BegunWall begun_;
@@ -333,6 +348,12 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> coun
 
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares)
 {
+    return linking_nodes(link, shares, shares);
+}
+
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
+                           std::span<const std::vector<double>> target)
+{
     LinkingNodes nodes;
     std::size_t line = 0;
     for (std::size_t i = 0; i < link.segments.size(); ++i) {
@@ -342,31 +363,51 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vect
             nodes.line.push_back(nodes.source_at.size());
             ++line;
         }
-        for (const double f : shares[i]) {
+        for (const double f : source[i])
             nodes.source_at.push_back(segment.source_from + f * (segment.source_to - segment.source_from));
+        for (const double f : target[i])
             nodes.target_at.push_back(segment.target_from + f * (segment.target_to - segment.target_from));
-        }
     }
     return nodes;
 }
 
-std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                                 std::span<const GivenColumns> columns, const RunContext& context)
+namespace {
+
+std::vector<WallMesh> walls_of(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                               std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                               std::span<const GivenColumns> columns, bool exact, const RunContext& context)
 {
     const GivenColumns none;
     std::vector<WallMesh> meshes;
     std::vector<FollowedPanel> followed;
     for (std::size_t b = 0; b < links.size(); ++b) {
-        WallMesher mesher(volume, links[b], nodes[b], columns.empty() ? none : columns[b], heights, context);
+        WallMesher mesher(volume, links[b], nodes[b], columns.empty() ? none : columns[b], heights, exact,
+                          context);
         meshes.push_back(mesher.run());
         for (FollowedPanel panel : mesher.followed()) {
             panel.link = b;
             followed.push_back(panel);
         }
     }
-    if (!followed.empty()) follow_rows(meshes, volume.model, nodes, followed, heights.size() - 1, context);
+    if (!followed.empty())
+        follow_rows(meshes, volume.model, nodes, followed, heights.size() - 1, exact, context);
     return meshes;
+}
+
+} // namespace
+
+std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                                 std::span<const GivenColumns> columns, const RunContext& context)
+{
+    return walls_of(volume, links, nodes, heights, columns, true, context);
+}
+
+std::vector<WallMesh> mesh_walls_on_facets(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                                           std::span<const LinkingNodes> nodes,
+                                           std::span<const double> heights, const RunContext& context)
+{
+    return walls_of(volume, links, nodes, heights, {}, false, context);
 }
 
 } // namespace lacuna::surface

@@ -22,6 +22,9 @@ struct LinkingNodes {
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts);
 /// Nodes at given shares of each segment, rising from 0 and below 1.
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares);
+/// The same, with shares of their own on the target: as many on each segment.
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
+                           std::span<const std::vector<double>> target);
 
 /// A structured quad mesh on the walls of a linking surface.
 struct WallMesh {
@@ -52,5 +55,12 @@ struct WallMesh {
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                                  std::span<const LinkingNodes> nodes, std::span<const double> heights,
                                  std::span<const GivenColumns> columns = {}, const RunContext& context = {});
+
+/// The same with nodes on the facets of given walls and near void ones: close enough to see where columns
+/// lead, and sooner.
+std::vector<WallMesh> mesh_walls_on_facets(const topology::OpenVolume& volume,
+                                           std::span<const LinkingSurface> links,
+                                           std::span<const LinkingNodes> nodes,
+                                           std::span<const double> heights, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -283,7 +283,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     result.report.insert(result.report.end(), result.defaults.begin(), result.defaults.end());
     std::vector<surface::LinkingNodes> rim;
     for (const surface::LinkingSurface& link : links)
-        rim.push_back(surface::linking_nodes(link, seeds.shares(link)));
+        rim.push_back(seeds.nodes(link));
     const auto mesh_walls = [&](const RunContext& own) {
         return surface::mesh_walls(split, links, rim, heights, given.columns, own);
     };

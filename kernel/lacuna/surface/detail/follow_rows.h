@@ -20,8 +20,9 @@ struct FollowedPanel {
 /// Put the nodes of followed panels where each row's known columns lead the source rim and the target rim,
 /// blended by height and moved to meet the panel's sides, and from there on the face: it follows the walls as
 /// they were given, and the rows are those of the mesh.
+/// @param onto_faces  false: where they are led, which is near the face.
 void follow_rows(std::vector<WallMesh>& meshes, const topology::Model& model,
                  std::span<const LinkingNodes> nodes, const std::vector<FollowedPanel>& followed,
-                 std::size_t layers, const RunContext& context);
+                 std::size_t layers, bool onto_faces, const RunContext& context);
 
 } // namespace lacuna::surface

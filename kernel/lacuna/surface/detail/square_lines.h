@@ -20,8 +20,12 @@ namespace lacuna::surface {
 /// over the sides of all edges and, at both ends of each line, over the angles between line and edge. Where
 /// both ends of a line lie on rims and lines are straight, the second sum is the mean over five sections of
 /// the volume, since what is shifted below is sheared above: the walls are meshed with few layers to know
-/// them. Where a side would become too long or too short, evenness counts for more. Lines of a grid leave a
-/// curved side as the neighbouring sides do (Coons).
+/// them. Where a side would become too long or too short, evenness counts for more, and nodes then go as far
+/// back towards square lines as they may. At the ends of an edge, where a side is as high as a row along what
+/// meets it there, evenness counts twice. Lines of a grid leave a curved side as the neighbouring sides do
+/// (Coons).
+/// Where sections are unlike, as in a flat tube that becomes round, nodes then get places of their own on the
+/// target's rim: columns run straight from one place to the other, and the cosines of their lean count too.
 /// Faces that share edges are solved together. They keep what they have unless the worst angle gets better.
 /// Given and asked nodes stay, and so do those of edges on which boundary layers end.
 /// @post  counts are unchanged; what is symmetric stays so, to rounding.

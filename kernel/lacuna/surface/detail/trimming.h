@@ -5,6 +5,7 @@
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/topology/model.h>
 
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -54,17 +55,19 @@ private:
     };
 
     void add_loop(const topology::Loop& loop, const std::vector<Index>& facet_of_side);
-    void measure_clearance();
-    [[nodiscard]] bool is_clear(const Projected& point) const;
+    [[nodiscard]] Clearance clearance_of(Index triangle) const;
+    void measure_clearance() const;
+    [[nodiscard]] bool is_clear(const Projected& point, bool measured) const;
     [[nodiscard]] bool is_near(const Projected& point, Near& near) const;
     void settle(std::span<const Projected> points, std::span<Near> near) const;
 
     const topology::Model* model_;
     FaceId face_;
     std::vector<Side> sides_;
-    geometry::FacetTree tree_;         ///< a facet of no area for each side
-    std::vector<Clearance> clearance_; ///< of each facet
+    geometry::FacetTree tree_; ///< a facet of no area for each side
     double most_bulge_ = 0;
+    mutable std::once_flag once_;
+    mutable std::vector<Clearance> clearance_; ///< of each facet, once that is asked for
 };
 
 } // namespace lacuna::surface
