@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/close_class.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
@@ -307,6 +308,39 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
     return closure;
 }
 
+/// Whether some of the source's rim has no wall.
+bool lacks_walls(const OpenVolume& volume)
+{
+    const auto uses = edge_uses(volume.model);
+    const std::vector<Rim> source = rims(volume.model, volume.faces(Role::source));
+    return std::ranges::any_of(source, [&](const Rim& rim) {
+        return std::ranges::any_of(rim.uses,
+                                   [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+    });
+}
+
+/// Seal a volume of class IV that lacks walls as well: the source's shape, moved onto the tops of the walls
+/// that stand, is the target's. None where these do not tell, or where another shape is asked for.
+std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptions& options,
+                                            const RunContext& context)
+{
+    if (options.cap == Cap::flat || !options.void_edges.empty() || volume.override_class) return std::nullopt;
+    auto moved = move_source(volume, context);
+    if (!moved) return std::nullopt;
+    refuse_guess(moved->volume, moved->closure, options);
+    Closure& closure = moved->closure;
+    closure.value = VolumeClass::IV;
+    closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
+    closure.notes.insert(closure.notes.begin(),
+                         "the target is missing and walls beside it too; it is taken to have the source's "
+                         "shape, which " +
+                             name_of(volume.model, moved->from) +
+                             " tells, where the tops of the walls that stand say");
+    for (const std::string& note : closure.notes) log_line(context, note);
+    volume = std::move(moved->volume);
+    return std::move(moved->closure);
+}
+
 } // namespace
 
 std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const CloseOptions& options)
@@ -337,6 +371,9 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
                            "it, or close its pieces, which volume:cut() gives");
     const VolumeClass whole = classify(volume).value;
     check_options(volume, whole, options);
+    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) { // trials of readings move ends too
+        if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
+    }
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);

@@ -5,6 +5,7 @@
 #include <lacuna/core/run_context.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace lacuna::closure {
@@ -34,5 +35,10 @@ struct MovedEnd {
 std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
+
+/// Likewise where a person named the given end as the source and what stands as its walls; none where these do
+/// not tell the missing end.
+/// @pre  `open` has no target
+std::optional<MovedEnd> move_source(const topology::OpenVolume& open, const RunContext& context);
 
 } // namespace lacuna::closure
