@@ -102,6 +102,9 @@ constexpr double kBend = 100 * std::numbers::pi / 180;
 /// said.
 constexpr double kLean = 20 * std::numbers::pi / 180;
 
+/// Ways to shape what is missing that differ by more than this share of the volume are both said. A choice.
+constexpr double kToBeSaid = 0.01;
+
 /// A volume being sealed as one of a class, in one way after another.
 class Sealer {
 public:
@@ -127,6 +130,7 @@ public:
             try {
                 Closure closure = seal_as(way, match);
                 say_what_else(way, closure);
+                say_what_is_followed(way, match, closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -182,6 +186,32 @@ private:
                                               ? "straight; close{ edge_shape = \"smooth\" } makes a bend"
                                               : "curves that leave both ends square; close{ edge_shape = "
                                                 "\"straight\" } makes them straight"));
+        log_line(context_, closure.notes.back());
+    }
+
+    /// A loop without any wall that follows the walls of another one: how much that encloses otherwise. A
+    /// bend is told so, a widening of the bore alone is not.
+    void say_what_is_followed(const Way& way, const matching::Match& match, Closure& closure)
+    {
+        if (way.edges != EdgeShape::follow || options_.edge_shape != EdgeShape::automatic || !options_.hints)
+            return;
+        const auto uses = edge_uses(volume_.model);
+        const std::vector<Rim> source = rims(volume_.model, volume_.faces(Role::source));
+        const bool bare = std::ranges::any_of(source, [&](const Rim& rim) {
+            return std::ranges::all_of(
+                rim.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        });
+        if (!bare) return;
+        const OpenVolume followed = sealed_;
+        const double encloses = enclosed_volume(followed);
+        const bool seals = would_seal({EdgeShape::straight}, match);
+        const double straight = seals ? enclosed_volume(sealed_) : encloses;
+        sealed_ = followed;
+        if (std::abs(straight - encloses) <= kToBeSaid * encloses) return;
+        closure.notes.push_back("a loop of the source has no wall, and void faces follow those of another "
+                                "loop there, which encloses " +
+                                with_digits(encloses, 4) +
+                                "; close{ edge_shape = \"straight\" } encloses " + with_digits(straight, 4));
         log_line(context_, closure.notes.back());
     }
 
