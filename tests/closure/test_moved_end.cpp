@@ -112,7 +112,7 @@ TEST_CASE("a missing slanted end lies in the plane of the tops of all walls but 
         const int sides = static_cast<int>(outline.size());
         for (int gone = 0; gone < sides; ++gone) {
             auto prism = test::prism({.height = 4, .outline = outline, .drop = without_end({gone}, false)});
-            const auto slanted = [](const Vec3& p) { // heights change with x and y, and so does what is enclosed
+            const auto slanted = [](const Vec3& p) {
                 return Vec3(p.x(), p.y(), p.z() * (1 + 0.2 * p.x() - 0.1 * p.y()));
             };
             auto whole = test::prism({.height = 4, .outline = outline});
@@ -131,8 +131,7 @@ TEST_CASE("a missing slanted end lies in the plane of the tops of all walls but 
 TEST_CASE("where tops of walls lie in no plane a named source tells nothing of a missing bent target")
 {
     for (int gone = 0; gone < 4; ++gone) {
-        auto saddle =
-            test::prism({.target = test::End::saddle, .drop = without_end({gone}, false)}).open();
+        auto saddle = test::prism({.target = test::End::saddle, .drop = without_end({gone}, false)}).open();
         CHECK(test::refusal([&] { test::seal(saddle); }, {"edge ", "tops of the walls"}) ==
               "closure.wall_missing");
     }

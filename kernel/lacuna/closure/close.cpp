@@ -210,8 +210,8 @@ private:
         if (std::abs(straight - encloses) <= kToBeSaid * encloses) return;
         closure.notes.push_back("a loop of the source has no wall, and void faces follow those of another "
                                 "loop there, which encloses " +
-                                with_digits(encloses, 4) +
-                                "; close{ edge_shape = \"straight\" } encloses " + with_digits(straight, 4));
+                                with_digits(encloses, 4) + "; close{ edge_shape = \"straight\" } encloses " +
+                                with_digits(straight, 4));
         log_line(context_, closure.notes.back());
     }
 
@@ -401,7 +401,8 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
                            "it, or close its pieces, which volume:cut() gives");
     const VolumeClass whole = classify(volume).value;
     check_options(volume, whole, options);
-    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) { // trials of readings move ends too
+    // Trials of readings move ends by themselves.
+    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
         if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
     }
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);

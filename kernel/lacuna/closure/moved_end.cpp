@@ -79,7 +79,9 @@ public:
     /// @pre  the volume's model is oriented, and all its faces but those of the end, the source, are walls
     /// @param uses  of the model's edges
     EndMover(OpenVolume volume, std::vector<std::vector<FaceUse>> uses)
-        : volume_(std::move(volume)), end_(volume_.faces(Role::source)), climber_(volume_),
+        : volume_(std::move(volume)),
+          end_(volume_.faces(Role::source)),
+          climber_(volume_),
           uses_(std::move(uses))
     {
     }
@@ -462,7 +464,8 @@ std::optional<MovedEnd> move_source(const OpenVolume& open, const RunContext& co
     if (!std::ranges::all_of(source, [&](FaceId face) { return lies_in_plane(model, face, *plane); }))
         return std::nullopt;
     bool stop = false;
-    return move_end(open, edge_uses(model), [](const std::vector<Vec3>&) { return false; }, stop, context);
+    return move_end(
+        open, edge_uses(model), [](const std::vector<Vec3>&) { return false; }, stop, context);
 }
 
 std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces, const Known& known,

@@ -34,9 +34,9 @@ namespace {
 /// Edges of both ends nearer than this share of the size asked for are one: no quad fits between them. A
 /// choice, not a measurement.
 constexpr double kOneEdge = 0.4;
-/// Edges that are laid more than so many times smaller on the other end are not imprinted: quads would have to
-/// narrow by as much within one end. A tube of three radii's depth inside an end is laid out so; one of 16,
-/// on a turned cutter, asked for a ring of 49,000 sides. A choice.
+/// Edges that are laid more than so many times smaller on the other end are not imprinted: quads would have
+/// to narrow by as much within one end. A tube of three radii's depth inside an end is laid out so; one of
+/// 16, on a turned cutter, asked for a ring of 49,000 sides. A choice.
 constexpr double kMostShrunk = 20;
 
 [[noreturn]] void refuse(const Model& model, EdgeId edge, const std::string& why)
