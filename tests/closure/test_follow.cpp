@@ -274,3 +274,25 @@ TEST_CASE("a follower carries source points to target points, rim to rim at both
         }
     }
 }
+
+TEST_CASE("what else a loop without walls may enclose is said where it bulges as another loop does")
+{
+    for (const double belly : {0.7, 1.0, 1.3}) {
+        const auto barrel = test::prism(
+            {.sides = 0,
+             .height = 4,
+             .hole_list = {{{0, 0}, 0.5}},
+             .cuts = 4,
+             .levels = 24,
+             .belly = belly,
+             .drop = [](const Part& p) { return p.role == Role::wall && p.loop == 0; }});
+        auto volume = barrel.open();
+        const closure::Closure closure = closure::close(volume, matching::match(volume));
+        CAPTURE(belly);
+        const bool said = std::ranges::any_of(closure.notes, [](const std::string& note) {
+            return note.find("straight") != std::string::npos && note.find("encloses") != std::string::npos;
+        });
+        CHECK(said == (belly != 1.0));
+        CHECK(closure::enclosed_volume(volume) == doctest::Approx(barrel.facet_volume).epsilon(0.02));
+    }
+}

@@ -73,6 +73,70 @@ TEST_CASE("where an end and walls beside it are missing the other end tells thei
     }
 }
 
+TEST_CASE("a named source tells a missing target's shape where walls are missing too")
+{
+    for (const std::vector<Vec2>& outline : outlines()) {
+        const int sides = static_cast<int>(outline.size());
+        for (const double bend : {0.0, 70.0}) {
+            for (const double taper : {1.0, 0.7}) {
+                for (int first = 0; first < sides; ++first) {
+                    for (int count = 1; count <= 2; ++count) {
+                        std::set<int> missing;
+                        for (int k = 0; k < count; ++k) missing.insert((first + k) % sides);
+                        const auto prism = test::prism({.height = 4,
+                                                        .outline = outline,
+                                                        .levels = bend > 0 ? 24 : 1,
+                                                        .taper = taper,
+                                                        .bend = bend,
+                                                        .drop = without_end(missing, false)});
+                        CAPTURE(sides);
+                        CAPTURE(bend);
+                        CAPTURE(taper);
+                        CAPTURE(first);
+                        CAPTURE(count);
+                        OpenVolume volume = prism.open();
+                        CHECK(test::seal(volume).value == VolumeClass::IV);
+                        CHECK(closure::enclosed_volume(volume) ==
+                              doctest::Approx(prism.facet_volume).epsilon(0.01));
+                        test::check_sealed(volume);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a missing slanted end lies in the plane of the tops of all walls but one")
+{
+    for (const std::vector<Vec2>& outline : outlines()) {
+        const int sides = static_cast<int>(outline.size());
+        for (int gone = 0; gone < sides; ++gone) {
+            auto prism = test::prism({.height = 4, .outline = outline, .drop = without_end({gone}, false)});
+            const auto slanted = [](const Vec3& p) {
+                return Vec3(p.x(), p.y(), p.z() * (1 + 0.2 * p.x() - 0.1 * p.y()));
+            };
+            auto whole = test::prism({.height = 4, .outline = outline});
+            whole.model = test::moved(std::move(whole.model), slanted);
+            prism.model = test::moved(std::move(prism.model), slanted);
+            CAPTURE(sides);
+            CAPTURE(gone);
+            OpenVolume volume = prism.open();
+            test::seal(volume);
+            CHECK(closure::enclosed_volume(volume) ==
+                  doctest::Approx(closure::enclosed_volume(whole.open())).epsilon(0.01));
+        }
+    }
+}
+
+TEST_CASE("where tops of walls lie in no plane a named source tells nothing of a missing bent target")
+{
+    for (int gone = 0; gone < 4; ++gone) {
+        auto saddle = test::prism({.target = test::End::saddle, .drop = without_end({gone}, false)}).open();
+        CHECK(test::refusal([&] { test::seal(saddle); }, {"edge ", "tops of the walls"}) ==
+              "closure.wall_missing");
+    }
+}
+
 TEST_CASE(
     "a bore without its wall is blind or goes through, for the person to say, where an end is missing too")
 {

@@ -713,3 +713,45 @@ TEST_CASE("sharp corners of both ends that stand against smooth rims have cells 
                           << " at least");
     CHECK(counts.meshed > 5 * counts.refused);
 }
+
+TEST_CASE("an end that goes on far up a tube is refused, not laid on the other at a vanishing size")
+{
+    for (const double depth : {8.0, 20.0}) { // radii
+        constexpr double kRadius = 0.4;
+        const Outline rim = rectangle(0, 0, 2, 2), mouth = polygon(24, {1, 1}, kRadius);
+        Faces faces;
+        add_end(faces, rim, {}, 0, false);
+        faces.plane(
+            {rim, mouth}, [](const Vec2& p) { return Vec3(p.x(), p.y(), 2); }, faces.face(Role::target));
+        const int tube = faces.face(Role::target);
+        const auto rows = static_cast<int>(4 * depth);
+        for (std::size_t i = 0; i < mouth.size(); ++i) {
+            const auto at = [&](std::size_t j, int row) {
+                const Vec2& p = mouth[j % mouth.size()];
+                return Vec3(p.x(), p.y(), 2 + kRadius * row / 4);
+            };
+            for (int row = 0; row < rows; ++row)
+                faces.quad(at(i, row), at(i + 1, row), at(i + 1, row + 1), at(i, row + 1), tube);
+        }
+        faces.plane(
+            {mouth}, [&](const Vec2& p) { return Vec3(p.x(), p.y(), 2 + kRadius * depth); },
+            faces.face(Role::target));
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const Vec2 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+            faces.quad({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {b.x(), b.y(), 2}, {a.x(), a.y(), 2},
+                       faces.face(Role::wall));
+        }
+        CAPTURE(depth);
+        sweep::SweepOptions options;
+        options.layers.count = 4;
+        options.size = [](const Vec3&) { return 0.5; };
+        try {
+            (void)sweep::sweep(faces.volume(), options);
+            FAIL("swept");
+        } catch (const NotSweepable& error) {
+            const std::string what = error.what();
+            CAPTURE(what);
+            CHECK(what.find("times smaller") != std::string::npos);
+        }
+    }
+}

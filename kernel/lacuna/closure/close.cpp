@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/close_class.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
@@ -101,6 +102,9 @@ constexpr double kBend = 100 * std::numbers::pi / 180;
 /// said.
 constexpr double kLean = 20 * std::numbers::pi / 180;
 
+/// Ways to shape what is missing that differ by more than this share of the volume are both said. A choice.
+constexpr double kToBeSaid = 0.01;
+
 /// A volume being sealed as one of a class, in one way after another.
 class Sealer {
 public:
@@ -126,6 +130,7 @@ public:
             try {
                 Closure closure = seal_as(way, match);
                 say_what_else(way, closure);
+                say_what_is_followed(way, match, closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -181,6 +186,32 @@ private:
                                               ? "straight; close{ edge_shape = \"smooth\" } makes a bend"
                                               : "curves that leave both ends square; close{ edge_shape = "
                                                 "\"straight\" } makes them straight"));
+        log_line(context_, closure.notes.back());
+    }
+
+    /// A loop without any wall that follows the walls of another one: how much that encloses otherwise. A
+    /// bend is told so, a widening of the bore alone is not.
+    void say_what_is_followed(const Way& way, const matching::Match& match, Closure& closure)
+    {
+        if (way.edges != EdgeShape::follow || options_.edge_shape != EdgeShape::automatic || !options_.hints)
+            return;
+        const auto uses = edge_uses(volume_.model);
+        const std::vector<Rim> source = rims(volume_.model, volume_.faces(Role::source));
+        const bool bare = std::ranges::any_of(source, [&](const Rim& rim) {
+            return std::ranges::all_of(
+                rim.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        });
+        if (!bare) return;
+        const OpenVolume followed = sealed_;
+        const double encloses = enclosed_volume(followed);
+        const bool seals = would_seal({EdgeShape::straight}, match);
+        const double straight = seals ? enclosed_volume(sealed_) : encloses;
+        sealed_ = followed;
+        if (std::abs(straight - encloses) <= kToBeSaid * encloses) return;
+        closure.notes.push_back("a loop of the source has no wall, and void faces follow those of another "
+                                "loop there, which encloses " +
+                                with_digits(encloses, 4) + "; close{ edge_shape = \"straight\" } encloses " +
+                                with_digits(straight, 4));
         log_line(context_, closure.notes.back());
     }
 
@@ -307,6 +338,39 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
     return closure;
 }
 
+/// Whether some of the source's rim has no wall.
+bool lacks_walls(const OpenVolume& volume)
+{
+    const auto uses = edge_uses(volume.model);
+    const std::vector<Rim> source = rims(volume.model, volume.faces(Role::source));
+    return std::ranges::any_of(source, [&](const Rim& rim) {
+        return std::ranges::any_of(rim.uses,
+                                   [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+    });
+}
+
+/// Seal a volume of class IV that lacks walls as well: the source's shape, moved onto the tops of the walls
+/// that stand, is the target's. None where these do not tell, or where another shape is asked for.
+std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptions& options,
+                                            const RunContext& context)
+{
+    if (options.cap == Cap::flat || !options.void_edges.empty() || volume.override_class) return std::nullopt;
+    auto moved = move_source(volume, context);
+    if (!moved) return std::nullopt;
+    refuse_guess(moved->volume, moved->closure, options);
+    Closure& closure = moved->closure;
+    closure.value = VolumeClass::IV;
+    closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
+    closure.notes.insert(closure.notes.begin(),
+                         "the target is missing and walls beside it too; it is taken to have the source's "
+                         "shape, which " +
+                             name_of(volume.model, moved->from) +
+                             " tells, where the tops of the walls that stand say");
+    for (const std::string& note : closure.notes) log_line(context, note);
+    volume = std::move(moved->volume);
+    return std::move(moved->closure);
+}
+
 } // namespace
 
 std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const CloseOptions& options)
@@ -337,6 +401,10 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
                            "it, or close its pieces, which volume:cut() gives");
     const VolumeClass whole = classify(volume).value;
     check_options(volume, whole, options);
+    // Trials of readings move ends by themselves.
+    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
+        if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
+    }
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);

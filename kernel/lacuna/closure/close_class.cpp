@@ -151,8 +151,8 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             if (!on_source.contains(use.edge)) continue;
             throw NotClosed("closure.wall_missing",
                             name_of(model, use.edge) +
-                                " of the source has no wall; without a target every wall must be there "
-                                "(class IV): name the wall, or the target");
+                                " of the source has no wall, and the tops of the walls that stand do not "
+                                "tell where the missing target is there: name the wall, or the target");
         }
         loops.push_back(reversed(rim));
     }

@@ -76,10 +76,13 @@ std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vec
 /// A given end, and what is known of the one it is to be moved to.
 class EndMover {
 public:
-    /// @pre  the volume's model is oriented, and the end is its only face that is no wall
+    /// @pre  the volume's model is oriented, and all its faces but those of the end, the source, are walls
     /// @param uses  of the model's edges
-    EndMover(OpenVolume volume, FaceId end, std::vector<std::vector<FaceUse>> uses)
-        : volume_(std::move(volume)), end_(end), climber_(volume_), uses_(std::move(uses))
+    EndMover(OpenVolume volume, std::vector<std::vector<FaceUse>> uses)
+        : volume_(std::move(volume)),
+          end_(volume_.faces(Role::source)),
+          climber_(volume_),
+          uses_(std::move(uses))
     {
     }
     EndMover(const EndMover&) = delete; // the climber refers to the volume
@@ -88,11 +91,11 @@ public:
     [[nodiscard]] bool can_move()
     {
         const Model& model = volume_.model;
-        for (const Rim& rim : rims(model, {end_}))
+        for (const Rim& rim : rims(model, end_))
             for (const EdgeUse& use : rim.uses) on_end_.insert(use_from(model, use));
         for (const Rim& rim : rims(model, volume_.faces(Role::wall)))
             if (!index_rim(rim)) return false;
-        for (const Rim& rim : rims(model, {end_}))
+        for (const Rim& rim : rims(model, end_))
             if (!add_rim(rim)) return false;
         return accounts_for_all() && fit();
     }
@@ -281,15 +284,48 @@ private:
             }
             return moves_all(width);
         };
-        motion_ = {};
-        motion_.translation = geometry::mean_point(to_) - geometry::mean_point(from_);
+        motion_ = [way = Vec3(geometry::mean_point(to_) - geometry::mean_point(from_))](const Vec3& p) {
+            return Vec3(p + way);
+        };
         if (on_line(width)) return false;
         if (fits()) return true;
         motion_ = geometry::fit_rigid(from_, to_, false);
         if (fits()) return true;
         if (!tells_scale()) return false;
         motion_ = geometry::fit_rigid(from_, to_, true);
-        return fits();
+        if (fits()) return true;
+        motion_ = geometry::fit_affine(from_, to_);
+        if (above_.size() > 3 && fits()) return true; // three corners fit any affine map
+        return goes_straight(width) && moves_all(width);
+    }
+
+    /// Whether what is missing of the end's rim is straight sides between corners that walls lead up to, and
+    /// the tops lie in one plane and are straight where their feet are: so are the missing sides then.
+    [[nodiscard]] bool goes_straight(double width) const
+    {
+        const auto straight = [&](const std::vector<EdgeUse>& uses) {
+            const std::vector<Vec3> chain = use_places(volume_.model, uses);
+            return std::ranges::all_of(chain, [&](const Vec3& p) {
+                return geometry::distance_to_segment(p, chain.front(), chain.back()) <= kOnLine * width;
+            });
+        };
+        std::vector<std::vector<Vec3>> tops;
+        for (const std::vector<Stretch>& rim : rims_) {
+            tops.emplace_back();
+            for (const Stretch& stretch : rim) {
+                if (stretch.top.empty() ? rim.size() == 1 || !straight(stretch.foot)
+                                        : straight(stretch.foot) && !straight(stretch.top))
+                    return false;
+                if (stretch.top.empty()) continue;
+                const std::vector<Vec3> top = use_places(volume_.model, stretch.top);
+                tops.back().insert(tops.back().end(), top.begin(), top.end());
+            }
+        }
+        const geometry::Plane plane = geometry::newell_plane(tops);
+        return std::ranges::all_of(tops, [&](const std::vector<Vec3>& top) {
+            return std::ranges::all_of(
+                top, [&](const Vec3& p) { return std::abs(geometry::height(plane, p)) <= kOnTop * width; });
+        });
     }
 
     /// Whether no part of the rim without walls stays where it is: nothing would lie between the ends there.
@@ -367,7 +403,8 @@ private:
     }
 
     OpenVolume volume_;
-    FaceId end_, made_;
+    std::vector<FaceId> end_;
+    FaceId made_;
     Climber climber_;
     std::vector<std::vector<FaceUse>> uses_;
     std::set<VertexId> on_end_;
@@ -378,18 +415,18 @@ private:
     std::set<EdgeId> accounted_;          ///< free edges that lead up to those
     std::vector<std::vector<Stretch>> rims_;
     std::vector<Vec3> from_, to_; ///< places on feet and on tops
-    geometry::RigidFit motion_;
+    std::function<Vec3(const Vec3&)> motion_;
     std::vector<EdgeId> made_edges_;
 };
 
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
 /// @param stop  out: set where what is missing is known
-std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
-                                 const std::vector<std::vector<FaceUse>>& uses, const Known& known,
-                                 bool& stop, const RunContext& context)
+std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::vector<FaceUse>>& uses,
+                                 const Known& known, bool& stop, const RunContext& context)
 {
-    EndMover mover(open, end, uses);
+    const FaceId end = open.faces(Role::source).front();
+    EndMover mover(open, uses);
     if (!mover.can_move()) return std::nullopt;
     stop = known(mover.missing_places());
     if (stop) return std::nullopt;
@@ -418,6 +455,19 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, FaceId end,
 
 } // namespace
 
+std::optional<MovedEnd> move_source(const OpenVolume& open, const RunContext& context)
+{
+    const Model& model = open.model;
+    const std::vector<FaceId> source = open.faces(Role::source);
+    const auto plane = source.empty() ? std::nullopt : plane_of(model, source.front());
+    if (!plane || connected_parts(model, all_faces(model)).size() != 1) return std::nullopt;
+    if (!std::ranges::all_of(source, [&](FaceId face) { return lies_in_plane(model, face, *plane); }))
+        return std::nullopt;
+    bool stop = false;
+    return move_end(
+        open, edge_uses(model), [](const std::vector<Vec3>&) { return false; }, stop, context);
+}
+
 std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces, const Known& known,
                                 const RunContext& context)
 {
@@ -432,7 +482,7 @@ std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& f
         open.role.assign(faces.size(), Role::wall);
         open.role[end.index()] = Role::source;
         bool stop = false;
-        auto moved = move_end(open, end, uses, known, stop, context);
+        auto moved = move_end(open, uses, known, stop, context);
         if (stop) return {};
         if (!moved) continue;
         moved->from = faces[end.index()];

@@ -6,6 +6,7 @@
 #include <lacuna/surface/imprint.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/closed_edges.h>
@@ -27,6 +28,11 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
+
+/// Edges that are laid more than so many times smaller on the other end are not imprinted: quads would have
+/// to narrow by as much within one end. A tube of three radii's depth inside an end is laid out so; one of
+/// 16, on a turned cutter, asked for a ring of 49,000 sides. A choice.
+constexpr double kMostShrunk = 20;
 
 /// A chain of the plane with what it is on either end.
 struct Border {
@@ -61,6 +67,7 @@ public:
         cut_source();
         add_target();
         set_borders();
+        check_sizes();
         split_faces();
         return std::move(result_);
     }
@@ -83,6 +90,22 @@ private:
             result_.images[low.edge] = {high.edge, along ? 0.0 : 1.0, along ? 1.0 : 0.0};
         }
         return true;
+    }
+
+    /// An end that goes on far inside its rim, up a long tube, is laid on the other at a vanishing size.
+    void check_sizes() const
+    {
+        for (const auto& [edge, image] : result_.images) {
+            const Model& model = result_.volume->model;
+            const double swept = std::abs(image.to - image.from) * edge_length(model, image.target);
+            const double shrunk = swept / edge_length(model, edge);
+            if (shrunk <= kMostShrunk) continue;
+            refuse_imprint(
+                model, image.target,
+                "it would be laid there " + with_digits(shrunk, 2) +
+                    " times smaller than it is, as that end goes on far inside its rim; name other faces "
+                    "as source and target");
+        }
     }
 
     /// A face whose own quads are its mesh cannot be split.
