@@ -23,7 +23,8 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    // Asked once: the system reads a file for it, and small loops ask more often than they work.
+    static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;
 }
 
