@@ -257,7 +257,7 @@ void push_gaps(lua_State* L, const topology::Model& model, const Info& info)
 const Box<ModelState>& hold_model(lua_State* L)
 {
     const Box<ModelState>& state = hold_box<ModelState>(L, 1);
-    guard(L, [&] { refresh(*state); });
+    bring_up_to_date(L, *state);
     return state;
 }
 

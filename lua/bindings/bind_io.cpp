@@ -390,7 +390,7 @@ int write(lua_State* L)
         const Format& format = format_of(path.text(), arguments);
         count_parts(arguments, path, lent.crew);
         refuse_interfaces(arguments);
-        for (const Box<ModelState>& model : arguments.with) refresh(*model);
+        for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
         arguments.deck.material = state.material;
         report_progress(context, "writing " + path.text());
         add_fields(state.swept, format, arguments, context);
@@ -413,7 +413,7 @@ io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments
 {
     io::MeshDeckOptions& options = arguments.deck;
     if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces);
-    for (const Box<ModelState>& model : arguments.with) refresh(*model);
+    for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
     std::vector<JoinedMesh> meshes;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
         meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});

@@ -191,7 +191,7 @@ int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
     const Box<ModelState>& model = hold_box<ModelState>(L, 1);
-    guard(L, [&] { refresh(*model); });
+    bring_up_to_date(L, *model);
     auto& arguments = temporary<RoleArguments>(L);
     arguments.model = &model;
     read_options(L, 2, "open_volume", kRoleOptions, arguments);

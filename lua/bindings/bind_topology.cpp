@@ -116,7 +116,7 @@ void add(ModelState& state, const AddedFace& face)
 const Box<ModelState>& hold_model(lua_State* L, int index)
 {
     const Box<ModelState>& state = hold_box<ModelState>(L, index);
-    guard(L, [&] { refresh(*state); });
+    bring_up_to_date(L, *state);
     return state;
 }
 
@@ -250,10 +250,8 @@ HeldFace hold_face(lua_State* L)
 {
     const auto& handle = hold<FaceHandle>(L, 1);
     FaceId face;
-    guard(L, [&] {
-        refresh(*handle.model);
-        face = face_of(handle);
-    });
+    bring_up_to_date(L, *handle.model);
+    guard(L, [&] { face = face_of(handle); });
     return {handle.model->model, face};
 }
 

@@ -56,7 +56,7 @@ int view_model(lua_State* L)
     read_options(L, 3, "view", kPageOptions, options);
     RunContext& context = push_context(L);
     guard(L, [&] {
-        refresh(*state);
+        refresh(*state, context);
         options.path = loadable(*state);
         view::write_page(state->model, path, options, context);
     });
@@ -196,7 +196,7 @@ const Option<view::PictureOptions> kFacePictureOptions[] = {
 void draw(ModelState& state, const io::OutputPath& path, const view::PictureOptions& options,
           const RunContext& context)
 {
-    refresh(state);
+    refresh(state, context);
     view::write_picture(state.model, path, options, context);
 }
 

@@ -78,13 +78,13 @@ void put_in_order_of_adding(topology::Model& model, const healing::FacetSoup& so
 
 } // namespace
 
-void refresh(ModelState& state)
+void refresh(ModelState& state, const RunContext& context)
 {
     if (!state.stale) return;
     healing::SplitOptions options;
     options.whole_labels = true;
     options.tolerance = state.tolerance;
-    topology::Model model = healing::split_facets(state.added, options);
+    topology::Model model = healing::split_facets(state.added, options, context);
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput("lua.face_in_parts", "the " + std::to_string(state.added_faces) +
                                                     " faces added became " +
@@ -95,6 +95,14 @@ void refresh(ModelState& state)
     model.source = "faces of the recipe";
     state.model = std::move(model);
     state.stale = false;
+}
+
+void bring_up_to_date(lua_State* L, ModelState& state)
+{
+    if (!state.stale) return;
+    const RunContext& context = push_context(L);
+    guard(L, [&] { refresh(state, context); });
+    lua_pop(L, 1);
 }
 
 FaceId face_now(const FaceHandle& handle)

@@ -42,8 +42,11 @@ struct ModelState {
 };
 
 /// Bring `model` up to date with what was added.
-/// @throw InvalidInput  an added face falls apart into several; names it.
-void refresh(ModelState& state);
+/// @throw InvalidInput  an added face falls apart into several; names it. Cancelled.
+void refresh(ModelState& state, const RunContext& context);
+
+/// The same with the host's context, where errors may be raised.
+void bring_up_to_date(lua_State* L, ModelState& state);
 
 struct FaceHandle {
     std::shared_ptr<ModelState> model;

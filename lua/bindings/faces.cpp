@@ -278,10 +278,8 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     const topology::Model& model = state->model;
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
         if (!*handle || (*handle)->model != state) fail_option(L, where, "is a face of another model");
-        guard(L, [&] {
-            refresh(*state); // a finalizer may have added the face since the call began
-            faces.push_back(face_of(**handle));
-        });
+        bring_up_to_date(L, *state); // a finalizer may have added the face since the call began
+        guard(L, [&] { faces.push_back(face_of(**handle)); });
         return;
     }
     auto& wanted = temporary<Selector>(L);

@@ -472,6 +472,33 @@ TEST_CASE("splitting and stitching stop within half a second, and leave the mode
     CHECK(model.points.size() == points);
 }
 
+TEST_CASE("facets that hang together nowhere are split and stitched, and stop within half a second")
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(0, 1);
+    const auto at = [&] { return Vec3(place(random), place(random), place(random)); };
+    healing::FacetSoup soup;
+    for (Index f = 0; f < 60000; ++f) {
+        const Vec3 middle = at();
+        for (int k = 0; k < 3; ++k) soup.points.push_back(middle + 0.01 * at());
+        soup.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    const auto work = [&](const RunContext& context) {
+        Model model = healing::split_facets(soup, {}, context);
+        (void)healing::stitch(model, model.tolerance, context);
+    };
+    RunContext alone;
+    alone.threads = 1;
+    const double before = test::processor_time();
+    work(alone);
+    const double whole = test::processor_time() - before;
+    for (const double share : {0.05, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+        CAPTURE(share);
+        const auto seconds = test::stops_after(share * whole, test::processor_time, alone, work);
+        if (seconds) CHECK(*seconds < std::max(0.1, 0.2 * whole));
+    }
+}
+
 TEST_CASE("a damaged coordinate that makes every facet too small is named")
 {
     for (const int sides : {3, 4, 6}) {

@@ -5,6 +5,7 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/symmetry.h>
 
+#include "support/cancelling.h"
 #include "support/dice.h"
 
 #include <doctest/doctest.h>
@@ -522,4 +523,29 @@ TEST_CASE("a grid goes on behind a notch whose sides begin where its rows end")
     }
     MESSAGE(grids << " grids of " << all);
     CHECK(grids >= all - 4);
+}
+
+TEST_CASE("numbers of sides of an outline with many corners stop within half a second when cancelled")
+{
+    // A ring of 61 corners within and without, of which every segment wants dozens of sides.
+    std::vector<std::vector<Piece>> loops(2);
+    const auto corner = [](int i) {
+        const double angle = 2 * kPi * i / 61;
+        return Vec2(std::cos(angle), std::sin(angle));
+    };
+    for (int i = 0; i < 61; ++i) {
+        loops[0].push_back(line(corner(i), corner(i + 1)));
+        loops[1].push_back(line(0.6 * corner(-i), 0.6 * corner(-i - 1)));
+    }
+    const Seeded plain = seed(loops, 2e-3, nullptr);
+    CHECK(test::heeds_cancel([&](const RunContext& context) {
+        (void)quads::pattern_counts(plain.region, plain.segment, plain.segments, context);
+    }));
+    for (const double at : {0.05, 0.3}) {
+        const auto seconds = test::stops_after(at, test::processor_time, {}, [&](const RunContext& context) {
+            for (;;) (void)quads::pattern_counts(plain.region, plain.segment, plain.segments, context);
+        });
+        REQUIRE(seconds);
+        CHECK(*seconds < 0.5);
+    }
 }

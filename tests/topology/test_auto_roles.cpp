@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -159,6 +160,47 @@ TEST_CASE("readings of five hundred faces share their work")
     CHECK(list.front().roles.target.size() == 101);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     CHECK(seconds < 5); // some 0.1 s; minutes when every reading counted its facets
+}
+
+TEST_CASE("readings of a plate with hundreds of holes are not tried for every two walls of these")
+{
+    std::vector<test::RoundHole> holes;
+    for (int i = 0; i < 400; ++i)
+        holes.push_back({Vec2(0.06 * (i % 20) - 0.57, 0.06 * std::floor(i / 20) - 0.57) / 1.2, 0.015});
+    for (const bool open : {false, true}) { // a wall of the outline may be missing
+        CAPTURE(open);
+        const auto plate = test::prism(
+            {.sides = 4,
+             .height = 0.1,
+             .hole_sides = 4,
+             .hole_list = holes,
+             .cuts = 1,
+             .drop = without(false, false, false, open ? std::vector<int>{0} : std::vector<int>{})});
+        const double start = test::processor_time();
+        const auto list = role_candidates(plate.model, all_faces(plate.model));
+        CHECK(test::processor_time() - start < 2); // some 0.1 s; minutes when every two walls were tried
+        REQUIRE(!list.empty());
+        CHECK(list.front().roles.walls.size() == plate.roles.walls.size());
+    }
+}
+
+TEST_CASE("readings of thousands of bodies are not tried for every two of their faces")
+{
+    // Little blocks that touch nothing: no two faces have walls between them that join all others.
+    healing::FacetSoup soup;
+    const healing::FacetSoup block = test::prism({.sides = 4, .cuts = 1}).soup;
+    for (int i = 0; i < 1000; ++i) {
+        const auto first = static_cast<Index>(soup.points.size());
+        for (const Vec3& p : block.points)
+            soup.points.push_back(p + 3.0 * Vec3(i % 10, i / 10 % 10, i / 100));
+        for (const Triangle& t : block.triangles)
+            soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    const Model model = healing::split_facets(soup);
+    REQUIRE(model.faces.size() == 6000);
+    const double start = test::processor_time();
+    role_candidates(model, all_faces(model));
+    CHECK(test::processor_time() - start < 5); // some 0.2 s; minutes when every two faces were tried
 }
 
 TEST_CASE("finding roles and making a volume heed a cancel, and stop within half a second")

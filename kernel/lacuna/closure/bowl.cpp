@@ -133,7 +133,7 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
     const auto open = [](const SectionWalk& walk) { return !walk.closed; };
     if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
     bowl.parent = imprint_walks(model, walks, plane, model.tolerance, context).parent;
-    build_loops(model);
+    build_loops(model, context);
     std::vector<FaceId> bottom, walls, top;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const bool at_mouth = has(mouth.faces, bowl.parent[f]);

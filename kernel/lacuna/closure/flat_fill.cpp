@@ -128,7 +128,7 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
 bool prove(FlatFilling& filling, const RunContext& context)
 {
     OpenVolume& volume = filling.volume;
-    build_loops(volume.model);
+    build_loops(volume.model, context);
     orient_consistently(volume.model);
     filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
     return filling.closure.watertight;

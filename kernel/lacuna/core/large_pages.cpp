@@ -17,4 +17,12 @@ void use_large_pages(void* memory, std::size_t bytes)
     static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
 }
 
+void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough)
+{
+    constexpr std::size_t kPage = 4096; // no page is smaller
+    auto* const begin = static_cast<volatile char*>(memory);
+    for (std::size_t at = 0; at < bytes && !enough.load(std::memory_order_relaxed); at += kPage)
+        begin[at] = 0;
+}
+
 } // namespace lacuna

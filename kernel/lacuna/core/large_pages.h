@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -9,6 +10,10 @@ namespace lacuna {
 /// Ask the system for large pages where memory is, before it is first touched: 100 MB then take some 50 page
 /// faults and not 25,000. A wish, which changes nothing but time.
 void use_large_pages(void* memory, std::size_t bytes);
+
+/// Have the system clear the pages of memory that nothing was written to yet, until all are or it is enough.
+/// So who writes there need not wait for it. What the memory holds is lost.
+void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough);
 
 /// Room for `count` values, in large pages where there are many.
 template <class Value>

@@ -11,11 +11,24 @@
 
 namespace lacuna::geometry {
 
+namespace {
+
+/// Facets and points between two looks at the context. A choice, not a measurement.
+constexpr std::size_t kStepsBetweenPolls = 4096;
+
+} // namespace
+
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                Index start, const std::set<Index>& off, const std::set<Index>& ends)
+                                Index start, const std::set<Index>& off, const std::set<Index>& ends,
+                                const RunContext& context)
 {
+    std::size_t steps = 0;
+    const auto poll = [&] {
+        if (steps++ % kStepsBetweenPolls == 0) check_cancelled(context);
+    };
     std::unordered_map<Index, std::vector<Index>> neighbours;
     for (const Triangle& t : triangles) {
+        poll();
         for (std::size_t i = 0; i < 3; ++i) {
             neighbours[t[i]].push_back(t[(i + 1) % 3]);
             neighbours[t[i]].push_back(t[(i + 2) % 3]);
@@ -27,6 +40,7 @@ std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Tr
     std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
     front.emplace(0, start);
     while (!front.empty()) {
+        poll();
         const auto [c, p] = front.top();
         front.pop();
         if (c > cost[p]) continue;

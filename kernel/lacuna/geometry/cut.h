@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <array>
@@ -13,8 +14,10 @@ namespace lacuna::geometry {
 
 /// Shortest way along sides of facets from a point to one of `ends`, off the points of `off` but for the
 /// start. Empty where there is none. O(facets log).
+/// @throw Cancelled
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                Index start, const std::set<Index>& off, const std::set<Index>& ends);
+                                Index start, const std::set<Index>& off, const std::set<Index>& ends,
+                                const RunContext& context = {});
 
 /// Turns of the triangles' corners along a cut, as `HarmonicProblem::corner_turns` wants them: seen so that
 /// the triangles are counter-clockwise and the cut leads upwards, corners on it are one turn on for the

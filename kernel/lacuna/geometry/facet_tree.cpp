@@ -19,7 +19,8 @@ using Corners = std::array<Vec3, 3>;
 
 /// Triangles a leaf holds at most.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees of fewer triangles are made without a look at the context. A choice: a few milliseconds.
+/// Subtrees of fewer triangles are made, and as many pairs of boxes compared, without a look at the context.
+/// A choice: a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
 /// Halves of fewer triangles are made on one thread: 1 ms. A choice.
 constexpr std::uint32_t kShared = 4096;
@@ -268,7 +269,7 @@ FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
 }
 
 bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
-                         double margin) const
+                         double margin, const RunContext& context) const
 {
     if (node_.empty() || other.node_.empty()) return true;
     const bool itself = &other == this;
@@ -294,7 +295,8 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * kMaxDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, 0};
-    while (depth > 0) {
+    for (std::size_t steps = 0; depth > 0; ++steps) {
+        if (steps % kPolled == 0) check_cancelled(context);
         const auto [ia, ib] = stack[--depth];
         const Node& a = node_[ia];
         const Node& b = other.node_[ib];

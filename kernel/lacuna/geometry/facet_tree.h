@@ -42,8 +42,9 @@ public:
     /// Hand every pair (own triangle, other's triangle) whose boxes come within `margin` to `visit`, until it
     /// returns false. A tree against itself gives each pair of different triangles once, the lower one first.
     /// @return false if `visit` stopped it.
-    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit,
-                  double margin = 0) const;
+    /// @throw Cancelled
+    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0,
+                  const RunContext& context = {}) const;
 
     /// Whether a box comes near some facet: false only where none of their boxes meets it.
     [[nodiscard]] bool may_meet(const Eigen::AlignedBox3d& box) const;

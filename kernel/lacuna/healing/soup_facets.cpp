@@ -173,12 +173,12 @@ void drop_repeated(Facets& facets)
     facets.quads = std::move(quads);
 }
 
-void close_tees(Facets& facets)
+void close_tees(Facets& facets, const RunContext& context)
 {
     std::vector<bool> whole(facets.count());
     for (std::size_t f = 0; f < whole.size(); ++f) whole[f] = facets.quad[f] >= 0;
     const std::vector<FacetPiece> pieces = cut_at_t_junctions(facets.points, facets.corner, whole,
-                                                              facets.tolerance);
+                                                              facets.tolerance, context);
     if (pieces.empty()) return;
     const std::vector<int> label = std::move(facets.label);
     const std::vector<Index> quad = std::move(facets.quad);
@@ -298,7 +298,7 @@ Facets facets_of(const FacetSoup& soup, double tolerance, const RunContext& cont
     check_cancelled(context);
     drop_repeated(facets);
     check_cancelled(context);
-    close_tees(facets);
+    close_tees(facets, context);
     return facets;
 }
 

@@ -259,14 +259,17 @@ void add_faces(topology::Model& model, const Facets& facets, const Flood& flood,
 /// Strings the segments where faces end into edges.
 class Chains {
 public:
-    Chains(topology::Model& model, const Sides& sides, const Flood& flood, double feature)
+    Chains(topology::Model& model, const Sides& sides, const Flood& flood, double feature,
+           const RunContext& context)
         : model_(model),
           sides_(sides),
+          context_(context),
           least_cosine_(std::cos(std::min(feature + kAngleSlack, std::numbers::pi))),
           kind_(sides.segment_count(), -1),
           done_(sides.segment_count(), false)
     {
         find_borders(flood);
+        check_cancelled(context_);
         vertex_at_.assign(model.points.size(), VertexId());
         is_vertex_.resize(model.points.size());
         for (std::size_t p = 0; p < model.points.size(); ++p)
@@ -280,6 +283,7 @@ public:
         for (std::size_t f = 0; f < order.size(); ++f) order[f] = static_cast<Index>(f);
         std::stable_sort(order.begin(), order.end(),
                          [&](Index a, Index b) { return flood.face[index(a)] < flood.face[index(b)]; });
+        check_cancelled(context_);
         for (const Index f : order) {
             for (Index side = 3 * f; side < 3 * f + 3; ++side) {
                 const Index segment = sides_.segment(side);
@@ -398,6 +402,7 @@ private:
 
     topology::Model& model_;
     const Sides& sides_;
+    const RunContext& context_;
     double least_cosine_;
     std::vector<Index> kind_;       ///< of each segment; -1 within a face
     std::vector<bool> done_;        ///< segments strung
@@ -422,6 +427,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     const Facets facets = facets_of(soup, options.tolerance, context);
     check_cancelled(context);
     const Sides sides(facets);
+    check_cancelled(context);
     const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature,
                                     context);
     topology::Model model;
@@ -440,9 +446,9 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     }
     add_faces(model, facets, flood, soup);
     check_cancelled(context);
-    Chains(model, sides, flood, feature).add_edges(flood);
+    Chains(model, sides, flood, feature, context).add_edges(flood);
     check_cancelled(context);
-    topology::build_loops(model);
+    topology::build_loops(model, context);
     return model;
 }
 

@@ -115,7 +115,7 @@ void Stitcher::join_vertices()
         dots.push_back({at.back(), at.back()});
     }
     geometry::UnionFind near(at.size());
-    for (const topology::NearSegment& pair : topology::near_segments(at, dots, tolerance_)) {
+    for (const topology::NearSegment& pair : topology::near_segments(at, dots, tolerance_, context_)) {
         if ((at[index(pair.point)] - at[index(pair.segment)]).norm() > tolerance_) continue;
         near.unite_least(index(pair.point), index(pair.segment));
     }
@@ -256,7 +256,8 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
         }
     }
     std::map<EdgeId, std::set<VertexId>> close;
-    for (const topology::NearSegment& pair : topology::near_segments(at, segments, tolerance_ + sagitta)) {
+    for (const topology::NearSegment& pair :
+         topology::near_segments(at, segments, tolerance_ + sagitta, context_)) {
         const EdgeId e = edge_of[index(pair.segment)];
         const VertexId v = vertices[index(pair.point)];
         if (v == model()[e].from || v == model()[e].to || !(loose_.is_free(e) || at_free[v.index()]))

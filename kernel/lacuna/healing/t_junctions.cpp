@@ -10,6 +10,9 @@ namespace lacuna::healing {
 
 namespace {
 
+/// Facets between two looks at the context. A choice, not a measurement.
+constexpr std::size_t kCutBetweenPolls = 4096;
+
 /// Sides used once, 3·facet + k from corner k to the next, in order.
 std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t points)
 {
@@ -42,9 +45,11 @@ std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t poin
 } // namespace
 
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,
-                                           const std::vector<bool>& whole, double tolerance)
+                                           const std::vector<bool>& whole, double tolerance,
+                                           const RunContext& context)
 {
     const std::vector<Index> free = free_sides(facets, points.size());
+    check_cancelled(context);
     std::vector<Index> candidates;
     std::vector<Vec3> at;
     std::vector<std::array<Vec3, 2>> segments;
@@ -63,7 +68,9 @@ std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::sp
     for (const Index p : candidates) at.push_back(points[index(p)]);
 
     std::vector<std::vector<std::pair<double, Index>>> on_side(segments.size());
-    for (const topology::NearSegment& pair : topology::near_segments(at, segments, tolerance)) {
+    const std::vector<topology::NearSegment> near = topology::near_segments(at, segments, tolerance, context);
+    check_cancelled(context);
+    for (const topology::NearSegment& pair : near) {
         const Index p = candidates[index(pair.point)];
         const auto& side = ends[index(pair.segment)];
         if (std::find(side.begin(), side.end(), p) != side.end()) continue;
@@ -81,9 +88,11 @@ std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::sp
     }
     if (sides.empty()) return {};
     std::vector<FacetPiece> pieces;
-    for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        if (f % kCutBetweenPolls == 0) check_cancelled(context);
         for (const topology::ParamFacet& part : topology::cut_at_sides(points, {facets[f]}, sides))
             pieces.push_back({part.corner, static_cast<Index>(f)});
+    }
     return pieces;
 }
 

@@ -278,7 +278,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         else
             append(loaded.model, std::move(more.model));
     }
-    if (!other.empty()) topology::build_loops(loaded.model);
+    if (!other.empty()) topology::build_loops(loaded.model, context);
     stitch(loaded.model, context);
     return loaded;
 }

@@ -27,12 +27,12 @@ void add(CountedLoop& loop, CountedRun& run, int by)
     for (std::size_t k = 0; k < 2; ++k) loop.excess[k] += by * step[k];
 }
 
-bool may_be(const CountTask& task, const CountedLoop& loop, const CountedRun& run, int count,
-            const CountRange& range)
+/// Whether a run may have `count` sides, where its segment has `now` in all.
+bool may_be(const CountTask& task, int now, const CountedRun& run, int count, const CountRange& range)
 {
     const BoundarySegment& own = task.segments[run.segment];
     if (count < 1 || own.fixed) return count >= 1;
-    const int sides = sides_of(loop, run.segment) + count - run.count;
+    const int sides = now + count - run.count;
     return (count >= run.count || sides >= own.least) && is_within(range, own.wanted, sides);
 }
 
@@ -88,8 +88,8 @@ double cost_of_sides(double wanted, int sides)
 }
 
 CountTask::CountTask(const PlanarRegion& of, std::span<const int> segment_of_side,
-                     std::span<const BoundarySegment> all)
-    : region(of), segment(segment_of_side), segments(all), own(all.size(), 0)
+                     std::span<const BoundarySegment> all, const RunContext& run)
+    : region(of), segment(segment_of_side), segments(all), context(run), own(all.size(), 0)
 {
     for (const auto& loop : region.loops) {
         for (const Index p : loop) ++own[segment_of(p)];
@@ -156,16 +156,24 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
 {
-    std::vector<int> runs(task.segments.size(), 0); // of each segment
-    for (const CountedRun& run : loop.runs) ++runs[run.segment];
+    std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0); // of each segment
+    for (const CountedRun& run : loop.runs) {
+        ++runs[run.segment];
+        sides[run.segment] += run.count;
+    }
+    const auto change = [&](CountedRun& run, int by) {
+        add(loop, run, by);
+        sides[run.segment] += by;
+    };
     while (badness(loop.excess) > 0) {
+        check_cancelled(task.context);
         double least = std::numeric_limits<double>::infinity();
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
             if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue; // nowhere to turn
             for (const int by : {1, -1}) {
-                if (!may_be(task, loop, run, run.count + by, range)) continue;
+                if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;
                 const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
                 if (!task.segments[run.segment].fixed) {
                     if (!improves(loop, run, by, nullptr) || cost >= least) continue;
@@ -188,8 +196,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
             }
         }
         if (best == nullptr) return false;
-        add(loop, *best, best_by);
-        if (other != nullptr) add(loop, *other, -best_by);
+        change(*best, best_by);
+        if (other != nullptr) change(*other, -best_by);
     }
     return true;
 }
@@ -206,7 +214,7 @@ void change_both(const CountTask& task, CountedLoop& loop, int quarter)
             double own = std::numeric_limits<double>::infinity();
             for (CountedRun& run : loop.runs) {
                 if (run.quarter != quarter + 2 * back || task.segments[run.segment].fixed ||
-                    !may_be(task, loop, run, run.count + by, kSegment))
+                    !may_be(task, sides_of(loop, run.segment), run, run.count + by, kSegment))
                     continue;
                 const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
                 if (cost >= own) continue;

@@ -18,9 +18,10 @@ namespace {
 /// Counts for a part of a region, between mirror axes: in the range that is promised or, of few quads, where
 /// no grid fills it so, in a ring's.
 std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const int> segment,
-                                     std::span<const BoundarySegment> segments, bool few)
+                                     std::span<const BoundarySegment> segments, bool few,
+                                     const RunContext& context)
 {
-    const CountTask task(part, segment, segments);
+    const CountTask task(part, segment, segments, context);
     if (auto ring = ring_counts(task)) return Counts{std::move(*ring)};
     auto counts = straight_counts(task, {kSegment, true, few});
     return counts || !few ? counts : straight_counts(task, {kRingSegment, true, few});
@@ -146,7 +147,7 @@ std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std
 Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorPart& part, bool few)
 {
     const PartSegments segments = segments_of(task, halved, part);
-    std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few);
+    std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few, task.context);
     const std::vector<SegmentPair> pairs = mirrored_segments(part.region, segments.own);
     // What is symmetric about more axes is so with numbers that fit them, if no grid.
     if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
@@ -197,7 +198,8 @@ std::optional<MirrorCounts> mirror_counts(const CountTask& task)
     return std::nullopt;
 }
 
-std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few)
+std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few,
+                                 const RunContext& context)
 {
     // Given sides between corners are segments of their own, for no corner may move.
     std::vector<int> segment(part.region.points.size());
@@ -225,7 +227,7 @@ std::optional<double> count_axes(MirrorPart& part, const std::function<double(co
         sides.push_back(static_cast<int>(segments[of_axis[a]].wanted));
         segments[of_axis[a]].wanted = part.wanted[a];
     }
-    const auto counts = counts_of_part(part.region, segment, segments, few);
+    const auto counts = counts_of_part(part.region, segment, segments, few, context);
     if (counts) {
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }

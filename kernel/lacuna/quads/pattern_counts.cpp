@@ -60,7 +60,7 @@ std::optional<std::vector<int>> even_counts(const CountTask& task)
         if (own.fixed || own.wanted < kFewestEven) return std::nullopt;
         own = {own.wanted / 2, (own.least + 1) / 2};
     }
-    auto counts = counts_for(CountTask(task.region, task.segment, segments));
+    auto counts = counts_for(CountTask(task.region, task.segment, segments, task.context));
     if (!counts) return std::nullopt;
     for (int& count : *counts) count *= 2;
     return counts;
@@ -74,9 +74,10 @@ int even_sides(double wanted, int least)
 }
 
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
-                                               std::span<const BoundarySegment> segments)
+                                               std::span<const BoundarySegment> segments,
+                                               const RunContext& context)
 {
-    const CountTask task(region, segment, segments);
+    const CountTask task(region, segment, segments, context);
     auto counts = counts_for(task);
     if (counts && quads_asked(task) > kManyQuads && !can_be_halved(task, *counts)) {
         if (auto even = even_counts(task)) return even;

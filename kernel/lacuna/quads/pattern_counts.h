@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/quads/region.h>
 
 #include <optional>
@@ -66,8 +67,10 @@ inline constexpr double kFewestEven = 8;
 /// @param region   with as many nodes as it would have without.
 /// @param segment  of the side from each boundary node to the next.
 /// @return  the number of sides of every segment; nothing where no grid fits.
+/// @throw Cancelled
 /// @note  Deterministic. O(nodes · segments).
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,
-                                               std::span<const BoundarySegment> segments);
+                                               std::span<const BoundarySegment> segments,
+                                               const RunContext& context = {});
 
 } // namespace lacuna::quads

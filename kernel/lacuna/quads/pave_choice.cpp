@@ -415,7 +415,7 @@ std::optional<MirrorPart> AttemptChooser::part_of_region() const
         for (std::size_t choice = 0; choice < choices; ++choice) {
             auto part = mirror_part(region_, symmetries, size, choice);
             if (!part) break;
-            const std::optional<double> cost = count_axes(*part, setting_.size, few_graded_);
+            const std::optional<double> cost = count_axes(*part, setting_.size, few_graded_, context_);
             if (cost && *cost < least) {
                 least = *cost;
                 best = std::move(part);

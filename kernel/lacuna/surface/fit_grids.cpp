@@ -35,7 +35,7 @@ bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<Edg
 
 /// Give one face numbers of sides, and add its edges to those settled.
 void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::set<EdgeId>& settled,
-              Seeds& seeds)
+              Seeds& seeds, const RunContext& context)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0 || !is_free(grids, seeds, face)) return;
     const Vec3 normal = face_area_vector(task.model, face).stableNormalized();
@@ -67,7 +67,7 @@ void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::se
         }
     }
     sort_outer_first(region.points, region.loops);
-    const auto counts = quads::pattern_counts(region, segment, segments);
+    const auto counts = quads::pattern_counts(region, segment, segments, context);
     if (!counts) return;
     for (std::size_t p = 0; p < pieces.size(); ++p) pieces[p]->count = (*counts)[p];
     for (const EdgeId edge : edges_of(task.model, face)) settled.insert(edge);
@@ -76,9 +76,9 @@ void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::se
 } // namespace
 
 std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
-                           Seeds& seeds)
+                           Seeds& seeds, const RunContext& context)
 {
-    for (const FaceId face : most_loops_first(task)) fit_grid(task, grids, face, settled, seeds);
+    for (const FaceId face : most_loops_first(task)) fit_grid(task, grids, face, settled, seeds, context);
     return settled;
 }
 

@@ -51,13 +51,14 @@ LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
 /// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its
 /// ends.
 std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
-                                   const LinkingSurface& link)
+                                   const LinkingSurface& link, const RunContext& context)
 {
     std::set<Index> low, high;
     for (const ChainNode& p : chain_nodes(model, link.source)) low.insert(p.point);
     for (const ChainNode& p : chain_nodes(model, link.target)) high.insert(p.point);
     const Index start = model[use_from(model, link.source.uses().front())].point;
-    std::vector<Index> way = geometry::shortest_way(model.points, facets.triangles, start, low, high);
+    std::vector<Index> way = geometry::shortest_way(model.points, facets.triangles, start, low, high,
+                                                    context);
     if (!way.empty()) return way;
     throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, link.walls.front()) +
                                                   " do not lead from the source's rim to the target's");
@@ -98,8 +99,8 @@ double unguided_target_start(const OpenVolume& volume, const LinkingSurface& lin
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, shortest_way_up(model, facets, link),
-                                                 context);
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, link,
+                                                 shortest_way_up(model, facets, link, context), context);
     // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
     // length.
     const double length = link.target.length();
@@ -137,7 +138,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     std::vector<Index> cut;
     const std::vector<ChainNode> high = chain_nodes(model, link.target);
     if (link.lines.empty()) {
-        cut = shortest_way_up(model, facets, link);
+        cut = shortest_way_up(model, facets, link, context);
         const double natural = link.branch
                                    ? *link.branch
                                    : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);

@@ -26,7 +26,7 @@ Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSur
     FaceGrids grids = choose_grids(task, seeds);
     std::set<EdgeId> settled = solve_together(task, grids, alike, seeds);
     balance(task, grids, seeds);
-    settled = fit_grids(task, grids, std::move(settled), seeds);
+    settled = fit_grids(task, grids, std::move(settled), seeds, context);
     make_halvable(task, grids, settled, seeds);
     for (int round = 0; round < 2; ++round) {
         make_even(task, grids, alike, seeds);

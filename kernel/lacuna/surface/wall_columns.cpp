@@ -51,7 +51,8 @@ std::vector<Vec3> mapped_column(const Model& model, const LinkingMap& map, doubl
 
 } // namespace
 
-std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const LinkingSurface& link, int steps)
+std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const LinkingSurface& link, int steps,
+                                            const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
     for (const LinkingLine& line : link.lines) {
@@ -69,7 +70,7 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
     if (mean_length(volume.model, link) * static_cast<double>(columns.size()) <
         (1 + kHardlyLonger) * straight)
         return columns;
-    const LinkingMap map(volume, link);
+    const LinkingMap map(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kPlaces; ++k)
         columns.push_back(mapped_column(volume.model, map, (k + 0.5) / kPlaces, steps));

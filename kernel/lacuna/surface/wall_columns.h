@@ -10,8 +10,9 @@ namespace lacuna::surface {
 /// Columns up a linking surface from source to target, each as steps + 1 points at even shares of the way:
 /// its side lines, on the exact curves. Without them, ways up the walls by their harmonic map from eight
 /// places of the source's rim; straight ones where the walls are hardly longer than those.
+/// @throw Cancelled
 /// @cost  near linear in the walls' facets where the map is needed.
 std::vector<std::vector<Vec3>> wall_columns(const topology::OpenVolume& volume, const LinkingSurface& link,
-                                            int steps);
+                                            int steps, const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -44,14 +44,15 @@ struct Way {
     double column = 0;                       ///< length of a column in the mean [model length]
 };
 
-Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
+Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+           const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
     // One seam says nothing of the middle; where another linking surface does, that is enough.
     const bool lines = std::ranges::any_of(links,
                                            [](const auto& link) { return link.lines.size() >= kMiddle; });
     const auto add = [&](const surface::LinkingSurface& link) {
-        std::ranges::move(surface::wall_columns(volume, link, kSteps), std::back_inserter(columns));
+        std::ranges::move(surface::wall_columns(volume, link, kSteps, context), std::back_inserter(columns));
     };
     for (const surface::LinkingSurface& link : links) {
         if (link.lines.size() >= kMiddle) {
@@ -174,7 +175,7 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
                                         KnownLinks& links, const RunContext& context)
 {
     if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
-    const Way way = way_of(volume, links.of(volume, context));
+    const Way way = way_of(volume, links.of(volume, context), context);
     constexpr double kStraight = 1e-3; // [radian]
     if (!(way.turned.back() > kStraight)) return std::nullopt;
     const int layers = options.layers.count;

@@ -5,6 +5,7 @@
 // affine motion takes rim to rim the two agree, and the sum is the motion itself.
 #include <lacuna/sweep/detail/layer_placer.h>
 
+#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/large_pages.h>
 #include <lacuna/core/parallel.h>
@@ -12,6 +13,7 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace lacuna::sweep {
@@ -41,6 +43,28 @@ std::vector<double> mean_heights(const RimColumns& columns)
     return heights;
 }
 
+/// Raises a flag on the way out, however that comes.
+class RaisedAtEnd {
+public:
+    explicit RaisedAtEnd(std::atomic<bool>& flag) : flag_(flag) {}
+    ~RaisedAtEnd() { flag_ = true; }
+    RaisedAtEnd(const RaisedAtEnd&) = delete;
+    RaisedAtEnd& operator=(const RaisedAtEnd&) = delete;
+
+private:
+    std::atomic<bool>& flag_;
+};
+
+void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns)
+{
+    if (target.size() != source.nodes.size()) {
+        throw InvalidInput("sweep.target", "the target needs a position for each of the " +
+                                               std::to_string(source.nodes.size()) + " source nodes, found " +
+                                               std::to_string(target.size()));
+    }
+    check_columns(source, columns, target);
+}
+
 std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions& options)
 {
     if (options.heights.empty()) return mean_heights(columns);
@@ -56,21 +80,16 @@ std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions
 
 LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target,
                          const RimColumns& columns, const PlacementOptions& options,
-                         const RunContext& context)
+                         const RunContext& context, std::span<Vec3> room)
     : source_(source), target_(target), columns_(columns)
 {
-    if (target.size() != source.nodes.size()) {
-        throw InvalidInput("sweep.target", "the target needs a position for each of the " +
-                                               std::to_string(source.nodes.size()) + " source nodes, found " +
-                                               std::to_string(target.size()));
-    }
-    check_columns(source, columns, target);
+    check_ends(source, target, columns);
     const std::vector<double> heights = heights_of(columns, options);
     if (options.straight_lines || columns.rim.empty()) {
         placement_ = Placement::straight;
         fit_straight(heights);
     } else {
-        fit_rims(heights, options, context);
+        fit_rims(heights, options, context, room);
     }
 }
 
@@ -84,7 +103,7 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
 }
 
 void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptions& options,
-                           const RunContext& context)
+                           const RunContext& context, std::span<Vec3> room)
 {
     const std::vector<Segment> sides = rim_sides(source_, columns_);
     const std::span<const Vec3> low = columns_.row(0);
@@ -136,6 +155,13 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         residuals_.clear();
         return;
     }
+    // The factorisation takes one thread: another one has pages cleared meanwhile, where there is one.
+    std::atomic<bool> enough{false};
+    const Background<bool> clearing(context, [&enough, room](const RunContext&) {
+        clear_pages(room.data(), room.size_bytes(), enough);
+        return true;
+    });
+    const RaisedAtEnd raise(enough);
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
     // Of both ends together, so that it does not matter which of them is called the source.
     std::vector<double> weights, target_weights;
@@ -215,13 +241,14 @@ std::string LayerPlacer::report() const
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                         const PlacementOptions& options, const RunContext& context)
 {
-    const LayerPlacer placer(source, target, columns, options, context);
+    check_ends(source, target, columns);
     LayerNodes result;
-    result.placement = placer.placement();
-    result.report = placer.report();
     const std::size_t count = (static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size();
     reserve_large(result.nodes, count);
     result.nodes.resize(count);
+    const LayerPlacer placer(source, target, columns, options, context, result.nodes);
+    result.placement = placer.placement();
+    result.report = placer.report();
     placer.place(0, columns.layers + 1, result.nodes, context);
     return result;
 }

@@ -53,13 +53,15 @@ double turning_of(const std::vector<Vec3>& points)
 
 /// @param middle  size at the middle of a column. @param size  size all along; null: not asked for.
 Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                   const surface::SizeField& middle, const surface::SizeField& size)
+                   const surface::SizeField& middle, const surface::SizeField& size,
+                   const RunContext& context)
 {
     Columns mean;
     mean.wanted.assign(kSamples + 1, 0.0);
     std::vector<std::vector<Vec3>> columns;
     for (const surface::LinkingSurface& link : links)
-        std::ranges::move(surface::wall_columns(volume, link, kSamples), std::back_inserter(columns));
+        std::ranges::move(surface::wall_columns(volume, link, kSamples, context),
+                          std::back_inserter(columns));
     const auto share = 1 / static_cast<double>(std::max<std::size_t>(columns.size(), 1));
     for (const std::vector<Vec3>& points : columns) {
         double sides = 0, length = 0;
@@ -188,12 +190,13 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
 
 PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least)
+                            const surface::SizeField& size, const SweepOptions& options, int least,
+                            const RunContext& context)
 {
     const std::vector<double>* const low = end_table(volume, tables, Role::source);
     const std::vector<double>* const high = end_table(volume, tables, Role::target);
     if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
-    const Columns columns = columns_of(volume, links, size, options.size);
+    const Columns columns = columns_of(volume, links, size, options.size, context);
     const int bends = asked.empty() ? bend_layers(columns, options) : 0;
     const bool by_bends = bends > std::max(least, static_cast<int>(std::lround(columns.sides)));
     least = std::max(least, bends);

@@ -263,9 +263,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const int least_layers = surface::set_wall_breaks(split, size, links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
-    const auto [heights,
-                by_bends] = plan_heights(split, links, tables, given.heights, sizes.along, options,
-                                         options.size ? least_layers : std::max(least_layers, kDefaultGap));
+    const auto [heights, by_bends] = plan_heights(
+        split, links, tables, given.heights, sizes.along, options,
+        options.size ? least_layers : std::max(least_layers, kDefaultGap), context);
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides,
                                  options.beside.handed};

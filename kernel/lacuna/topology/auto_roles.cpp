@@ -16,6 +16,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace lacuna::topology {
 
@@ -47,6 +49,10 @@ constexpr double kBothSteps = 0.05;
 /// As many faces of each role are listed: what a person reads in a message.
 constexpr std::size_t kMostFaces = 12;
 
+/// As many readings are kept at once, the likeliest; more are listed anew where all of these were in vain. A
+/// choice: some 10 MB.
+constexpr std::size_t kMostKept = std::size_t{1} << 18;
+
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr std::size_t kGap = kNone - 1; ///< instead of the target's rim: walls lead to a free loop
 
@@ -59,6 +65,26 @@ struct Reading {
     std::size_t source = kNone, target = kNone;
     double cost = 0;
     std::size_t step = kNone; ///< of the readings whose ends are several patches, their number
+
+    /// The likelier first; of readings as likely first none, then steps, then by their ends.
+    friend bool operator<(const Reading& x, const Reading& y)
+    {
+        if (x.cost != y.cost) return x.cost < y.cost;
+        const auto rank = [](const Reading& r) {
+            const std::size_t kind = r.source == kNone ? 0 : r.step != kNone ? 1 : 2;
+            return std::tuple(kind, kind == 1 ? r.step : r.source, r.target + 1); // a missing end is 0 then
+        };
+        return rank(x) < rank(y);
+    }
+};
+
+/// What the walls lose when a patch becomes an end, and rims that they may get for it; see `can_hold()`.
+struct Taken {
+    long fans = 0;        ///< by which runs of patches round vertices become fewer
+    long vertices = 0;    ///< where no other patch is
+    long edges = 0;       ///< that no other patch has
+    long contacts = 0;    ///< uses of its edges opposite to another patch's
+    std::size_t part = 0; ///< the patches it hangs together with, over edges
 };
 
 /// The patches of ends that lie at several heights.
@@ -118,25 +144,51 @@ public:
         for (std::size_t e = 0; e < angle_.size(); ++e) {
             if (angle_[e] >= kSmooth) sharp_.emplace_back(e);
         }
+        if (!used_twice_) count_what_ends_take();
     }
 
-    /// Readings that are not ruled out by their ends alone, the cheapest first.
-    [[nodiscard]] std::vector<Reading> by_cost()
+    /// The likeliest readings that are not ruled out by their ends alone, the cheapest first.
+    /// @param after  only those behind this one
+    [[nodiscard]] std::vector<Reading> by_cost(const std::optional<Reading>& after)
     {
-        std::vector<Reading> found;
-        if (const auto cost = cost_of_no_end()) found.push_back({kNone, kNone, *cost});
-        if (free_.empty()) add_stepped(found);
+        std::vector<Reading> found; // a heap, the least likely first
+        const auto add = [&](const Reading& reading) {
+            if (after && !(*after < reading)) return;
+            if (found.size() == kMostKept) {
+                if (!(reading < found.front())) return;
+                std::pop_heap(found.begin(), found.end());
+                found.back() = reading;
+            } else {
+                found.push_back(reading);
+            }
+            std::push_heap(found.begin(), found.end());
+        };
+        if (const auto cost = cost_of_no_end()) add({kNone, kNone, *cost});
+        if (free_.empty()) {
+            if (!after) find_stepped();
+            for (const Reading& reading : with_steps_) add(reading);
+        }
         for (std::size_t a = 0; a < patches_.size(); ++a) {
             check_cancelled(context_);
-            if (stands_alone(a)) found.push_back({a, kNone, kOneEnd + bend(patches_[a]) + patches_[a].slant});
+            if (stands_alone(a) && can_hold(a))
+                add({a, kNone, kOneEnd + bend(patches_[a]) + patches_[a].slant});
+        }
+        // Those that can hold with the most others first.
+        std::vector<std::size_t> order(patches_.size());
+        for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return at_most(a) > at_most(b); });
+        for (std::size_t i = 0; i < order.size() && parts_ <= 2; ++i) {
+            check_cancelled(context_);
             vertex_seen_.clear();
-            for (const VertexId v : patches_[a].vertices) vertex_seen_.add(v.index());
-            for (std::size_t b = a + 1; b < patches_.size(); ++b) {
-                if (are_apart(a, b)) found.push_back({a, b, cost_of_two_ends(patches_[a], patches_[b])});
+            for (const VertexId v : patches_[order[i]].vertices) vertex_seen_.add(v.index());
+            for (std::size_t k = i + 1; k < order.size() && can_hold(order[i], order[k]); ++k) {
+                const auto [a, b] = std::minmax(order[i], order[k]);
+                if (parts_ == 2 && taken_[a].part == taken_[b].part) continue;
+                if (are_apart(order[i], order[k])) add({a, b, cost_of_two_ends(patches_[a], patches_[b])});
             }
         }
-        std::stable_sort(found.begin(), found.end(),
-                         [](const Reading& x, const Reading& y) { return x.cost < y.cost; });
+        std::sort_heap(found.begin(), found.end());
         return found;
     }
 
@@ -269,7 +321,7 @@ private:
 
     static bool has(const std::vector<std::size_t>& all, std::size_t p)
     {
-        return std::find(all.begin(), all.end(), p) != all.end();
+        return std::binary_search(all.begin(), all.end(), p); // they are found in order
     }
 
     /// Edges where two walls meet at an angle.
@@ -296,7 +348,7 @@ private:
 
     /// Readings with all flat patches that face one way as the target, and all that face the other way as
     /// the source, where these are three at least. Where one of them is alone it is the source.
-    void add_stepped(std::vector<Reading>& found)
+    void find_stepped()
     {
         std::vector<std::size_t> flat;
         for (std::size_t p = 0; p < patches_.size(); ++p) {
@@ -316,13 +368,15 @@ private:
                 if (facing > 1 - kOneWay) ahead.push_back(p);
                 if (facing < kOneWay - 1) same.push_back(p);
                 if (std::abs(facing) > 1 - kOneWay) ends += patches_[p].area;
+                if (!same.empty() && same.front() < source) break;
             }
             if (ahead.empty() || same.size() + ahead.size() < 3) continue;
             const bool first = source == same.front() && same.front() < ahead.front();
-            if (same.size() > 1 && (ahead.size() == 1 || !first)) continue; // once an axis
+            if (source != same.front() || (same.size() > 1 && (ahead.size() == 1 || !first)))
+                continue; // once an axis
             const double leaning = std::max(0.0, way.dot(whole * way) - ends) / std::max(area - ends, 1e-300);
             if (!(leaning < kStraight)) continue;
-            found.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});
+            with_steps_.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});
             stepped_.push_back({same, ahead});
         }
     }
@@ -339,7 +393,9 @@ private:
         for (const FaceId face : patches_[p].faces) {
             for (const Loop& loop : model_[face].loops) {
                 for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-                    patch_of_use_[number_of(loop.uses[i])] = p;
+                    std::size_t& patch = patch_of_use_[number_of(loop.uses[i])];
+                    used_twice_ = used_twice_ || patch != kNone;
+                    patch = p;
                     next_[number_of(loop.uses[i])] = loop.uses[(i + 1) % loop.uses.size()];
                 }
             }
@@ -348,6 +404,118 @@ private:
     }
 
     // --- what ends alone say ------------------------------------------------------------------------
+
+    /// Add up what the walls of all readings have in common, and what each patch takes from it as an end.
+    void count_what_ends_take()
+    {
+        taken_.resize(patches_.size());
+        geometry::UnionFind hang(patches_.size());
+        for (std::size_t u = 0; u < patch_of_use_.size(); ++u) {
+            const std::size_t p = patch_of_use_[u], q = patch_of_use_[u ^ 1];
+            if (p == kNone) continue;
+            if (u % 2 == 0 || q == kNone) whole_.edges += 1;
+            if (q == kNone || (q == p && u % 2 == 0)) ++taken_[p].edges;
+            if (q == kNone || q == p) continue;
+            ++taken_[p].contacts;
+            hang.unite_least(p, q);
+        }
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            euler_ += patches_[p].inner_euler;
+            taken_[p].part = hang.find(p);
+            parts_ += taken_[p].part == p ? 1 : 0;
+        }
+        for (const std::vector<std::size_t>& at : patches_at_) {
+            whole_.vertices += at.empty() ? 0 : 1;
+            if (at.size() == 1) ++taken_[at.front()].vertices;
+        }
+        count_fans();
+        std::vector<WallPart> all(1);
+        use_seen_.clear();
+        for (const EdgeUse use : free_) count_rim(use, all); // of which all patches are walls
+        whole_.contacts = static_cast<long>(all.front().rims);
+    }
+
+    /// Count the runs of corners round vertices that hang together over edges, and by how many fewer there
+    /// are without each patch.
+    void count_fans()
+    {
+        // A corner is told by the use that leaves it. The next one round its vertex is across that use.
+        const auto next = [&](std::size_t use) {
+            return patch_of_use_[use ^ 1] == kNone ? kNone : number_of(next_[use ^ 1]);
+        };
+        std::vector<bool> has_before(patch_of_use_.size(), false), seen(patch_of_use_.size(), false);
+        for (std::size_t u = 0; u < patch_of_use_.size(); ++u)
+            if (patch_of_use_[u] != kNone && next(u) != kNone) has_before[next(u)] = true;
+        std::vector<std::size_t> run; // the patches of the corners of a fan, neighbours alike once
+        const auto count_fan = [&](std::size_t first) {
+            ++whole_.fans;
+            run.clear();
+            std::size_t corner = first;
+            while (corner != kNone && !seen[corner]) {
+                seen[corner] = true;
+                if (run.empty() || run.back() != patch_of_use_[corner]) run.push_back(patch_of_use_[corner]);
+                corner = next(corner);
+            }
+            const bool round = corner == first;
+            if (round && run.size() > 1 && run.front() == run.back()) run.pop_back();
+            if (round && run.size() == 1) {
+                ++taken_[run.front()].fans;
+                return;
+            }
+            // Every run of a patch that is taken out parts what is beside it.
+            for (const std::size_t p : run) --taken_[p].fans;
+            if (round) {
+                std::sort(run.begin(), run.end());
+                run.erase(std::unique(run.begin(), run.end()), run.end());
+                for (const std::size_t p : run) ++taken_[p].fans; // the first opens the round
+            } else {
+                ++taken_[run.front()].fans;
+                ++taken_[run.back()].fans;
+            }
+        };
+        for (const bool open : {true, false}) {
+            for (std::size_t u = 0; u < patch_of_use_.size(); ++u)
+                if (patch_of_use_[u] != kNone && !seen[u] && has_before[u] != open) count_fan(u);
+        }
+    }
+
+    /// The Euler numbers of the walls without these patches, added up over those that hang together, are at
+    /// most the first and at least the second. @pre  the patches have no vertex in common
+    [[nodiscard]] std::pair<long, long> euler_without(std::initializer_list<std::size_t> ends) const
+    {
+        long most = euler_ + whole_.fans - whole_.edges, least = euler_ + whole_.vertices - whole_.edges;
+        for (const std::size_t p : ends) {
+            const long both = taken_[p].edges - patches_[p].inner_euler;
+            most += both - taken_[p].fans;
+            least += both - taken_[p].vertices;
+        }
+        return {most, least};
+    }
+
+    /// How much a patch leaves to the walls: as `can_hold()` adds up.
+    [[nodiscard]] long at_most(std::size_t p) const
+    {
+        if (used_twice_) return 0;
+        return taken_[p].edges - patches_[p].inner_euler - taken_[p].fans + taken_[p].contacts;
+    }
+
+    /// Whether `holds()` is not ruled out for two ends by what the walls add up to. Walls that join ends have
+    /// no tunnels: the Euler number of each part is 2 less its rims. A rim is a free loop, or has a use of an
+    /// edge of an end.
+    [[nodiscard]] bool can_hold(std::size_t a, std::size_t b) const
+    {
+        if (used_twice_ || patches_.size() == 2) return true;
+        const long free_loops = whole_.contacts;
+        return euler_ + whole_.fans - whole_.edges + at_most(a) + at_most(b) + free_loops >= 2;
+    }
+
+    /// The same for one end, whose walls are rings.
+    [[nodiscard]] bool can_hold(std::size_t p) const
+    {
+        if (used_twice_) return true;
+        const auto [most, least] = euler_without({p});
+        return parts_ == 1 && most >= 0 && least <= 0;
+    }
 
     [[nodiscard]] static double bend(const SmoothPatch& end)
     {
@@ -628,6 +796,12 @@ private:
     std::vector<std::size_t> part_of_; ///< of each patch in the reading at hand; `kNone`: an end
     std::size_t windows_ = 0;          ///< of the reading that was last asked about
     Marks vertex_seen_, edge_seen_, use_seen_;
+    std::vector<Reading> with_steps_;
+    bool used_twice_ = false;  ///< faces have an edge the same way: what follows is not counted
+    std::vector<Taken> taken_; ///< by each patch as an end
+    Taken whole_;              ///< what all patches have of that; free loops as contacts
+    long euler_ = 0;           ///< what all patches have within
+    std::size_t parts_ = 0;    ///< of patches that hang together over edges
 };
 
 } // namespace
@@ -659,12 +833,19 @@ std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, con
     std::vector<Reading> held;
     double least = std::numeric_limits<double>::infinity();
     // What ends alone cost only grows by what is between them.
-    for (Reading reading : readings.by_cost()) {
-        if (held.size() == options.most || !(reading.cost < least + options.margin)) break;
-        if (!readings.holds(reading)) continue;
-        reading.cost += readings.cost_of_walls(reading);
-        least = std::min(least, reading.cost);
-        held.push_back(reading);
+    std::optional<Reading> last;
+    for (bool more = true; more;) {
+        const std::vector<Reading> likeliest = readings.by_cost(last);
+        more = likeliest.size() == kMostKept;
+        for (Reading reading : likeliest) {
+            last = reading;
+            more = more && held.size() < options.most && reading.cost < least + options.margin;
+            if (held.size() == options.most || !(reading.cost < least + options.margin)) break;
+            if (!readings.holds(reading)) continue;
+            reading.cost += readings.cost_of_walls(reading);
+            least = std::min(least, reading.cost);
+            held.push_back(reading);
+        }
     }
     std::erase_if(held, [&](const Reading& reading) { return !(reading.cost < least + options.margin); });
     std::stable_sort(held.begin(), held.end(),

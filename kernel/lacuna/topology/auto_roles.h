@@ -44,7 +44,10 @@ struct RoleOptions {
 /// (Gauss and Bonnet), at least.
 /// @return empty where no reading passes.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
-/// @note  O(facets + patches² + most · edges between patches).
+/// Two ends are weighed where the Euler numbers of what is left do not rule them out: walls between them have
+/// no tunnels. So of a plate with a thousand holes few pairs of its faces are.
+/// @note  O(facets + pairs of patches that are weighed + readings tried · edges between patches); as many
+///        readings are kept at once as fit in some 10 MB.
 std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,
                                            const RoleOptions& options = {}, const RunContext& context = {});
 

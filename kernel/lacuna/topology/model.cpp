@@ -23,10 +23,11 @@ struct SegmentOnEdge {
 
 using SegmentMap = std::unordered_map<std::uint64_t, SegmentOnEdge>;
 
-SegmentMap segments_of_edges(const Model& model)
+SegmentMap segments_of_edges(const Model& model, const RunContext& context)
 {
     SegmentMap map;
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        check_cancelled(context);
         const std::vector<Index>& points = model.edges[e].points;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             map.try_emplace(directed_key(points[i], points[i + 1]), SegmentOnEdge{EdgeId(e), i, false});
@@ -39,8 +40,8 @@ SegmentMap segments_of_edges(const Model& model)
 /// The segments of a model's edges, found by their ends.
 class EdgeSegments {
 public:
-    explicit EdgeSegments(const Model& model)
-        : at_(segments_of_edges(model)), on_edge_(model.points.size(), false)
+    EdgeSegments(const Model& model, const RunContext& context)
+        : at_(segments_of_edges(model, context)), on_edge_(model.points.size(), false)
     {
         for (const Edge& edge : model.edges)
             for (const Index p : edge.points) on_edge_[index(p)] = true;
@@ -310,11 +311,14 @@ FaceId add_void_face(Model& model, Geometry geometry)
     return FaceId(model.faces.size() - 1);
 }
 
-void build_loops(Model& model)
+void build_loops(Model& model, const RunContext& context)
 {
-    const EdgeSegments segments(model);
+    const EdgeSegments segments(model, context);
     DirectedSides sides(model.points.size());
-    for (Face& face : model.faces) face.loops = loops_of(model, face, segments, sides);
+    for (Face& face : model.faces) {
+        check_cancelled(context);
+        face.loops = loops_of(model, face, segments, sides);
+    }
 }
 
 std::vector<std::vector<FaceUse>> edge_uses(const Model& model)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/ids.h>
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 #include <lacuna/geometry/exact.h>
 
@@ -126,7 +127,8 @@ Vec3 face_centroid(const Model& model, FaceId face);
 /// Set every face's loops from its triangles and the model's edges.
 /// @pre  every boundary side of a face's triangles, and every seam, lies on an edge.
 /// @throw InvalidInput  a boundary side lies on no edge, or the facets are not a manifold; names the face.
-void build_loops(Model& model);
+///        Cancelled
+void build_loops(Model& model, const RunContext& context = {});
 
 /// Add what closing or cutting makes, numbered on from the void ones there are. Loops are the caller's.
 VertexId add_void_vertex(Model& model, Index point);

@@ -85,7 +85,8 @@ void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& si
 }
 
 std::vector<NearSegment> near_segments(std::span<const Vec3> points,
-                                       std::span<const std::array<Vec3, 2>> segments, double reach)
+                                       std::span<const std::array<Vec3, 2>> segments, double reach,
+                                       const RunContext& context)
 {
     std::vector<Triangle> dots(points.size());
     for (std::size_t p = 0; p < dots.size(); ++p) dots[p].fill(static_cast<Index>(p));
@@ -97,14 +98,15 @@ std::vector<NearSegment> near_segments(std::span<const Vec3> points,
         lines[s] = {a, a + 1, a + 1};
     }
     std::vector<NearSegment> pairs;
-    const geometry::FacetTree of_points(points, dots);
+    const geometry::FacetTree of_points(points, dots, context);
+    const geometry::FacetTree of_segments(ends, lines, context);
     of_points.overlaps(
-        geometry::FacetTree(ends, lines),
+        of_segments,
         [&](Index point, Index segment) {
             pairs.push_back({point, segment});
             return true;
         },
-        reach);
+        reach, context);
     std::sort(pairs.begin(), pairs.end(), [](const NearSegment& a, const NearSegment& b) {
         return std::pair(a.segment, a.point) < std::pair(b.segment, b.point);
     });

@@ -47,9 +47,11 @@ struct NearSegment {
 /// Every pair of a point and a segment whose bounding boxes come within `reach`, ordered by segment, then
 /// point.
 /// @param segments  their end points.
+/// @throw Cancelled
 /// @note  O(n log n) where few are close.
 std::vector<NearSegment> near_segments(std::span<const Vec3> points,
-                                       std::span<const std::array<Vec3, 2>> segments, double reach);
+                                       std::span<const std::array<Vec3, 2>> segments, double reach,
+                                       const RunContext& context = {});
 
 /// The place of a segment closest to a point, as the fraction of the way from `a` to `b`, in [0, 1].
 double fraction_along(const Vec3& p, const Vec3& a, const Vec3& b);

@@ -17,11 +17,12 @@ namespace lacuna::quads {
 /// What numbers of sides are found for: as for `pattern_counts()`.
 struct CountTask {
     CountTask(const PlanarRegion& region, std::span<const int> segment,
-              std::span<const BoundarySegment> segments);
+              std::span<const BoundarySegment> segments, const RunContext& context);
 
     const PlanarRegion& region;
     std::span<const int> segment;
     std::span<const BoundarySegment> segments;
+    const RunContext& context;
     std::vector<int> own; ///< sides that each segment has in the region
 
     [[nodiscard]] std::size_t segment_of(Index p) const
@@ -84,6 +85,7 @@ struct CountedLoop {
 std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share = 1);
 
 /// Change runs, the cheapest first, until a loop has no excess. @return false where none may change
+/// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 
 /// One side more or one less along a heading and back, whichever costs less; nothing where neither may be.

@@ -24,7 +24,9 @@ std::optional<MirrorCounts> mirror_counts(const CountTask& task);
 /// there are none, those of the size with an even number round the part.
 /// @return what the grid costs beside that of other parts; nothing where there is none.
 /// @param few  whether numbers may be as far from those wanted as a ring's, where there is none else.
-std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few);
+/// @throw Cancelled
+std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few,
+                                 const RunContext& context);
 
 /// A part's axes are divided by a size that changes slowly away from short given sides; where there are fewer
 /// quads than this, by the size asked first. A choice, not a measurement.

@@ -13,7 +13,8 @@ namespace lacuna::surface {
 /// keep theirs.
 /// @param settled  edges that keep theirs as well.
 /// @return  those, and the edges that have numbers of a grid now.
+/// @throw Cancelled
 std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
-                           Seeds& seeds);
+                           Seeds& seeds, const RunContext& context);
 
 } // namespace lacuna::surface

@@ -18,8 +18,11 @@ namespace lacuna::sweep {
 /// Refers to the source, the target and the columns; they must outlive it.
 class LayerPlacer {
 public:
+    /// @param room  where all layers are to be placed: its pages are cleared beside the factorisation, which
+    ///              takes one thread.
     LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
-                const PlacementOptions& options = {}, const RunContext& context = {});
+                const PlacementOptions& options = {}, const RunContext& context = {},
+                std::span<Vec3> room = {});
 
     /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of
     /// `place_layers()`, bit for bit.
@@ -31,8 +34,8 @@ public:
 
 private:
     void fit_straight(std::span<const double> heights);
-    void fit_rims(std::span<const double> heights, const PlacementOptions& options,
-                  const RunContext& context);
+    void fit_rims(std::span<const double> heights, const PlacementOptions& options, const RunContext& context,
+                  std::span<Vec3> room);
 
     const mesh::QuadMesh& source_;
     std::span<const Vec3> target_;

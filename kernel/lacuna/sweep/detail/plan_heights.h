@@ -31,6 +31,7 @@ struct PlannedHeights {
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least);
+                            const surface::SizeField& size, const SweepOptions& options, int least,
+                            const RunContext& context);
 
 } // namespace lacuna::sweep
