@@ -8,7 +8,7 @@
 #include <lacuna/core/marks.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
-#include <lacuna/topology/detail/patches.h>
+#include <lacuna/topology/detail/wall_tally.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -53,12 +53,10 @@ constexpr std::size_t kMostFaces = 12;
 /// choice: some 10 MB.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNone = PatchMap::kNone;
 constexpr std::size_t kGap = kNone - 1; ///< instead of the target's rim: walls lead to a free loop
 
 EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
-
-std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed ? 1 : 0); }
 
 /// The patches that are ends; `kNone` for an end that is missing.
 struct Reading {
@@ -76,15 +74,6 @@ struct Reading {
         };
         return rank(x) < rank(y);
     }
-};
-
-/// What the walls lose when a patch becomes an end, and rims that they may get for it; see `can_hold()`.
-struct Taken {
-    long fans = 0;        ///< by which runs of patches round vertices become fewer
-    long vertices = 0;    ///< where no other patch is
-    long edges = 0;       ///< that no other patch has
-    long contacts = 0;    ///< uses of its edges opposite to another patch's
-    std::size_t part = 0; ///< the patches it hangs together with, over edges
 };
 
 /// The patches of ends that lie at several heights.
@@ -126,26 +115,29 @@ public:
           context_(context),
           uses_(edge_uses(model)),
           angle_(angles_across(model, uses_, context)),
-          patches_(smooth_patches(model, uses_,
-                                  flat_alone ? parted_at_flat_faces(model, uses_, angle_) : angle_, context)),
-          patch_of_use_(2 * model.edges.size(), kNone),
-          next_(2 * model.edges.size()),
-          patches_at_(model.vertices.size()),
-          part_of_(patches_.size()),
+          map_{smooth_patches(model, uses_, flat_alone ? parted_at_flat_faces(model, uses_, angle_) : angle_,
+                              context),
+               std::vector<std::size_t>(2 * model.edges.size(), kNone),
+               std::vector<EdgeUse>(2 * model.edges.size()),
+               std::vector<std::vector<std::size_t>>(model.vertices.size())},
+          part_of_(map_.patches.size()),
           vertex_seen_(model.vertices.size()),
           edge_seen_(model.edges.size()),
           use_seen_(2 * model.edges.size())
     {
-        for (std::size_t p = 0; p < patches_.size(); ++p) index_patch(p);
-        for (std::size_t u = 0; u < patch_of_use_.size(); ++u) {
-            if (patch_of_use_[u] != kNone && patch_of_use_[u ^ 1] == kNone)
+        for (std::size_t p = 0; p < map_.patches.size(); ++p) index_patch(p);
+        for (std::size_t u = 0; u < map_.of_use.size(); ++u) {
+            if (map_.of_use[u] != kNone && map_.of_use[u ^ 1] == kNone)
                 free_.push_back({EdgeId(u / 2), u % 2 == 1});
         }
         for (std::size_t e = 0; e < angle_.size(); ++e) {
             if (angle_[e] >= kSmooth) sharp_.emplace_back(e);
         }
-        if (!used_twice_) count_what_ends_take();
+        if (!used_twice_) tally_.emplace(map_, free_loops());
     }
+
+    Readings(const Readings&) = delete; // the tally refers to the map
+    Readings& operator=(const Readings&) = delete;
 
     /// The likeliest readings that are not ruled out by their ends alone, the cheapest first.
     /// @param after  only those behind this one
@@ -168,24 +160,28 @@ public:
             if (!after) find_stepped();
             for (const Reading& reading : with_steps_) add(reading);
         }
-        for (std::size_t a = 0; a < patches_.size(); ++a) {
+        for (std::size_t a = 0; a < map_.patches.size(); ++a) {
             check_cancelled(context_);
-            if (stands_alone(a) && can_hold(a))
-                add({a, kNone, kOneEnd + bend(patches_[a]) + patches_[a].slant});
+            if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
+                add({a, kNone, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
         }
         // Those that can hold with the most others first.
-        std::vector<std::size_t> order(patches_.size());
+        std::vector<std::size_t> order(map_.patches.size());
         for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return at_most(a) > at_most(b); });
-        for (std::size_t i = 0; i < order.size() && parts_ <= 2; ++i) {
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return tally_ && tally_->at_most(a) > tally_->at_most(b);
+        });
+        const std::size_t parts = tally_ ? tally_->parts() : 0;
+        for (std::size_t i = 0; i < order.size() && parts <= 2; ++i) {
             check_cancelled(context_);
             vertex_seen_.clear();
-            for (const VertexId v : patches_[order[i]].vertices) vertex_seen_.add(v.index());
-            for (std::size_t k = i + 1; k < order.size() && can_hold(order[i], order[k]); ++k) {
+            for (const VertexId v : map_.patches[order[i]].vertices) vertex_seen_.add(v.index());
+            for (std::size_t k = i + 1; k < order.size(); ++k) {
+                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with those behind it
                 const auto [a, b] = std::minmax(order[i], order[k]);
-                if (parts_ == 2 && taken_[a].part == taken_[b].part) continue;
-                if (are_apart(order[i], order[k])) add({a, b, cost_of_two_ends(patches_[a], patches_[b])});
+                if (parts == 2 && tally_->hang_together(a, b)) continue;
+                if (are_apart(order[i], order[k]))
+                    add({a, b, cost_of_two_ends(map_.patches[a], map_.patches[b])});
             }
         }
         std::sort_heap(found.begin(), found.end());
@@ -201,7 +197,7 @@ public:
         if (flat_alone_ && has_fans(reading)) return false;
         windows_ = 0;
         const std::vector<WallPart> parts = wall_parts(reading);
-        const SmoothPatch& source = patches_[reading.source];
+        const SmoothPatch& source = map_.patches[reading.source];
         std::vector<std::size_t> served(source.rims.size(), kNone);
         std::size_t before_gap = 0, behind_gap = 0;
         for (const WallPart& part : parts) {
@@ -233,11 +229,11 @@ public:
         RoleCandidate result;
         result.cost = reading.cost;
         if (reading.source != kNone) result.irregular = irregular(reading);
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
+        for (std::size_t p = 0; p < map_.patches.size(); ++p) {
             std::vector<FaceId>& list = is_source(p, reading)   ? result.roles.source
                                         : is_target(p, reading) ? result.roles.target
                                                                 : result.roles.walls;
-            list.insert(list.end(), patches_[p].faces.begin(), patches_[p].faces.end());
+            list.insert(list.end(), map_.patches[p].faces.begin(), map_.patches[p].faces.end());
         }
         result.value = class_of(reading);
         result.reasons = reasons(reading, result.roles);
@@ -258,15 +254,15 @@ private:
     /// What walls cost that face the way the sweep goes.
     [[nodiscard]] double cost_of_facing_along(const Reading& reading) const
     {
-        const SmoothPatch& source = patches_[reading.source];
+        const SmoothPatch& source = map_.patches[reading.source];
         const Vec3 way = reading.target == kNone || reading.step != kNone
                              ? source.normal
-                             : (patches_[reading.target].centre - source.centre).stableNormalized();
+                             : (map_.patches[reading.target].centre - source.centre).stableNormalized();
         double along = 0, area = 0;
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
+        for (std::size_t p = 0; p < map_.patches.size(); ++p) {
             if (is_source(p, reading) || is_target(p, reading)) continue;
-            along += way.dot(patches_[p].spread * way);
-            area += patches_[p].area;
+            along += way.dot(map_.patches[p].spread * way);
+            area += map_.patches[p].area;
         }
         return area > 0 ? kAcross * along / area : 0;
     }
@@ -290,10 +286,10 @@ private:
             hang.unite_least(model_[e].from.index(), model_[e].to.index());
         std::map<std::size_t, int> touched; // of each part that hangs together, the ends it touches
         for (const EdgeId e : sharp_edges(reading)) touched[hang.find(model_[e].from.index())] |= 0;
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
+        for (std::size_t p = 0; p < map_.patches.size(); ++p) {
             const int end = end_of(p);
             if (end == 0) continue;
-            for (const VertexId v : patches_[p].vertices) {
+            for (const VertexId v : map_.patches[p].vertices) {
                 const auto found = touched.find(hang.find(v.index()));
                 if (found != touched.end()) found->second |= end;
             }
@@ -329,7 +325,7 @@ private:
     {
         std::vector<EdgeId> found;
         for (const EdgeId e : sharp_) {
-            const std::size_t a = patch_of_use_[2 * e.index()], b = patch_of_use_[2 * e.index() + 1];
+            const std::size_t a = map_.of_use[2 * e.index()], b = map_.of_use[2 * e.index() + 1];
             const auto is_wall = [&](std::size_t p) {
                 return !is_source(p, reading) && !is_target(p, reading);
             };
@@ -342,7 +338,7 @@ private:
     /// meshed.
     [[nodiscard]] long irregular(const Reading& reading) const
     {
-        const SmoothPatch& end = patches_[reading.source];
+        const SmoothPatch& end = map_.patches[reading.source];
         return std::abs(4 * (2 - static_cast<long>(end.rims.size())) - end.corners);
     }
 
@@ -351,23 +347,23 @@ private:
     void find_stepped()
     {
         std::vector<std::size_t> flat;
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
-            if (patches_[p].flatness > 1 - kOneWay && !patches_[p].rims.empty()) flat.push_back(p);
+        for (std::size_t p = 0; p < map_.patches.size(); ++p) {
+            if (map_.patches[p].flatness > 1 - kOneWay && !map_.patches[p].rims.empty()) flat.push_back(p);
         }
         Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
         double area = 0;
-        for (const SmoothPatch& patch : patches_) whole += patch.spread, area += patch.area;
+        for (const SmoothPatch& patch : map_.patches) whole += patch.spread, area += patch.area;
         for (const std::size_t source : flat) {
             check_cancelled(context_);
-            const Vec3 way = -patches_[source].normal;
+            const Vec3 way = -map_.patches[source].normal;
             // All that leans, ends apart, would be cut into by what hangs from the steps.
             std::vector<std::size_t> same, ahead;
             double ends = 0;
             for (const std::size_t p : flat) {
-                const double facing = patches_[p].normal.dot(way);
+                const double facing = map_.patches[p].normal.dot(way);
                 if (facing > 1 - kOneWay) ahead.push_back(p);
                 if (facing < kOneWay - 1) same.push_back(p);
-                if (std::abs(facing) > 1 - kOneWay) ends += patches_[p].area;
+                if (std::abs(facing) > 1 - kOneWay) ends += map_.patches[p].area;
                 if (!same.empty() && same.front() < source) break;
             }
             if (ahead.empty() || same.size() + ahead.size() < 3) continue;
@@ -384,137 +380,34 @@ private:
     [[nodiscard]] std::size_t largest(const std::vector<std::size_t>& all) const
     {
         return *std::max_element(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
-            return patches_[a].area < patches_[b].area;
+            return map_.patches[a].area < map_.patches[b].area;
         });
     }
 
     void index_patch(std::size_t p)
     {
-        for (const FaceId face : patches_[p].faces) {
+        for (const FaceId face : map_.patches[p].faces) {
             for (const Loop& loop : model_[face].loops) {
                 for (std::size_t i = 0; i < loop.uses.size(); ++i) {
-                    std::size_t& patch = patch_of_use_[number_of(loop.uses[i])];
+                    std::size_t& patch = map_.of_use[number_of(loop.uses[i])];
                     used_twice_ = used_twice_ || patch != kNone;
                     patch = p;
-                    next_[number_of(loop.uses[i])] = loop.uses[(i + 1) % loop.uses.size()];
+                    map_.next[number_of(loop.uses[i])] = loop.uses[(i + 1) % loop.uses.size()];
                 }
             }
         }
-        for (const VertexId v : patches_[p].vertices) patches_at_[v.index()].push_back(p);
+        for (const VertexId v : map_.patches[p].vertices) map_.at[v.index()].push_back(p);
     }
 
     // --- what ends alone say ------------------------------------------------------------------------
 
-    /// Add up what the walls of all readings have in common, and what each patch takes from it as an end.
-    void count_what_ends_take()
+    /// The free loops where all patches are walls.
+    [[nodiscard]] std::size_t free_loops()
     {
-        taken_.resize(patches_.size());
-        geometry::UnionFind hang(patches_.size());
-        for (std::size_t u = 0; u < patch_of_use_.size(); ++u) {
-            const std::size_t p = patch_of_use_[u], q = patch_of_use_[u ^ 1];
-            if (p == kNone) continue;
-            if (u % 2 == 0 || q == kNone) whole_.edges += 1;
-            if (q == kNone || (q == p && u % 2 == 0)) ++taken_[p].edges;
-            if (q == kNone || q == p) continue;
-            ++taken_[p].contacts;
-            hang.unite_least(p, q);
-        }
-        for (std::size_t p = 0; p < patches_.size(); ++p) {
-            euler_ += patches_[p].inner_euler;
-            taken_[p].part = hang.find(p);
-            parts_ += taken_[p].part == p ? 1 : 0;
-        }
-        for (const std::vector<std::size_t>& at : patches_at_) {
-            whole_.vertices += at.empty() ? 0 : 1;
-            if (at.size() == 1) ++taken_[at.front()].vertices;
-        }
-        count_fans();
         std::vector<WallPart> all(1);
         use_seen_.clear();
-        for (const EdgeUse use : free_) count_rim(use, all); // of which all patches are walls
-        whole_.contacts = static_cast<long>(all.front().rims);
-    }
-
-    /// Count the runs of corners round vertices that hang together over edges, and by how many fewer there
-    /// are without each patch.
-    void count_fans()
-    {
-        // A corner is told by the use that leaves it. The next one round its vertex is across that use.
-        const auto next = [&](std::size_t use) {
-            return patch_of_use_[use ^ 1] == kNone ? kNone : number_of(next_[use ^ 1]);
-        };
-        std::vector<bool> has_before(patch_of_use_.size(), false), seen(patch_of_use_.size(), false);
-        for (std::size_t u = 0; u < patch_of_use_.size(); ++u)
-            if (patch_of_use_[u] != kNone && next(u) != kNone) has_before[next(u)] = true;
-        std::vector<std::size_t> run; // the patches of the corners of a fan, neighbours alike once
-        const auto count_fan = [&](std::size_t first) {
-            ++whole_.fans;
-            run.clear();
-            std::size_t corner = first;
-            while (corner != kNone && !seen[corner]) {
-                seen[corner] = true;
-                if (run.empty() || run.back() != patch_of_use_[corner]) run.push_back(patch_of_use_[corner]);
-                corner = next(corner);
-            }
-            const bool round = corner == first;
-            if (round && run.size() > 1 && run.front() == run.back()) run.pop_back();
-            if (round && run.size() == 1) {
-                ++taken_[run.front()].fans;
-                return;
-            }
-            // Every run of a patch that is taken out parts what is beside it.
-            for (const std::size_t p : run) --taken_[p].fans;
-            if (round) {
-                std::sort(run.begin(), run.end());
-                run.erase(std::unique(run.begin(), run.end()), run.end());
-                for (const std::size_t p : run) ++taken_[p].fans; // the first opens the round
-            } else {
-                ++taken_[run.front()].fans;
-                ++taken_[run.back()].fans;
-            }
-        };
-        for (const bool open : {true, false}) {
-            for (std::size_t u = 0; u < patch_of_use_.size(); ++u)
-                if (patch_of_use_[u] != kNone && !seen[u] && has_before[u] != open) count_fan(u);
-        }
-    }
-
-    /// The Euler numbers of the walls without these patches, added up over those that hang together, are at
-    /// most the first and at least the second. @pre  the patches have no vertex in common
-    [[nodiscard]] std::pair<long, long> euler_without(std::initializer_list<std::size_t> ends) const
-    {
-        long most = euler_ + whole_.fans - whole_.edges, least = euler_ + whole_.vertices - whole_.edges;
-        for (const std::size_t p : ends) {
-            const long both = taken_[p].edges - patches_[p].inner_euler;
-            most += both - taken_[p].fans;
-            least += both - taken_[p].vertices;
-        }
-        return {most, least};
-    }
-
-    /// How much a patch leaves to the walls: as `can_hold()` adds up.
-    [[nodiscard]] long at_most(std::size_t p) const
-    {
-        if (used_twice_) return 0;
-        return taken_[p].edges - patches_[p].inner_euler - taken_[p].fans + taken_[p].contacts;
-    }
-
-    /// Whether `holds()` is not ruled out for two ends by what the walls add up to. Walls that join ends have
-    /// no tunnels: the Euler number of each part is 2 less its rims. A rim is a free loop, or has a use of an
-    /// edge of an end.
-    [[nodiscard]] bool can_hold(std::size_t a, std::size_t b) const
-    {
-        if (used_twice_ || patches_.size() == 2) return true;
-        const long free_loops = whole_.contacts;
-        return euler_ + whole_.fans - whole_.edges + at_most(a) + at_most(b) + free_loops >= 2;
-    }
-
-    /// The same for one end, whose walls are rings.
-    [[nodiscard]] bool can_hold(std::size_t p) const
-    {
-        if (used_twice_) return true;
-        const auto [most, least] = euler_without({p});
-        return parts_ == 1 && most >= 0 && least <= 0;
+        for (const EdgeUse use : free_) count_rim(use, all);
+        return all.front().rims;
     }
 
     [[nodiscard]] static double bend(const SmoothPatch& end)
@@ -526,7 +419,7 @@ private:
     /// Whether a patch has neighbours on its whole rim.
     [[nodiscard]] bool stands_alone(std::size_t p) const
     {
-        const std::vector<Rim>& all = patches_[p].rims;
+        const std::vector<Rim>& all = map_.patches[p].rims;
         return !all.empty() && std::all_of(all.begin(), all.end(), [&](const Rim& rim) {
             return std::all_of(rim.uses.begin(), rim.uses.end(),
                                [&](const EdgeUse& use) { return uses_[use.edge.index()].size() == 2; });
@@ -536,7 +429,7 @@ private:
     /// Whether two patches have as many rims and no vertex in common. @pre the vertices of `a` are marked.
     [[nodiscard]] bool are_apart(std::size_t a, std::size_t b) const
     {
-        const SmoothPatch &s = patches_[a], &t = patches_[b];
+        const SmoothPatch &s = map_.patches[a], &t = map_.patches[b];
         return !s.rims.empty() && s.rims.size() == t.rims.size() &&
                std::none_of(t.vertices.begin(), t.vertices.end(),
                             [&](VertexId v) { return vertex_seen_.has(v.index()); });
@@ -615,13 +508,13 @@ private:
         std::vector<char> leaving(model_.vertices.size(), 0);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
-            if (edge.from == edge.to || !is_wall(patch_of_use_[2 * e]) || !is_wall(patch_of_use_[2 * e + 1]))
+            if (edge.from == edge.to || !is_wall(map_.of_use[2 * e]) || !is_wall(map_.of_use[2 * e + 1]))
                 continue;
             for (const VertexId v : {edge.from, edge.to})
                 leaving[v.index()] = static_cast<char>(std::min(leaving[v.index()] + 1, 2));
         }
         const auto fans = [&](std::size_t end) {
-            return end != kNone && std::ranges::any_of(patches_[end].vertices,
+            return end != kNone && std::ranges::any_of(map_.patches[end].vertices,
                                                        [&](VertexId v) { return leaving[v.index()] > 1; });
         };
         return fans(reading.source) || fans(reading.target);
@@ -632,7 +525,7 @@ private:
     [[nodiscard]] std::vector<FaceId> all_faces() const
     {
         std::vector<FaceId> faces;
-        for (const SmoothPatch& patch : patches_)
+        for (const SmoothPatch& patch : map_.patches)
             faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
         return faces;
     }
@@ -640,7 +533,7 @@ private:
     /// Whether a wall of the reading in `part_of_` uses an edge this way.
     [[nodiscard]] bool on_wall(EdgeUse use) const
     {
-        const std::size_t patch = patch_of_use_[number_of(use)];
+        const std::size_t patch = map_.of_use[number_of(use)];
         return patch != kNone && part_of_[patch] != kNone;
     }
 
@@ -651,7 +544,7 @@ private:
         part_of_[reading.source] = kNone;
         if (reading.target != kNone) part_of_[reading.target] = kNone;
         std::vector<WallPart> parts;
-        for (std::size_t start = 0; start < patches_.size(); ++start) {
+        for (std::size_t start = 0; start < map_.patches.size(); ++start) {
             if (part_of_[start] != unseen) continue;
             part_of_[start] = parts.size();
             parts.push_back({flood(start, unseen), 0, kNone, kNone, false});
@@ -671,14 +564,14 @@ private:
         std::vector<std::size_t> front{start};
         long euler = 0;
         for (std::size_t i = 0; i < front.size(); ++i) {
-            const SmoothPatch& patch = patches_[front[i]];
+            const SmoothPatch& patch = map_.patches[front[i]];
             euler += patch.inner_euler;
             for (const VertexId v : patch.vertices) euler += vertex_seen_.add(v.index()) ? 1 : 0;
             for (const EdgeId e : patch.edges) {
                 if (!edge_seen_.add(e.index())) continue;
                 --euler;
                 for (const std::size_t use : {2 * e.index(), 2 * e.index() + 1}) {
-                    const std::size_t other = patch_of_use_[use];
+                    const std::size_t other = map_.of_use[use];
                     if (other == kNone || part_of_[other] != unseen) continue;
                     part_of_[other] = part_of_[start];
                     front.push_back(other);
@@ -693,13 +586,13 @@ private:
     void count_rim(EdgeUse use, std::vector<WallPart>& parts)
     {
         if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
-        ++parts[part_of_[patch_of_use_[number_of(use)]]].rims;
+        ++parts[part_of_[map_.of_use[number_of(use)]]].rims;
         bool free = true;
         while (use_seen_.add(number_of(use))) {
-            free = free && patch_of_use_[number_of(opposite(use))] == kNone;
-            use = next_[number_of(use)];
-            for (std::size_t turns = 0; on_wall(opposite(use)) && turns <= next_.size(); ++turns)
-                use = next_[number_of(opposite(use))];
+            free = free && map_.of_use[number_of(opposite(use))] == kNone;
+            use = map_.next[number_of(use)];
+            for (std::size_t turns = 0; on_wall(opposite(use)) && turns <= map_.next.size(); ++turns)
+                use = map_.next[number_of(opposite(use))];
         }
         windows_ += free ? 1 : 0;
     }
@@ -707,12 +600,12 @@ private:
     /// Note which rims of an end the parts touch, and count the rims that they have there.
     void touch(std::size_t end, std::size_t WallPart::*rim, std::vector<WallPart>& parts)
     {
-        const std::vector<Rim>& all = patches_[end].rims;
+        const std::vector<Rim>& all = map_.patches[end].rims;
         for (std::size_t r = 0; r < all.size(); ++r) {
             for (const EdgeUse& use : all[r].uses) {
                 if (!on_wall(opposite(use))) continue;
                 count_rim(opposite(use), parts);
-                WallPart& part = parts[part_of_[patch_of_use_[number_of(opposite(use))]]];
+                WallPart& part = parts[part_of_[map_.of_use[number_of(opposite(use))]]];
                 part.several = part.several || (part.*rim != kNone && part.*rim != r);
                 part.*rim = r;
             }
@@ -724,9 +617,9 @@ private:
     /// Whether every vertex on the rim of an end is on a wall.
     [[nodiscard]] bool walled_in(std::size_t end, const Reading& reading) const
     {
-        for (const Rim& rim : patches_[end].rims) {
+        for (const Rim& rim : map_.patches[end].rims) {
             for (const EdgeUse& use : rim.uses) {
-                const auto& at = patches_at_[use_from(model_, use).index()];
+                const auto& at = map_.at[use_from(model_, use).index()];
                 if (std::all_of(at.begin(), at.end(),
                                 [&](std::size_t p) { return p == reading.source || p == reading.target; }))
                     return false;
@@ -741,7 +634,7 @@ private:
         if (free_.empty()) return VolumeClass::closed;
         if (reading.source == kNone) return VolumeClass::V;
         if (reading.target == kNone) return VolumeClass::IV;
-        if (patches_.size() == 2) return VolumeClass::I;
+        if (map_.patches.size() == 2) return VolumeClass::I;
         const bool both_bare = !walled_in(reading.source, reading) && !walled_in(reading.target, reading);
         return both_bare ? VolumeClass::II : VolumeClass::III;
     }
@@ -773,7 +666,7 @@ private:
             return {"every flat face that faces " + names(roles.source) +
                     " is the other end, at several heights: " + names(roles.target)};
         }
-        const std::size_t loops = patches_[reading.source].rims.size();
+        const std::size_t loops = map_.patches[reading.source].rims.size();
         return {"two ends, " + names(roles.source) + " and " + names(roles.target) + ", with " +
                     std::to_string(loops) + (loops == 1 ? " loop each" : " loops each") +
                     " and no vertex in common",
@@ -787,21 +680,15 @@ private:
     std::vector<std::vector<FaceUse>> uses_;
     std::vector<double> angle_; ///< of each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
-    std::vector<SmoothPatch> patches_;
-    std::vector<SteppedEnds> stepped_;                 ///< of readings with several patches at an end
-    std::vector<std::size_t> patch_of_use_;            ///< `kNone` for a use that no face makes
-    std::vector<EdgeUse> next_;                        ///< of each use in its face's loop
-    std::vector<std::vector<std::size_t>> patches_at_; ///< of each vertex
-    std::vector<EdgeUse> free_;                        ///< uses whose edge has no other
+    PatchMap map_;
+    std::vector<SteppedEnds> stepped_; ///< of readings with several patches at an end
+    std::vector<EdgeUse> free_;        ///< uses whose edge has no other
     std::vector<std::size_t> part_of_; ///< of each patch in the reading at hand; `kNone`: an end
     std::size_t windows_ = 0;          ///< of the reading that was last asked about
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;
-    bool used_twice_ = false;  ///< faces have an edge the same way: what follows is not counted
-    std::vector<Taken> taken_; ///< by each patch as an end
-    Taken whole_;              ///< what all patches have of that; free loops as contacts
-    long euler_ = 0;           ///< what all patches have within
-    std::size_t parts_ = 0;    ///< of patches that hang together over edges
+    bool used_twice_ = false;        ///< faces have an edge the same way
+    std::optional<WallTally> tally_; ///< none then
 };
 
 } // namespace
