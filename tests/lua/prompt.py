@@ -10,12 +10,17 @@ import sys
 import time
 
 PATIENCE = 20  # [s] for an answer, on a machine that is busy with other things
+SKIPPED = 77  # the exit code that the list of tests knows
 
 
 class Terminal:
     def __init__(self, *words):
         self.told = ""
-        self.process, self.terminal = pty.fork()
+        try:
+            self.process, self.terminal = pty.fork()
+        except OSError as error:  # a container without /dev/pts
+            print("no terminal can be had here (%s): the prompt is not tested" % error)
+            sys.exit(SKIPPED)
         if self.process == 0:
             os.execv(words[0], words)
 
