@@ -19,8 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostAtOnce = std::size_t(1) << 30; // counts of MPI are of 31 bits
-
 // MPI waits by asking without pause, which takes a core from who works: here it is asked now and then.
 constexpr std::chrono::microseconds kShortest = 20us,
                                     kLongest = 2ms; // a choice; a task takes a tenth of a second and more

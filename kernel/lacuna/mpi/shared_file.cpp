@@ -10,9 +10,6 @@
 namespace lacuna::mpi {
 namespace {
 
-/// Counts of MPI are of 31 bits.
-constexpr std::size_t kMostAtOnce = std::size_t(1) << 30;
-
 class File : public SharedFile {
 public:
     File(const std::string& path, std::string name) : name_(std::move(name))
