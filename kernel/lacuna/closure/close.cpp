@@ -105,6 +105,19 @@ constexpr double kLean = 20 * std::numbers::pi / 180;
 /// Ways to shape what is missing that differ by more than this share of the volume are both said. A choice.
 constexpr double kToBeSaid = 0.01;
 
+/// The share of each of the source's rims' edges that has no wall.
+std::vector<double> shares_without_walls(const OpenVolume& volume)
+{
+    const auto uses = edge_uses(volume.model);
+    std::vector<double> shares;
+    for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
+        const auto bare = std::ranges::count_if(
+            rim.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        shares.push_back(static_cast<double>(bare) / static_cast<double>(rim.uses.size()));
+    }
+    return shares;
+}
+
 /// A volume being sealed as one of a class, in one way after another.
 class Sealer {
 public:
@@ -195,13 +208,8 @@ private:
     {
         if (way.edges != EdgeShape::follow || options_.edge_shape != EdgeShape::automatic || !options_.hints)
             return;
-        const auto uses = edge_uses(volume_.model);
-        const std::vector<Rim> source = rims(volume_.model, volume_.faces(Role::source));
-        const bool bare = std::ranges::any_of(source, [&](const Rim& rim) {
-            return std::ranges::all_of(
-                rim.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
-        });
-        if (!bare) return;
+        const auto is_bare = [](double share) { return share == 1; };
+        if (std::ranges::none_of(shares_without_walls(volume_), is_bare)) return;
         const OpenVolume followed = sealed_;
         const double encloses = enclosed_volume(followed);
         const bool seals = would_seal({EdgeShape::straight}, match);
@@ -338,15 +346,9 @@ Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value
     return closure;
 }
 
-/// Whether some of the source's rim has no wall.
 bool lacks_walls(const OpenVolume& volume)
 {
-    const auto uses = edge_uses(volume.model);
-    const std::vector<Rim> source = rims(volume.model, volume.faces(Role::source));
-    return std::ranges::any_of(source, [&](const Rim& rim) {
-        return std::ranges::any_of(rim.uses,
-                                   [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
-    });
+    return std::ranges::any_of(shares_without_walls(volume), [](double share) { return share > 0; });
 }
 
 /// Seal a volume of class IV that lacks walls as well: the source's shape, moved onto the tops of the walls
