@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/carried_frame.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 
@@ -260,30 +261,16 @@ std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
     return samples;
 }
 
-/// Which way the line through the sections' middles goes at each of them, over a length as great as the
-/// section is wide: the levels of coarse facets lean, and their middles stray a little from step to step.
+/// Which way the line through the sections' middles goes at each of them.
 std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
 {
     std::vector<Vec3> middles;
-    for (const LevelLine& line : lines) middles.push_back(geometry::mean_point(sampled(line)));
-    std::vector<Vec3> ways;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-        const double wide = geometry::length(lines[k].points) / std::numbers::pi;
-        std::size_t low = k, high = k;
-        do {
-            low -= low > 0 ? 1 : 0;
-            high += high + 1 < lines.size() ? 1 : 0;
-        } while ((middles[high] - middles[low]).norm() < wide && (low > 0 || high + 1 < lines.size()));
-        ways.push_back((middles[high] - middles[low]).stableNormalized());
+    std::vector<double> widths;
+    for (const LevelLine& line : lines) {
+        middles.push_back(geometry::mean_point(sampled(line)));
+        widths.push_back(geometry::length(line.points) / std::numbers::pi);
     }
-    return ways;
-}
-
-/// The least turn from one way to another; none where there is no way.
-Eigen::Matrix3d least_turn(const Vec3& from, const Vec3& to)
-{
-    if (!(from.norm() > 0 && to.norm() > 0)) return Eigen::Matrix3d::Identity();
-    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+    return geometry::ways_along(middles, widths);
 }
 
 /// A closed section that starts where it lies on the one below with the least turn: at the best sample, and
@@ -427,8 +414,9 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     const std::vector<Vec3> ways = guess ? ways_along(lines) : std::vector<Vec3>{};
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const LevelLine& line = lines[k];
-        sections.push_back(guess && k > 0 ? aligned(line, sections.back(), least_turn(ways[k - 1], ways[k]))
-                                          : sampled(line));
+        sections.push_back(guess && k > 0
+                               ? aligned(line, sections.back(), geometry::least_turn(ways[k - 1], ways[k]))
+                               : sampled(line));
         result.areas.push_back(complete(line, sections.back()));
         if (sections.back().size() != sections.front().size()) return {};
     }
