@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/common_turn.h>
 
 #include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/carried_frame.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/surface/detail/linking_map.h>
 
@@ -16,14 +17,6 @@ namespace {
 
 /// Points round a rim: one every 4 degrees, and a parabola finds the shift between them.
 constexpr std::size_t kSamples = 96;
-
-std::vector<Vec3> round_points(const Chain& chain)
-{
-    std::vector<double> at;
-    for (std::size_t i = 0; i < kSamples; ++i)
-        at.push_back(chain.length() * static_cast<double>(i) / static_cast<double>(kSamples));
-    return chain.points(at);
-}
 
 /// Points of source and target that belong together, with the length of rim they stand for.
 struct RimPair {
@@ -57,8 +50,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
 {
     if (!(source_area.norm() > 0) || !(target_area.norm() > 0)) return std::nullopt;
     const Vec3 normal = target_area.normalized();
-    const Eigen::Matrix3d upright =
-        Eigen::Quaterniond::FromTwoVectors(source_area, target_area).toRotationMatrix();
+    const Eigen::Matrix3d upright = geometry::least_turn(source_area, target_area);
 
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     double weight = 0;
@@ -92,26 +84,6 @@ std::optional<Eigen::Matrix3d> common_turn(std::span<const LinkingSurface> links
         target_area += geometry::newell_vector(round_points(link.target));
     }
     return fitted_turn(pairs_of(links), source_area, target_area);
-}
-
-/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings
-/// closest.
-double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
-{
-    const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
-    for (Vec3& p : source) p = turn * (p - from);
-    for (Vec3& p : target) p -= to;
-    std::vector<double> apart(kSamples, 0);
-    for (std::size_t k = 0; k < kSamples; ++k) {
-        for (std::size_t i = 0; i < kSamples; ++i)
-            apart[k] += (source[i] - target[(i + k) % kSamples]).squaredNorm();
-    }
-    const auto best = static_cast<std::size_t>(std::min_element(apart.begin(), apart.end()) - apart.begin());
-    const double low = apart[(best + kSamples - 1) % kSamples], high = apart[(best + 1) % kSamples];
-    const double bend = low + high - 2 * apart[best];
-    const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
-    const double share = (static_cast<double>(best) + between) / static_cast<double>(kSamples);
-    return share - std::floor(share);
 }
 
 double best_start(const LinkingSurface& link, const Eigen::Matrix3d& turn)
@@ -182,7 +154,7 @@ private:
             }
             for (std::size_t i = 0; i < kSamples; ++i) pairs.push_back({from[i], to[i], weight / kSamples});
         }
-        return fitted_turn(pairs, low, high).value_or(Eigen::Matrix3d::Identity());
+        return fitted_turn(pairs, low, high).value_or(geometry::least_turn(low, high));
     }
 
     std::span<const LinkingSurface> links_;
@@ -191,6 +163,33 @@ private:
 };
 
 } // namespace
+
+std::vector<Vec3> round_points(const Chain& chain)
+{
+    std::vector<double> at;
+    for (std::size_t i = 0; i < kSamples; ++i)
+        at.push_back(chain.length() * static_cast<double>(i) / static_cast<double>(kSamples));
+    return chain.points(at);
+}
+
+double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
+{
+    const std::size_t count = target.size();
+    const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
+    for (Vec3& p : source) p = turn * (p - from);
+    for (Vec3& p : target) p -= to;
+    std::vector<double> apart(count, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t i = 0; i < count; ++i)
+            apart[k] += (source[i] - target[(i + k) % count]).squaredNorm();
+    }
+    const auto best = static_cast<std::size_t>(std::min_element(apart.begin(), apart.end()) - apart.begin());
+    const double low = apart[(best + count - 1) % count], high = apart[(best + 1) % count];
+    const double bend = low + high - 2 * apart[best];
+    const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
+    const double share = (static_cast<double>(best) + between) / static_cast<double>(count);
+    return share - std::floor(share);
+}
 
 std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
                                                     std::span<const LinkingSurface> links)

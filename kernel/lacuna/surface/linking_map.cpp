@@ -3,10 +3,14 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/carried_frame.h>
 #include <lacuna/geometry/cut.h>
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
+#include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -16,6 +20,7 @@
 #include <numbers>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::surface {
 
@@ -85,6 +90,25 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     return geometry::solve_harmonic(problem, context);
 }
 
+/// Straight walls are even but for rounding; left alone, their rows stay affine images of the rims.
+constexpr double kEvenAlready = 1e-3;
+/// Columns looked at for where they lie in a section: one every degree.
+constexpr std::size_t kColumnsRound = 360;
+
+Vec3 on_facets(const Model& model, const WallPosition& place)
+{
+    const FacetPosition at[] = {place.at};
+    return points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front();
+}
+
+/// A value at a place of [0, 1] between values at even steps.
+double between(const std::vector<double>& values, double at)
+{
+    const double x = at * static_cast<double>(values.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(x), values.size() - 2);
+    return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
+}
+
 /// Whether an edge was made, between faces that were made.
 bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside)
 {
@@ -95,12 +119,13 @@ bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside
 
 } // namespace
 
-double unguided_target_start(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
+std::pair<double, double> unguided_target(const OpenVolume& volume, const LinkingSurface& link,
+                                          const RunContext& context)
 {
     const Model& model = volume.model;
     const LinkingFacets facets = facets_of(model, link.walls);
-    const Eigen::MatrixXd s = natural_coordinate(model, facets, link,
-                                                 shortest_way_up(model, facets, link, context), context);
+    const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
+    const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
     // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
     // length.
     const double length = link.target.length();
@@ -110,7 +135,7 @@ double unguided_target_start(const OpenVolume& volume, const LinkingSurface& lin
         sum += Vec2(std::cos(off), std::sin(off));
     }
     const double start = std::atan2(sum.y(), sum.x()) / (2 * std::numbers::pi);
-    return (start - std::floor(start)) * length;
+    return {(start - std::floor(start)) * length, s(cut.back(), 0)};
 }
 
 double target_coordinate(const LinkingSurface& link, double target_at)
@@ -210,6 +235,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     face_of_ = facets.face;
     triangle_of_ = facets.number;
     if (link.lines.empty()) measure_heights(model);
+    if (link.lines.size() <= 1 && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
 }
 
@@ -221,16 +247,12 @@ void LinkingMap::measure_heights(const Model& model)
     for (std::size_t c = 0; c < kColumns; ++c) {
         std::vector<Vec3> column;
         for (std::size_t k = 0; k <= kSteps; ++k) {
-            const WallPosition place = locate(static_cast<double>(c) / kColumns,
-                                              static_cast<double>(k) / kSteps);
-            const FacetPosition at[] = {place.at};
-            column.push_back(points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front());
+            column.push_back(
+                on_facets(model, locate(static_cast<double>(c) / kColumns, static_cast<double>(k) / kSteps)));
         }
         const std::vector<double> arc = geometry::arc_lengths(column);
         for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
     }
-    // Straight walls are even but for rounding; left alone, their rows stay affine images of the rims.
-    constexpr double kEvenAlready = 1e-3;
     double off = 0;
     for (std::size_t k = 0; k <= kSteps; ++k)
         off = std::max(off, std::abs(even_[k] - static_cast<double>(k) / kSteps));
@@ -247,8 +269,109 @@ double LinkingMap::from_even(double height) const
     return high > low ? std::clamp((k + (height - low) / (high - low)) / steps, 0.0, 1.0) : k / steps;
 }
 
+void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)
+{
+    // Sections are a quarter of the radius apart: frames carried over bends in several planes are within 2°.
+    constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
+    constexpr double kLeads = 0.2;      // of a section's radius, by which middles say a way. A choice
+    constexpr std::size_t kShifts = 96; // places that are turned onto others: one every 4 degrees
+    const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
+    std::vector<std::vector<Vec3>> rings;
+    std::vector<Vec3> middles, areas;
+    std::vector<double> widths;
+    for (double row = 0; row <= rows; ++row) {
+        check_cancelled(context);
+        row_at_.push_back(from_even(row / rows));
+        std::vector<Vec3>& ring = rings.emplace_back();
+        for (std::size_t i = 0; i < kColumnsRound; ++i)
+            ring.push_back(on_facets(model, locate(static_cast<double>(i) / kColumnsRound, row_at_.back())));
+        areas.push_back(geometry::newell_vector(ring));
+        ring.push_back(ring.front());
+        middles.push_back(geometry::mean_point(geometry::even_places(ring, kShifts)));
+        widths.push_back(geometry::length(ring) / (2 * std::numbers::pi));
+    }
+    // Sections within each other, as of a flat ring, lead nowhere: their planes say how they are turned.
+    const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
+    const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
+    std::vector<std::vector<double>> round; // share of each section's length at even steps of the harmonic s
+    std::vector<Vec3> first;
+    std::vector<double> turned; // of the carried frame against the harmonic s, in turns
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+        // Seen along the way: sections of coarse facets, and those between rims aslant, lean.
+        const Vec3 way = ways[k].stableNormalized();
+        for (Vec3& p : rings[k]) p -= way.dot(p - middles[k]) * way;
+        round.push_back(geometry::arc_lengths(rings[k]));
+        const double length = round.back().back();
+        for (double& at : round.back()) at /= length;
+        std::vector<Vec3> even = geometry::even_places(rings[k], kShifts);
+        even.pop_back();
+        if (k == 0) first = even;
+        if (k > 0) turn = geometry::least_turn(ways[k - 1], ways[k]) * turn;
+        const double off = best_shift(first, std::move(even), turn) - turn_;
+        turn_ += off - std::round(off);
+        turned.push_back(turn_);
+        most_turned_ = std::max(most_turned_, std::abs(turn_));
+    }
+    double worst = 0;
+    for (std::size_t k = 0; k < round.size(); ++k) {
+        const double up = static_cast<double>(k) / rows;
+        const double frame = link.lines.empty() ? turned[k] - up * turn_ : 0;
+        columns_.emplace_back();
+        for (std::size_t i = 0; i <= kColumnsRound; ++i) {
+            const double s = static_cast<double>(i) / kColumnsRound;
+            const double at = frame + (1 - up) * between(round.front(), s) + up * between(round.back(), s);
+            const geometry::PolylinePlace place = geometry::place_at(round[k], at - std::floor(at));
+            columns_[k].push_back(std::floor(at) +
+                                  (static_cast<double>(place.segment) + place.fraction) / kColumnsRound);
+            worst = std::max(worst, std::abs(columns_[k].back() - s));
+        }
+    }
+    if (worst < kEvenAlready) columns_.clear();
+    if (std::abs(turn_) < kEvenAlready) turn_ = 0;
+}
+
+double LinkingMap::harmonic(double s, double t) const
+{
+    if (columns_.empty()) return s;
+    const auto above = std::upper_bound(row_at_.begin() + 1, row_at_.end() - 1, t);
+    const auto row = static_cast<std::size_t>(above - row_at_.begin() - 1);
+    const double f = std::clamp((t - row_at_[row]) / (row_at_[row + 1] - row_at_[row]), 0.0, 1.0);
+    const double at = s - std::floor(s);
+    return std::floor(s) + (1 - f) * between(columns_[row], at) + f * between(columns_[row + 1], at);
+}
+
+Vec2 LinkingMap::upright(const Vec2& place) const
+{
+    if (columns_.empty()) return place;
+    double low = place.x() - 2, high = place.x() + 2; // a column strays by less from its harmonic s
+    while (high - low > 1e-12) {
+        const double middle = (low + high) / 2;
+        (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
+    }
+    return {(low + high) / 2, place.y()};
+}
+
+bool runs_straight(const Model& model, const LinkingSurface& link)
+{
+    constexpr double kAcross = 0.01; // cosine of 0.6° off a right angle: facets of single precision
+    const Vec3 way = (geometry::mean_point(round_points(link.target)) -
+                      geometry::mean_point(round_points(link.source)))
+                         .stableNormalized();
+    return std::ranges::all_of(link.walls, [&](FaceId wall) {
+        return std::ranges::all_of(model[wall].triangles, [&](const Triangle& t) {
+            const Vec3 normal = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            return std::abs(normal.dot(way)) <= kAcross * normal.norm();
+        });
+    });
+}
+
 WallPosition LinkingMap::locate(double s, double t) const
 {
+    if (!columns_.empty()) {
+        s = harmonic(s, t);
+        s -= std::floor(s);
+    }
     const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
     const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
     return {face_of_[original], {triangle_of_[original], hit.barycentric}};
@@ -287,8 +410,8 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     const Triangle& t = facets.triangles[found->second];
                     const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
                                                             t.begin());
-                    const Vec2 a = corners[found->second][c];
-                    const Vec2 b = corners[found->second][(c + 1) % 3];
+                    const Vec2 a = upright(corners[found->second][c]);
+                    const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
                     piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
                     piece.height += (a.y() + b.y()) / 2;
                     along += std::abs(b.x() - a.x()) * width_;

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace lacuna::surface {
 
@@ -41,6 +42,9 @@ std::optional<std::size_t> use_leaving(const Model& model, const std::vector<Edg
     }
     return std::nullopt;
 }
+
+/// A seam that leaves the columns beside it by less is one of them [turns]: 1°. A choice.
+constexpr double kSeamTurns = 1.0 / 360;
 
 struct RimOf {
     std::map<EdgeId, std::size_t> rim; ///< rim number of each rim edge
@@ -181,6 +185,33 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
+/// Turn the target of walls that bend and have no side lines as a frame that is carried with the least
+/// rotation.
+void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
+{
+    if (runs_straight(volume.model, link)) return;
+    const LinkingMap map(volume, link, true, context);
+    if (map.turn() == 0) return;
+    const double length = link.target.length();
+    const double share = link.segments.front().target_from / length + map.turn();
+    const double start = (share - std::floor(share)) * length;
+    link.branch = map.target_branch() - map.turn();
+    link.segments.clear();
+    add_segments(volume.model, link, 0, link.source.length(), start, start + length);
+}
+
+/// Whether the only side line is where one face was cut open to be closed round, and turns about the walls.
+bool is_turning_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
+{
+    if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
+    const bool seam = std::ranges::all_of(link.lines.front().line.uses, [&](const EdgeUse& use) {
+        const std::vector<FaceUse>& beside = uses[use.edge.index()];
+        return beside.size() == 2 && beside[0].face == beside[1].face;
+    });
+    return seam && LinkingMap(volume, link, true, context).most_turned() > kSeamTurns;
+}
+
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
                          const Rim& target_rim, const std::vector<matching::SideLine>& lines,
                          std::span<const RimPair> pairs, const RunContext& context)
@@ -218,8 +249,10 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     const double t_end = link.target.length();
     const std::vector<PairedPlaces> places = places_of(model, link, pairs);
     if (link.lines.empty()) {
-        const double start = started ? 0 : unguided_target_start(volume, link, context);
+        double start = 0;
+        if (!started) std::tie(start, link.branch) = unguided_target(volume, link, context);
         add_paired_segments(model, link, places, 0, s_end, start, start + t_end);
+        if (!started) turn_least(volume, link, context);
     }
     for (std::size_t i = 0; i < link.lines.size(); ++i) {
         const bool last = i + 1 == link.lines.size();
@@ -274,6 +307,9 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
                     " stand on the same source loop without touching; the loop's walls must join");
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
+        if (is_turning_seam(volume, *by_rim[s], context))
+            by_rim[s] = make_link(volume, by_rim[s]->walls, source.rims[s], target.rims[t], {}, pairs,
+                                  context);
     }
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {

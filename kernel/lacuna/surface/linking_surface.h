@@ -38,8 +38,7 @@ struct LinkingSurface {
     std::vector<LinkingLine> lines;   ///< in walking order
     std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
     /// For a ring without side lines: where the shortest way up from the source's start meets the target rim,
-    /// as a number of turns round the ring. Set where the other loops tell it; else the walls themselves
-    /// decide.
+    /// as a number of turns round the ring. Not set where vertices of both rims that go together are given.
     std::optional<double> branch{};
 };
 

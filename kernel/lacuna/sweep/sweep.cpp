@@ -53,9 +53,8 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     if (!poor) return alone;
     const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(
         volume, surface::Turning::together, {}, context);
-    const bool same = std::none_of(as_one.begin(), as_one.end(), [](const surface::LinkingSurface& link) {
-        return link.branch.has_value();
-    });
+    const bool same = std::ranges::equal(as_one, links, {}, &surface::LinkingSurface::branch,
+                                         &surface::LinkingSurface::branch);
     if (same) return alone;
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, remaining(options, start),

@@ -3,6 +3,8 @@
 
 #include <lacuna/surface/linking_surface.h>
 
+#include <Eigen/Core>
+
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,6 +17,14 @@ struct CommonTurn {
     /// S of the target end of its shortest way up, with whole turns counted: see `LinkingSurface::branch`.
     double branch = 0;
 };
+
+/// Points at even lengths of a closed chain.
+std::vector<Vec3> round_points(const Chain& chain);
+
+/// The shift of the target's points against the source's, in turns [0, 1), that leaves the two rings, the first
+/// turned, closest about their centres.
+/// @pre  as many points on both, at even lengths round.
+double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
 /// The turns of linking surfaces without side lines; none for a linking surface that has them.
 ///

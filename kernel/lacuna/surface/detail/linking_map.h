@@ -6,6 +6,7 @@
 #include <lacuna/surface/linking_surface.h>
 #include <lacuna/surface/projector.h>
 
+#include <utility>
 #include <vector>
 
 namespace lacuna::surface {
@@ -22,6 +23,11 @@ struct WallPosition {
 /// Both coordinates are harmonic (mean value weights). They are given on the rims, by their segments, and on
 /// the side lines, which are upright. So the map is one to one (Tutte) whatever faces the walls are made of:
 /// stacked, in rows, with seams that do not line up.
+///
+/// Lines of one harmonic s crowd on the inner side of a bend. So in walls that bend and have no side line, or one
+/// alone, s of a section, a line of one t, is its share of the length round it, and the sections are turned against
+/// each other as frames that are carried from one to the next with the least rotation (Wang et al. 2008 compare
+/// such frames). Where the rims tell another turn, the rest is spread evenly over the way.
 class LinkingMap {
 public:
     /// @param void_edges  edges between void faces are among the rings and uprights.
@@ -31,7 +37,7 @@ public:
     [[nodiscard]] WallPosition locate(double s, double t) const;
 
     /// Where a model point of the walls lies; s but for whole turns.
-    [[nodiscard]] Vec2 place_of(Index point) const { return strip_.row(point).transpose(); }
+    [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.row(point).transpose()); }
 
     /// t at a share of the walls' length from source to target, in the mean over the columns. Where there are
     /// side lines t is that share already; without them a harmonic t rises faster where the walls are narrow.
@@ -39,6 +45,11 @@ public:
     /// s of the target end of the shortest way up a linking surface without side lines, with whole turns
     /// counted.
     [[nodiscard]] double target_branch() const { return branch_; }
+
+    /// How far frames carried with the least rotation have turned against the rims' segments, as shares of a turn:
+    /// on the target, and in the section where it is most.
+    [[nodiscard]] double turn() const { return turn_; }
+    [[nodiscard]] double most_turned() const { return most_turned_; }
 
     /// A piece of an edge in the strip.
     struct Piece {
@@ -75,6 +86,10 @@ public:
 
 private:
     void measure_heights(const topology::Model& model);
+    void measure_columns(const topology::Model& model, const LinkingSurface& link, const RunContext& context);
+    /// The harmonic s of column s at height t, and a harmonic place as one of columns.
+    [[nodiscard]] double harmonic(double s, double t) const;
+    [[nodiscard]] Vec2 upright(const Vec2& place) const;
     void find_rings(const topology::OpenVolume& volume, const LinkingSurface& link,
                     const std::vector<std::array<Vec2, 3>>& corners, bool void_edges);
 
@@ -85,15 +100,22 @@ private:
     double width_ = 1, height_ = 1;
     double branch_ = 0;
     std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
+    double turn_ = 0, most_turned_ = 0;
+    std::vector<double> row_at_; ///< t of rows of columns
+    std::vector<std::vector<double>>
+        columns_; ///< harmonic s at even steps of s, of each row; empty: the same
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
     std::vector<Upright> uprights_;
 };
 
 /// Where on the target chain of a linking surface without side lines the source chain's start belongs, so
-/// that the strip is sheared least [running length].
-double unguided_target_start(const topology::OpenVolume& volume, const LinkingSurface& link,
-                             const RunContext& context = {});
+/// that the strip is sheared least [running length], and the branch of that: see `LinkingSurface::branch`.
+std::pair<double, double> unguided_target(const topology::OpenVolume& volume, const LinkingSurface& link,
+                                          const RunContext& context = {});
+
+/// Whether the walls of a linking surface are straight lines beside each other, all about one way.
+bool runs_straight(const topology::Model& model, const LinkingSurface& link);
 
 /// s in [0, 1] of a running length of the target chain, by the linking surface's segments.
 double target_coordinate(const LinkingSurface& link, double target_at);
