@@ -240,9 +240,17 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     if (up.empty() || std::any_of(up.begin(), up.end(), in_doubt))
         up = climbs(volume, between, heights_of(volume, parts, {}, Digits::all, context));
     Rises result;
+    const std::set<VertexId> low = rim_vertices(volume, Role::source),
+                             high = rim_vertices(volume, Role::target);
     auto climb = up.begin();
     for (const EdgeId edge : between) {
-        const double own = *climb++;
+        double own = *climb++;
+        const Edge& e = model[edge];
+        // A void edge from end to end joins matched vertices, however far it leans.
+        if (e.origin == Origin::made_void && !(std::abs(own) > kLevel))
+            own = low.contains(e.from) && high.contains(e.to)   ? 1
+                  : low.contains(e.to) && high.contains(e.from) ? -1
+                                                                : 0;
         if (!(std::abs(own) > kLevel)) continue;
         const EdgeUse use{edge, own < 0};
         result[use_from(model, use)].push_back(
