@@ -19,7 +19,7 @@ using namespace lacuna::topology;
 
 namespace {
 
-/// A half disc of radius 1 round the traces of bores, each from its middle on the source to that on the target.
+/// What is left out of a half disc of radius 1.
 struct Bore {
     double from = 0, to = 0;          ///< along the straight side
     double along = 0.1, across = 0.1; ///< half axes

@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/parallel.h>
 #include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/carried_frame.h>
+#include <lacuna/geometry/minimal_frame.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 

@@ -242,15 +242,14 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     Rises result;
     const std::set<VertexId> low = rim_vertices(volume, Role::source),
                              high = rim_vertices(volume, Role::target);
+    const auto spans = [&](VertexId a, VertexId b) { return low.contains(a) && high.contains(b); };
     auto climb = up.begin();
     for (const EdgeId edge : between) {
         double own = *climb++;
         const Edge& e = model[edge];
         // A void edge from end to end joins matched vertices, however far it leans.
         if (e.origin == Origin::made_void && !(std::abs(own) > kLevel))
-            own = low.contains(e.from) && high.contains(e.to)   ? 1
-                  : low.contains(e.to) && high.contains(e.from) ? -1
-                                                                : 0;
+            own = spans(e.from, e.to) - spans(e.to, e.from);
         if (!(std::abs(own) > kLevel)) continue;
         const EdgeUse use{edge, own < 0};
         result[use_from(model, use)].push_back(

@@ -2,7 +2,7 @@
 #include <lacuna/surface/detail/common_turn.h>
 
 #include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/carried_frame.h>
+#include <lacuna/geometry/minimal_frame.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/surface/detail/linking_map.h>
 
@@ -14,9 +14,6 @@
 namespace lacuna::surface {
 
 namespace {
-
-/// Points round a rim: one every 4 degrees, and a parabola finds the shift between them.
-constexpr std::size_t kSamples = 96;
 
 /// Points of source and target that belong together, with the length of rim they stand for.
 struct RimPair {
@@ -129,8 +126,9 @@ private:
     static std::vector<Vec3> ring(const topology::Model& model, const LinkingMap& map, double height)
     {
         std::vector<Vec3> points;
-        for (std::size_t i = 0; i < kSamples; ++i) {
-            const WallPosition place = map.locate(static_cast<double>(i) / kSamples, map.from_even(height));
+        for (std::size_t i = 0; i < kRingPoints; ++i) {
+            const WallPosition place = map.locate(static_cast<double>(i) / kRingPoints,
+                                                  map.from_even(height));
             const FacetPosition at[] = {place.at};
             points.push_back(points_at(model, place.face, at).front());
         }
@@ -152,7 +150,8 @@ private:
                 pairs.push_back({geometry::mean_point(from), geometry::mean_point(to), weight});
                 continue;
             }
-            for (std::size_t i = 0; i < kSamples; ++i) pairs.push_back({from[i], to[i], weight / kSamples});
+            for (std::size_t i = 0; i < kRingPoints; ++i)
+                pairs.push_back({from[i], to[i], weight / kRingPoints});
         }
         return fitted_turn(pairs, low, high).value_or(geometry::least_turn(low, high));
     }
@@ -167,27 +166,26 @@ private:
 std::vector<Vec3> round_points(const Chain& chain)
 {
     std::vector<double> at;
-    for (std::size_t i = 0; i < kSamples; ++i)
-        at.push_back(chain.length() * static_cast<double>(i) / static_cast<double>(kSamples));
+    for (std::size_t i = 0; i < kRingPoints; ++i)
+        at.push_back(chain.length() * static_cast<double>(i) / static_cast<double>(kRingPoints));
     return chain.points(at);
 }
 
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn)
 {
-    const std::size_t count = target.size();
     const Vec3 from = geometry::mean_point(source), to = geometry::mean_point(target);
     for (Vec3& p : source) p = turn * (p - from);
     for (Vec3& p : target) p -= to;
-    std::vector<double> apart(count, 0);
-    for (std::size_t k = 0; k < count; ++k) {
-        for (std::size_t i = 0; i < count; ++i)
-            apart[k] += (source[i] - target[(i + k) % count]).squaredNorm();
+    std::vector<double> apart(kRingPoints, 0);
+    for (std::size_t k = 0; k < kRingPoints; ++k) {
+        for (std::size_t i = 0; i < kRingPoints; ++i)
+            apart[k] += (source[i] - target[(i + k) % kRingPoints]).squaredNorm();
     }
     const auto best = static_cast<std::size_t>(std::min_element(apart.begin(), apart.end()) - apart.begin());
-    const double low = apart[(best + count - 1) % count], high = apart[(best + 1) % count];
+    const double low = apart[(best + kRingPoints - 1) % kRingPoints], high = apart[(best + 1) % kRingPoints];
     const double bend = low + high - 2 * apart[best];
     const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
-    const double share = (static_cast<double>(best) + between) / static_cast<double>(count);
+    const double share = (static_cast<double>(best) + between) / static_cast<double>(kRingPoints);
     return share - std::floor(share);
 }
 

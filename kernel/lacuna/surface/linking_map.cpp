@@ -4,9 +4,10 @@
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/carried_frame.h>
+#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/cut.h>
 #include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/minimal_frame.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
@@ -20,7 +21,6 @@
 #include <numbers>
 #include <set>
 #include <unordered_map>
-#include <utility>
 
 namespace lacuna::surface {
 
@@ -102,7 +102,7 @@ Vec3 on_facets(const Model& model, const WallPosition& place)
 }
 
 /// A value at a place of [0, 1] between values at even steps.
-double between(const std::vector<double>& values, double at)
+double value_at(const std::vector<double>& values, double at)
 {
     const double x = at * static_cast<double>(values.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(x), values.size() - 2);
@@ -271,10 +271,10 @@ double LinkingMap::from_even(double height) const
 
 void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)
 {
-    // Sections are a quarter of the radius apart: frames carried over bends in several planes are within 2°.
+    // Sections are a quarter of the radius apart: frames moved over bends in several planes are within 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
-    constexpr double kLeads = 0.2;      // of a section's radius, by which middles say a way. A choice
-    constexpr std::size_t kShifts = 96; // places that are turned onto others: one every 4 degrees
+    constexpr double kLeads = 0.2; // of a section's radius, by which middles say a way. A choice
+    constexpr double kBends = std::numbers::pi / 180; // less is taken for straight. A choice
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
@@ -285,9 +285,9 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         std::vector<Vec3>& ring = rings.emplace_back();
         for (std::size_t i = 0; i < kColumnsRound; ++i)
             ring.push_back(on_facets(model, locate(static_cast<double>(i) / kColumnsRound, row_at_.back())));
-        areas.push_back(geometry::newell_vector(ring));
+        areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
-        middles.push_back(geometry::mean_point(geometry::even_places(ring, kShifts)));
+        middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / (2 * std::numbers::pi));
     }
     // Sections within each other, as of a flat ring, lead nowhere: their planes say how they are turned.
@@ -295,16 +295,15 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
     std::vector<std::vector<double>> round; // share of each section's length at even steps of the harmonic s
     std::vector<Vec3> first;
-    std::vector<double> turned; // of the carried frame against the harmonic s, in turns
+    std::vector<double> turned; // the frame against the harmonic s, in turns
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
         // Seen along the way: sections of coarse facets, and those between rims aslant, lean.
-        const Vec3 way = ways[k].stableNormalized();
-        for (Vec3& p : rings[k]) p -= way.dot(p - middles[k]) * way;
+        for (Vec3& p : rings[k]) p -= ways[k].dot(p - middles[k]) * ways[k];
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
         for (double& at : round.back()) at /= length;
-        std::vector<Vec3> even = geometry::even_places(rings[k], kShifts);
+        std::vector<Vec3> even = geometry::even_places(rings[k], kRingPoints);
         even.pop_back();
         if (k == 0) first = even;
         if (k > 0) turn = geometry::least_turn(ways[k - 1], ways[k]) * turn;
@@ -312,6 +311,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         turn_ += off - std::round(off);
         turned.push_back(turn_);
         most_turned_ = std::max(most_turned_, std::abs(turn_));
+        bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kBends;
     }
     double worst = 0;
     for (std::size_t k = 0; k < round.size(); ++k) {
@@ -320,7 +320,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         columns_.emplace_back();
         for (std::size_t i = 0; i <= kColumnsRound; ++i) {
             const double s = static_cast<double>(i) / kColumnsRound;
-            const double at = frame + (1 - up) * between(round.front(), s) + up * between(round.back(), s);
+            const double at = frame + (1 - up) * value_at(round.front(), s) + up * value_at(round.back(), s);
             const geometry::PolylinePlace place = geometry::place_at(round[k], at - std::floor(at));
             columns_[k].push_back(std::floor(at) +
                                   (static_cast<double>(place.segment) + place.fraction) / kColumnsRound);
@@ -333,12 +333,11 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
 
 double LinkingMap::harmonic(double s, double t) const
 {
-    if (columns_.empty()) return s;
     const auto above = std::upper_bound(row_at_.begin() + 1, row_at_.end() - 1, t);
     const auto row = static_cast<std::size_t>(above - row_at_.begin() - 1);
     const double f = std::clamp((t - row_at_[row]) / (row_at_[row + 1] - row_at_[row]), 0.0, 1.0);
     const double at = s - std::floor(s);
-    return std::floor(s) + (1 - f) * between(columns_[row], at) + f * between(columns_[row + 1], at);
+    return std::floor(s) + (1 - f) * value_at(columns_[row], at) + f * value_at(columns_[row + 1], at);
 }
 
 Vec2 LinkingMap::upright(const Vec2& place) const
@@ -368,10 +367,7 @@ bool runs_straight(const Model& model, const LinkingSurface& link)
 
 WallPosition LinkingMap::locate(double s, double t) const
 {
-    if (!columns_.empty()) {
-        s = harmonic(s, t);
-        s -= std::floor(s);
-    }
+    if (!columns_.empty()) s = 0.5 + std::remainder(harmonic(s, t) - 0.5, 1.0);
     const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
     const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
     return {face_of_[original], {triangle_of_[original], hit.barycentric}};

@@ -185,7 +185,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
-/// Turn the target of walls that bend and have no side lines as a frame that is carried with the least
+/// Turn the target of walls that bend and have no side lines as a frame that is moved with the least
 /// rotation.
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
@@ -200,16 +200,18 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is where one face was cut open to be closed round, and turns about the walls.
-bool is_turning_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
+/// Whether the only side line is a seam, where faces that close round were cut open, and no guide: it turns
+/// about the walls, or they bend and are several faces, whose rows it would draw aslant.
+bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
     const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
-    const bool seam = std::ranges::all_of(link.lines.front().line.uses, [&](const EdgeUse& use) {
+    for (const EdgeUse& use : link.lines.front().line.uses) {
         const std::vector<FaceUse>& beside = uses[use.edge.index()];
-        return beside.size() == 2 && beside[0].face == beside[1].face;
-    });
-    return seam && LinkingMap(volume, link, true, context).most_turned() > kSeamTurns;
+        if (beside.size() != 2 || beside[0].face != beside[1].face) return false;
+    }
+    const LinkingMap map(volume, link, true, context);
+    return map.most_turned() > kSeamTurns || (map.bends() && link.walls.size() > 1);
 }
 
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,
@@ -307,9 +309,8 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
                     " stand on the same source loop without touching; the loop's walls must join");
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
-        if (is_turning_seam(volume, *by_rim[s], context))
-            by_rim[s] = make_link(volume, by_rim[s]->walls, source.rims[s], target.rims[t], {}, pairs,
-                                  context);
+        if (!is_idle_seam(volume, *by_rim[s], context)) continue;
+        by_rim[s] = make_link(volume, by_rim[s]->walls, source.rims[s], target.rims[t], {}, pairs, context);
     }
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {

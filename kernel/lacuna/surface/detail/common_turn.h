@@ -18,12 +18,15 @@ struct CommonTurn {
     double branch = 0;
 };
 
-/// Points at even lengths of a closed chain.
+/// Points round a ring: one every 4 degrees, and a parabola finds the shift between them.
+inline constexpr std::size_t kRingPoints = 96;
+
+/// `kRingPoints` points at even lengths of a closed chain.
 std::vector<Vec3> round_points(const Chain& chain);
 
-/// The shift of the target's points against the source's, in turns [0, 1), that leaves the two rings, the first
-/// turned, closest about their centres.
-/// @pre  as many points on both, at even lengths round.
+/// The shift of the target's points against the source's, in turns [0, 1), that leaves the turned rings
+/// closest about their centres.
+/// @pre  `kRingPoints` points on both, at even lengths round.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
 /// The turns of linking surfaces without side lines; none for a linking surface that has them.

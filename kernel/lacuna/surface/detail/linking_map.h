@@ -24,10 +24,10 @@ struct WallPosition {
 /// the side lines, which are upright. So the map is one to one (Tutte) whatever faces the walls are made of:
 /// stacked, in rows, with seams that do not line up.
 ///
-/// Lines of one harmonic s crowd on the inner side of a bend. So in walls that bend and have no side line, or one
-/// alone, s of a section, a line of one t, is its share of the length round it, and the sections are turned against
-/// each other as frames that are carried from one to the next with the least rotation (Wang et al. 2008 compare
-/// such frames). Where the rims tell another turn, the rest is spread evenly over the way.
+/// Lines of one harmonic s crowd on the inner side of a bend. So where there is no side line, or one alone,
+/// and the walls are not straight, s is the share of the length round a section, which is a line of one t.
+/// Sections are turned against each other as frames that are moved from one to the next with the least
+/// rotation. Where the rims tell another turn, the rest is spread evenly over the way.
 class LinkingMap {
 public:
     /// @param void_edges  edges between void faces are among the rings and uprights.
@@ -46,10 +46,11 @@ public:
     /// counted.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// How far frames carried with the least rotation have turned against the rims' segments, as shares of a turn:
-    /// on the target, and in the section where it is most.
+    /// How far frames moved with the least rotation have turned against the rims' segments: on the target,
+    /// and in the section where it is most [turns].
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
+    [[nodiscard]] bool bends() const { return bends_; } ///< the way through the sections' middles
 
     /// A piece of an edge in the strip.
     struct Piece {
@@ -101,9 +102,9 @@ private:
     double branch_ = 0;
     std::vector<double> even_; ///< share of the way up at equal steps of t; empty with side lines
     double turn_ = 0, most_turned_ = 0;
-    std::vector<double> row_at_; ///< t of rows of columns
-    std::vector<std::vector<double>>
-        columns_; ///< harmonic s at even steps of s, of each row; empty: the same
+    bool bends_ = false;
+    std::vector<double> row_at_;               ///< t of rows of columns
+    std::vector<std::vector<double>> columns_; ///< of each row harmonic s at even steps of s; empty: the same
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
     std::vector<Upright> uprights_;

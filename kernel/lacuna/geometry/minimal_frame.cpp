@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/carried_frame.h>
+#include <lacuna/geometry/minimal_frame.h>
 
 #include <Eigen/Geometry>
 

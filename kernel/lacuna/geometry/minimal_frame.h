@@ -8,8 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Frames that are carried through sections with no rotation about the way (rotation-minimising frames: Wang,
-/// Jüttler, Zheng and Liu 2008), one least turn after the other.
+/// Rotation-minimising frames (Wang, Jüttler, Zheng and Liu 2008): from section to section by the least turn.
 namespace lacuna::geometry {
 
 /// Which way the line through the sections' middles goes at each of them, over a length as great as the
