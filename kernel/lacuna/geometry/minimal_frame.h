@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Rotation-minimising frames (Wang, Jüttler, Zheng and Liu 2008): from section to section by the least turn.
+/// Rotation-minimising frames @cite wang_2008_frames, from section to section by the least turn.
 namespace lacuna::geometry {
 
 /// Which way the line through the sections' middles goes at each of them, over a length as great as the
