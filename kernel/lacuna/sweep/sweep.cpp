@@ -6,6 +6,7 @@
 #include <lacuna/core/number_text.h>
 #include <lacuna/core/progress.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/surface/default_size.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/finer_by_default.h>
@@ -138,7 +139,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
                      const RunContext& context)
 {
     const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
-        return sweep_one_way(way, source_size(way, rest, context), rest, outline, links, context);
+        return sweep_one_way(way, source_size(way, rest, links, context), rest, outline, links, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
@@ -217,38 +218,18 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// With more sides for a full turn as long as too much volume is lost.
-Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
-                       const RunContext& context)
+/// A mesh that follows the shape; with finer numbers where nobody asked for them.
+Swept sweep_faithful(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                     const RunContext& context)
 {
-    Swept best = sweep_as_asked(volume, options, links, context);
-    SweepOptions rest = options, taken = options;
-    while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
-        rest.curvature = *sides;
-        try {
-            Swept next = sweep_compared(volume, rest, links, context);
-            const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
-            if (!is_closer(volume_lost(next.fidelity), volume_lost(best.fidelity)) ||
-                next.min_scaled_jacobian < enough)
-                break;
-            next.report.push_back("shape: " + std::to_string(rest.curvature) +
-                                  " sides for a full turn instead of " + std::to_string(options.curvature) +
-                                  ", by which the volume was " + in_short(100 * volume_lost(best.fidelity)) +
-                                  " % less than what was sealed");
-            best = std::move(next);
-            taken = rest;
-        } catch (const NotSweepable& error) {
-            log_line(context, std::string("more sides for a full turn: ") + error.what());
-            break;
-        }
-    }
     const SweepBy again = [&](const SweepOptions& finer) {
         return sweep_compared(volume, finer, links, context);
     };
-    best = require_or_refine(options, taken, std::move(best), again, context);
+    Swept swept = require_or_refine(options, options, sweep_as_asked(volume, options, links, context), again,
+                                    context);
     // Of order 2, given middle nodes may bulge from straight facets.
-    if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
-    return best;
+    if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
+    return swept;
 }
 
 Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
@@ -261,22 +242,25 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    options.curvature = planned_sides(volume, links.of(volume, context), options,
+                                      options.size ? options.size
+                                                   : even_size(surface::default_size(volume).length));
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
-    if (!drawn) return sweep_for_volume(volume, options, links, context);
+    if (!drawn) return sweep_faithful(volume, options, links, context);
     std::string why;
     try {
         SweepOptions moved = options;
         moved.layers = {};
         moved.layers.heights = drawn->heights;
-        Swept swept = sweep_for_volume(volume, moved, links, context);
+        Swept swept = sweep_faithful(volume, moved, links, context);
         swept.report.push_back(drawn->report);
         return swept;
     } catch (const NotSweepable& error) {
         why = error.what();
     }
     log_line(context, "layers nearer to each other in the bends: " + why);
-    Swept swept = sweep_for_volume(volume, options, links, context);
+    Swept swept = sweep_faithful(volume, options, links, context);
     swept.report.push_back("layers: even ones; nearer to each other in the bends they fail: " + why);
     return swept;
 }
@@ -307,6 +291,26 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     std::rethrow_exception(why);
 }
 
+/// A mesh may be off the sealed volume by this share before that is noted.
+constexpr double kNoted = 0.02;
+/// What the sizes that a note names keep to.
+constexpr double kWanted = 0.01;
+
+/// How far the volume is off, and the numbers by which it would not be: what straight sides miss grows with
+/// their square.
+std::string volume_in_words(const Swept& swept)
+{
+    const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
+    double length = 0;
+    for (const Segment& side : swept.mesh.rim)
+        length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
+    return "note: the mesh has " + in_short(100 * std::abs(lost)) + " % " + (lost > 0 ? "less" : "more") +
+           " volume than what was sealed; by the sag of straight sides size = " +
+           in_short(part * length / static_cast<double>(swept.mesh.rim.size())) +
+           " and layers = " + std::to_string(static_cast<int>(std::ceil(swept.mesh.layers / part))) +
+           " keep it within 1 %";
+}
+
 /// What a size that nobody asked for has led to.
 std::string poor_in_words(double least)
 {
@@ -322,6 +326,10 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     Swept swept = sweep_or_with_wedges(volume, asked, context);
     if (!asked.size && swept.min_scaled_jacobian < kPoor) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
+        swept.report.push_back(swept.defaults.back());
+    }
+    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
+        swept.defaults.push_back(volume_in_words(swept));
         swept.report.push_back(swept.defaults.back());
     }
     if (!asked.beside.settle)
