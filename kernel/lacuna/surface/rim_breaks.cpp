@@ -224,6 +224,26 @@ const std::vector<Index>& RimFacets::crease(Index rim)
     return crease->second;
 }
 
+/// Whether the given nodes of a linking surface's rims are where creases begin and end.
+bool RimFacets::has_nodes_at(const LinkingSurface& link,
+                             std::span<const std::pair<double, double>> creases) const
+{
+    const auto keeps = [&](const Chain& chain) {
+        return std::ranges::any_of(chain.uses(),
+                                   [&](EdgeUse use) { return volume_.model[use.edge].keeps_nodes; });
+    };
+    const bool low = keeps(link.source), high = keeps(link.target);
+    if (link.segments.size() != creases.size()) return false;
+    for (std::size_t i = 0; i < creases.size(); ++i) {
+        const RimSegment& segment = link.segments[i];
+        const double off = std::remainder(segment.target_from - creases[i].second, link.target.length());
+        if (!segment.given || (high && std::abs(off) > kSamePlace * link.target.length()) ||
+            (low && std::abs(segment.source_from - creases[i].first) > kSamePlace * link.source.length()))
+            return false;
+    }
+    return true;
+}
+
 /// Along the sharpest sides of facets; empty where they lead to no other rim.
 std::vector<Index> RimFacets::crease_from(Index rim) const
 {
@@ -361,14 +381,15 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         };
         const bool whole = link.lines.empty() && !up.empty() && up.front().source_at == 0 &&
                            std::ranges::all_of(low, is_up) && !bends_between(up);
-        Pairs pairs = given   ? boundaries(link)
+        Pairs pairs = given
+                          ? whole && has_nodes_at(link, joined) ? with_starts(joined, link) : boundaries(link)
                       : whole ? with_starts(joined, link)
                               : paired_near(link, low, high);
         if (!std::ranges::all_of(joined, [&](const auto& pair) { return holds(pairs, pair, link); }))
             continue;
         if (!whole && std::ranges::any_of(up, [](const Crease& c) { return c.points.size() > 2; })) continue;
         breaks.on_crease[b] = whole;
-        if (!given) breaks.pairs[b] = std::move(pairs);
+        if (!given || whole) breaks.pairs[b] = std::move(pairs);
         for (const std::vector<Vertex>* vertices : {&low, &high}) {
             for (const Vertex& vertex : *vertices) {
                 breaks.points.insert(vertex.point);
@@ -405,6 +426,7 @@ void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links)
         LinkingSurface& link = links[b];
         for (RimSegment& segment : link.segments) segment.on_crease = breaks.on_crease[b];
         if (breaks.pairs[b].empty()) continue;
+        const bool given = std::ranges::any_of(link.segments, &RimSegment::given);
         const auto follows = [&](const Chain& chain, double at) {
             const ChainPosition place = chain.position(std::fmod(at, chain.length()));
             return breaks.edges.contains(chain.uses()[place.use].edge);
@@ -417,6 +439,7 @@ void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links)
             segment.follows = follows(link.source, (s0 + s1) / 2);
             segment.target_follows = follows(link.target, (t0 + t1) / 2);
             segment.on_crease = breaks.on_crease[b];
+            segment.given = given;
             link.segments.push_back(segment);
         }
     }

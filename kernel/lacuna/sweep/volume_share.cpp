@@ -64,7 +64,7 @@ Vec3 facet_normal(const Model& model, const Triangle& t)
     return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized();
 }
 
-/// The rims of both ends, and the area that is lost along them.
+/// The rims of both ends, and the area of the sections there, across the walls, that is lost along them.
 class Rims {
 public:
     Rims(const OpenVolume& volume, const SweepOptions& options, const surface::SizeField& size)
@@ -74,31 +74,36 @@ public:
         for (const Role end : {Role::source, Role::target}) {
             const std::vector<FaceId> faces = volume.faces(end);
             const std::vector<Rim> walks = rims(model_, faces);
-            std::unordered_map<std::uint64_t, Vec3> normal; // of the facet at each directed side
+            std::unordered_map<std::uint64_t, Vec3> out; // from the wall, at each side
             for (const Rim& rim : walks) {
                 for (const EdgeUse& use : rim.uses) {
                     const std::vector<Index> points = use_points(model_, use);
                     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-                        normal.emplace(directed_key(points[i], points[i + 1]), Vec3::Zero());
+                        out.emplace(directed_key(points[i], points[i + 1]), Vec3::Zero());
                 }
             }
-            for (const FaceId face : faces) {
-                for (const Triangle& t : model_[face].triangles) {
+            for (const FaceId wall : volume.faces(Role::wall)) {
+                for (const Triangle& t : model_[wall].triangles) {
                     for (std::size_t k = 0; k < 3; ++k) {
-                        const auto side = normal.find(directed_key(t[k], t[(k + 1) % 3]));
-                        if (side != normal.end()) side->second = facet_normal(model_, t);
+                        const auto side = out.find(directed_key(t[(k + 1) % 3], t[k]));
+                        if (side == out.end()) continue;
+                        const Vec3 along = (model_.at(t[(k + 1) % 3]) - model_.at(t[k])).stableNormalized();
+                        const Vec3 up = model_.at(t[(k + 2) % 3]) - model_.at(t[k]);
+                        side->second = (up.dot(along) * along - up).stableNormalized();
                     }
                 }
             }
             const double area = area_of(volume, end), scale = std::sqrt(area / source);
-            area_ += area;
+            Vec3 across = Vec3::Zero();
+            for (const FaceId face : faces) across += face_area_vector(model_, face);
+            area_ += across.norm();
             for (const Rim& rim : walks) {
-                for (const EdgeUse& use : rim.uses) read(use, normal, size, scale, options);
+                for (const EdgeUse& use : rim.uses) read(use, out, size, scale, options);
             }
         }
     }
 
-    /// Share of the ends' area.
+    /// Share of the sections' area.
     [[nodiscard]] double lost(int per_turn, const surface::RimBreaks& breaks) const
     {
         double lost = 0;
@@ -113,12 +118,12 @@ public:
                 lost += piece.part * lost_by(bend.turn, std::min({bend.side, arc, piece.arc.back()}));
             }
         }
-        return lost / area_;
+        return area_ > 0 ? lost / area_ : 0;
     }
 
 private:
     struct Bend {
-        double turn = 0;   ///< in the end, positive outwards [radian]
+        double turn = 0;   ///< in the section, positive outwards [radian]
         double size = 0;   ///< of the turn in space
         double length = 0; ///< of the rim that it stands for
         double side = 0;   ///< by the size
@@ -127,14 +132,14 @@ private:
         EdgeId edge;
         std::vector<Vec3> line;
         std::vector<double> arc;
-        Vec3 normal = Vec3::Zero(); ///< of the end there, in the mean
+        Vec3 normal = Vec3::Zero(); ///< of the section there, in the mean
         bool reversed = false;
         double part = 1; ///< of what straight sides lose
         std::vector<Bend> bends;
     };
 
-    void read(EdgeUse use, const std::unordered_map<std::uint64_t, Vec3>& normal,
-              const surface::SizeField& size, double scale, const SweepOptions& options)
+    void read(EdgeUse use, const std::unordered_map<std::uint64_t, Vec3>& out, const surface::SizeField& size,
+              double scale, const SweepOptions& options)
     {
         const Edge& edge = model_[use.edge];
         if (edge.keeps_nodes && !divides_) return;
@@ -149,7 +154,7 @@ private:
         const std::vector<Vec3>& line = piece.line;
         piece.arc = geometry::arc_lengths(line);
         const std::size_t sides = line.size() - 1;
-        const auto facet = [&](std::size_t i) { return normal.at(directed_key(points[i], points[i + 1])); };
+        const auto facet = [&](std::size_t i) { return out.at(directed_key(points[i], points[i + 1])); };
         for (std::size_t i = 0; i < sides; ++i) piece.normal += facet(i) * (line[i + 1] - line[i]).norm();
         const bool closed = edge.from == edge.to;
         // The half sides at the ends of an exact curve bend as the others do.
@@ -292,17 +297,36 @@ surface::SizeField even_size(double length)
 
 double volume_lost(const Fidelity& fidelity) { return 1 - fidelity.volume / fidelity.sealed_volume; }
 
+int sides_for_volume(double share, int before)
+{
+    constexpr double kOfShare = 0.6;
+    const double wanted = std::sqrt(2 * std::numbers::pi * std::numbers::pi / (3 * kOfShare * share));
+    return std::max(before + before / 4 + 1, static_cast<int>(std::ceil(wanted)));
+}
+
+std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options)
+{
+    if (options.volume_share == 0 || options.curvature == 0 || sizes_by_default(options) ||
+        volume_lost(fidelity) <= options.volume_share)
+        return std::nullopt;
+    const int sides = sides_for_volume(options.volume_share, options.curvature);
+    return sides > kMostPerTurn ? std::nullopt : std::optional(sides);
+}
+
+bool is_closer(double after, double before)
+{
+    constexpr double kLessLost = 0.75; // a choice, not a measurement
+    return after <= kLessLost * before;
+}
+
 int planned_sides(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
                   const SweepOptions& options, const surface::SizeField& size)
 {
     if (options.volume_share == 0 || options.curvature == 0) return options.curvature;
     const Rims rims(volume, options, size);
     if (!sizes_by_default(options)) {
-        constexpr double kOfShare = 0.6;
-        if (std::abs(rims.lost(options.curvature, {})) <= options.volume_share) return options.curvature;
-        const double sides = std::sqrt(2 * std::numbers::pi * std::numbers::pi /
-                                       (3 * kOfShare * options.volume_share));
-        return std::max(options.curvature, static_cast<int>(std::ceil(sides)));
+        const bool enough = std::abs(rims.lost(options.curvature, {})) <= options.volume_share;
+        return enough ? options.curvature : sides_for_volume(options.volume_share, options.curvature);
     }
     surface::RimFacets facets(volume, links);
     const double on_ends = lost_on_ends(volume, options, size, {});

@@ -6,6 +6,7 @@
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,8 @@ namespace lacuna::sweep {
 
 /// Shares of the volume that may be missing, or be too much, where nobody asked for numbers: in all, and of
 /// that by the bends of the ends and by those of the sweep, where there are any. All is to stay within 1 %;
-/// the rest is for what closed forms leave out, 0.1 % over the families that were measured.
-inline constexpr double kAllLost = 0.009, kLostByEnds = 0.003, kLostByLayers = 0.003;
+/// the rest is for what closed forms leave out: quads inside ends are up to a fifth longer than the size.
+inline constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 
 /// Whether nobody asked for a size, layers or sides for a turn: then the volume decides.
 bool sizes_by_default(const SweepOptions& options);
@@ -37,9 +38,20 @@ surface::SizeField even_size(double length);
 /// Share of the sealed volume that is missing in a mesh.
 double volume_lost(const Fidelity& fidelity);
 
+/// Sides for a full turn that lose six tenths of the share allowed: the rest is for the layers' bends. A
+/// polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
+int sides_for_volume(double share, int before);
+
+/// Sides for a full turn to sweep with anew where a mesh with given numbers loses more than the options
+/// allow; nothing where it does not, or has as many as help.
+std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options);
+
+/// Whether a mesh made with more sides is to take the place of the one before it: it lacks clearly less.
+/// @param after, before  shares of the sealed volume that are missing
+bool is_closer(double after, double before);
+
 /// Sides for a full turn by which rims lose no more than they may: as many as are asked for, or more.
-/// Where numbers are given, those that lose more than `SweepOptions::volume_share` get sides once by which a
-/// circle loses six tenths of it.
+/// Where numbers are given, rims that lose more than `SweepOptions::volume_share` get `sides_for_volume()`.
 int planned_sides(const topology::OpenVolume& volume, std::span<const surface::LinkingSurface> links,
                   const SweepOptions& options, const surface::SizeField& size);
 
