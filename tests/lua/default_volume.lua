@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Without numbers the mesh has the sealed volume within 1 %: coarse facets round bars and tubes, straight, bent,
--- twisted, bulged and with noise, of order 1 and 2, alone and stacked.
+-- Without numbers the mesh has the sealed volume within 1 %: coarse facets round bars and tubes, straight,
+-- bent, twisted, bulged, domed and with noise, of order 1 and 2, alone and stacked.
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
@@ -46,7 +46,9 @@ local function wall(list, inside)
     for i = 0, n - 1 do
       local j = (i + 1) % n
       local a, b, c, d = k * n + i + 1, k * n + j + 1, (k + 1) * n + j + 1, (k + 1) * n + i + 1
-      for _, t in ipairs { { a, b, c }, { a, c, d } } do cells[#cells + 1] = inside and { t[3], t[2], t[1] } or t end
+      for _, t in ipairs { { a, b, c }, { a, c, d } } do
+        cells[#cells + 1] = inside and { t[3], t[2], t[1] } or t
+      end
     end
   end
   return points, cells
@@ -100,7 +102,9 @@ local function domed(o)
   local top, steps, dome = list[#list], 6, {}
   for k = 0, steps - 1 do
     local t, ring = k / steps * math.pi / 2, {}
-    for i, p in ipairs(top) do ring[i] = { p[1] * math.cos(t), p[2] * math.cos(t), o.length + o.rise * math.sin(t) } end
+    for i, p in ipairs(top) do
+      ring[i] = { p[1] * math.cos(t), p[2] * math.cos(t), o.length + o.rise * math.sin(t) }
+    end
     dome[#dome + 1] = ring
     if k > 0 then list[#list + 1] = ring end
   end

@@ -42,7 +42,8 @@ public:
     /// @param per_turn  sides for a full turn, >= 1. @param size  of sides where that is coarser.
     [[nodiscard]] RimBreaks breaks(int per_turn, const SizeField& size);
 
-    /// Points along the sharpest sides of facets from a point of a rim to another rim; empty where there are none.
+    /// Points along the sharpest sides of facets from a point of a rim to another rim; empty where there are
+    /// none.
     const std::vector<Index>& crease(Index rim);
 
 private:
