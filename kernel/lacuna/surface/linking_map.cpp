@@ -12,6 +12,7 @@
 #include <lacuna/geometry/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/common_turn.h>
+#include <lacuna/surface/rim_breaks.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -162,7 +163,10 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     double end_branch = 0;
     std::vector<Index> cut;
     const std::vector<ChainNode> high = chain_nodes(model, link.target);
-    if (link.lines.empty()) {
+    std::vector<Crease> upright = link.lines.empty() ? creases_of(volume, link) : std::vector<Crease>{};
+    for (const LinkingLine& line : link.lines)
+        upright.push_back({line.source_at, use_points(model, line.line.uses)});
+    if (upright.empty()) {
         cut = shortest_way_up(model, facets, link, context);
         const double natural = link.branch
                                    ? *link.branch
@@ -173,7 +177,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
     } else {
-        cut = use_points(model, link.lines.front().line.uses);
+        cut = upright.front().points;
     }
     for (const ChainNode& p : chain_nodes(model, link.source))
         fixed[p.point] = Vec2(p.at / link.source.length(), 0);
@@ -182,11 +186,10 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         const double turned = s - std::floor(s - end_branch + 1e-12);
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
     }
-    for (const LinkingLine& line : link.lines) {
-        const std::vector<Index> points = use_points(model, line.line.uses);
-        const std::vector<double> at = geometry::arc_lengths(places_at(model, points));
-        for (std::size_t i = 0; i < points.size(); ++i)
-            fixed[points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
+    for (const Crease& line : upright) {
+        const std::vector<double> at = geometry::arc_lengths(places_at(model, line.points));
+        for (std::size_t i = 0; i < line.points.size(); ++i)
+            fixed[line.points[i]] = Vec2(line.source_at / link.source.length(), at[i] / at.back());
     }
 
     geometry::HarmonicProblem problem;
@@ -234,8 +237,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     check_cancelled(context);
     face_of_ = facets.face;
     triangle_of_ = facets.number;
-    if (link.lines.empty()) measure_heights(model);
-    if (link.lines.size() <= 1 && !runs_straight(model, link)) measure_columns(model, link, context);
+    if (upright.empty()) measure_heights(model);
+    if (upright.size() <= 1 && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
 }
 

@@ -19,6 +19,9 @@ struct RimSegment {
     double target_from = 0, target_to = 0; ///< may run past the target chain's length: modulo it
     std::size_t use = 0;                   ///< of the source chain
     bool given = false;                    ///< one side of a quad: it lies between nodes that were given
+    /// Its ends are vertices of the rim's facets, which bend no more between them than a straight side may.
+    bool follows = false, target_follows = false;
+    bool on_crease = false; ///< without side lines: the column at its start runs along a crease of the walls
 };
 
 /// A side line as the linking surface sees it.

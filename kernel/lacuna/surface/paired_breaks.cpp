@@ -7,13 +7,13 @@
 
 namespace lacuna::surface {
 
-std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
-                                                     const std::vector<double>& b, Pairing pairing)
+namespace {
+
+/// @param alone  what one break alone costs, as a share of the length.
+std::vector<std::pair<double, double>> paired(const std::vector<double>& a, const std::vector<double>& b,
+                                              double alone, bool in_order)
 {
-    // Two breaks alone cost as much as a pair this far apart, as a share of the length; choices.
-    const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     const std::size_t n = a.size(), m = b.size();
-    const bool in_order = n == m && pairing == Pairing::in_order;
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
     for (std::size_t i = 0; i <= n; ++i) {
         for (std::size_t j = 0; j <= m; ++j) {
@@ -40,6 +40,22 @@ std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& 
     }
     std::reverse(result.begin(), result.end());
     return result;
+}
+
+} // namespace
+
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
+                                                     const std::vector<double>& b, Pairing pairing)
+{
+    // Two breaks alone cost as much as a pair this far apart, as a share of the length; choices.
+    const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
+    return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
+}
+
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
+                                                     const std::vector<double>& b, double apart)
+{
+    return paired(a, b, apart / 2, false);
 }
 
 void complete(std::vector<std::pair<double, double>>& breaks)

@@ -64,9 +64,10 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
             to = 1 - to;
         }
         SeedPiece piece{from, to, segment.source_to - segment.source_from, 1};
-        piece.opposite = opposite_turning(target, segment);
+        if (!segment.target_follows) piece.opposite = opposite_turning(target, segment);
         if (use.reversed) std::reverse(piece.opposite.begin(), piece.opposite.end());
         piece.fixed = segment.given;
+        piece.follows = segment.follows;
         seeds.pieces[use.edge].push_back(std::move(piece));
     }
     for (auto& [edge, pieces] : seeds.pieces) {
@@ -149,7 +150,10 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
     // Only what the opposite rim turns more counts: an oblique end turns unevenly and as much.
-    const double own = turning.between(piece.from * turning.length(), piece.to * turning.length());
+    const auto turn_between = [&](double from, double to) {
+        return piece.follows ? 0 : turning.between(from, to);
+    };
+    const double own = turn_between(piece.from * turning.length(), piece.to * turning.length());
     const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
     const double more = opposite > own ? (opposite - own) / opposite : 0;
     double by_turn = 0, by_size = 0, sides = 0;
@@ -158,7 +162,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     const std::vector<Vec3> points = edge_points(task.model, edge, at);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double from = piece.from * turning.length() + static_cast<double>(i) * step;
-        double turn = turning.between(from, from + step);
+        double turn = turn_between(from, from + step);
         if (more > 0) turn += more * piece.opposite[i];
         const double size = piece.length / kSizeSamples / task.size(points[i]);
         const double bend = turn * per_turn / (2 * std::numbers::pi);

@@ -42,9 +42,10 @@ struct SeedPiece {
     std::vector<double> placed{};
     /// The same of what they are swept to on the target's rim, as if on this piece. Empty: as on the source.
     std::vector<double> placed_above{};
-    bool fixed = false; ///< the nodes of a given mesh, or asked for: none more, none less
-    bool asked = false; ///< with `fixed`: by a person
-    bool bends = false; ///< its bends asked for more sides than the size
+    bool fixed = false;   ///< the nodes of a given mesh, or asked for: none more, none less
+    bool asked = false;   ///< with `fixed`: by a person
+    bool bends = false;   ///< its bends asked for more sides than the size
+    bool follows = false; ///< its ends are vertices of facets that hardly bend between them
     /// Nodes near the start and the end on which rows of boundary layers end, as fractions of the edge.
     std::vector<double> low{}, high{};
 

@@ -120,18 +120,49 @@ private:
             return;
         }
         const std::array<double, 1> here{std::min(at, link_.source.length())};
-        const double reach = column.target_at ? 0 : kOneColumn * size_(link_.source.points(here).front());
+        const double reach = kOneColumn * size_(link_.source.points(here).front());
         double least = std::max(reach, kRounding * link_.source.length());
-        std::optional<double> near;
-        for (const RimSegment& segment : link_.segments) {
-            const double off = std::abs(segment.source_from - at);
+        std::optional<std::size_t> near;
+        for (std::size_t i = 0; i < link_.segments.size(); ++i) {
+            const double off = std::abs(link_.segments[i].source_from - at);
             const double round = std::min(off, link_.source.length() - off);
-            if (round > least || is_taken(segment.source_from, c)) continue;
+            if (round > least || is_taken(link_.segments[i].source_from, c)) continue;
+            if (column.target_at && !way_to(i, *column.target_at)) continue;
             least = round;
-            near = segment.source_from;
+            near = i;
         }
-        taken_.emplace_back(near.value_or(at), c);
-        if (!near) divide(at);
+        taken_.emplace_back(near ? link_.segments[*near].source_from : at, c);
+        if (!near) return divide(at);
+        if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
+    }
+
+    /// How far the target's end of a break has to move along the rim to the end of a column; nothing where it
+    /// is a vertex or a given node already, or other breaks are between.
+    [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
+    {
+        const double length = link_.target.length();
+        const RimSegment &own = link_.segments[i],
+                         &before = link_.segments[(i > 0 ? i : link_.segments.size()) - 1];
+        const double way = std::remainder(target_at - own.target_from, length);
+        if (std::abs(way) <= kRounding * length) return 0;
+        if (own.given || before.given || own.target_from + way >= own.target_to ||
+            before.target_to + way <= before.target_from)
+            return std::nullopt;
+        for (std::size_t u = 0; u < link_.target.uses().size(); ++u) {
+            const double off = std::remainder(link_.target.start(u) - own.target_from, length);
+            if (std::abs(off) <= kRounding * length) return std::nullopt;
+        }
+        return way;
+    }
+    void lead(std::size_t i, double way)
+    {
+        link_.segments[i].target_from += way;
+        link_.segments[(i > 0 ? i : link_.segments.size()) - 1].target_to += way;
+        const double turn = link_.segments.front().target_from < 0 ? link_.target.length() : 0;
+        for (RimSegment& segment : link_.segments) {
+            segment.target_from += turn;
+            segment.target_to += turn;
+        }
     }
 
     void divide(double at)

@@ -16,8 +16,6 @@ namespace {
 
 /// Columns looked at where there are no side lines: a choice, not a measurement.
 constexpr int kPlaces = 8;
-/// Walls longer than the straight way by a smaller share count as straight: less than a layer of ten.
-constexpr double kHardlyLonger = 0.05;
 
 /// Length of the walls in the mean: their area over that of their rims.
 double mean_length(const Model& model, const LinkingSurface& link)
@@ -25,6 +23,13 @@ double mean_length(const Model& model, const LinkingSurface& link)
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
     return 2 * area / (link.source.length() + link.target.length());
+}
+
+/// Whether walls are as long as a straight way of so many columns.
+bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns,
+                  double hardly_longer)
+{
+    return mean_length(model, link) * static_cast<double>(columns) < (1 + hardly_longer) * straight;
 }
 
 std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& segment, int steps)
@@ -52,7 +57,7 @@ std::vector<Vec3> mapped_column(const Model& model, const LinkingMap& map, doubl
 } // namespace
 
 std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const LinkingSurface& link, int steps,
-                                            const RunContext& context)
+                                            const RunContext& context, double hardly_longer)
 {
     std::vector<std::vector<Vec3>> columns;
     for (const LinkingLine& line : link.lines) {
@@ -67,14 +72,22 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
         columns.push_back(straight_column(link, segment, steps));
         straight += (columns.back().back() - columns.back().front()).norm();
     }
-    if (mean_length(volume.model, link) * static_cast<double>(columns.size()) <
-        (1 + kHardlyLonger) * straight)
-        return columns;
+    if (are_straight(volume.model, link, straight, columns.size(), hardly_longer)) return columns;
     const LinkingMap map(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kPlaces; ++k)
         columns.push_back(mapped_column(volume.model, map, (k + 0.5) / kPlaces, steps));
     return columns;
+}
+
+bool walls_bend(const OpenVolume& volume, const LinkingSurface& link)
+{
+    double straight = 0;
+    for (const RimSegment& segment : link.segments) {
+        const std::vector<Vec3> column = straight_column(link, segment, 1);
+        straight += (column.back() - column.front()).norm();
+    }
+    return !are_straight(volume.model, link, straight, link.segments.size(), kAnyLonger);
 }
 
 } // namespace lacuna::surface

@@ -46,6 +46,8 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
 /// Two meshes of a shared face are the same where their nodes are apart by no more than this part of the
 /// largest coordinate: rounding of the same patch in another order.
 constexpr double kRounding = 1e-12;
+/// What a line for everybody begins with.
+constexpr const char* kNote = "note: ";
 /// The facets of a flat face have areas that add up to the face's but for this share.
 constexpr double kFlat = 1e-9;
 
@@ -108,11 +110,9 @@ public:
             log_line(context_, failed.what());
             sweep_again();
         }
-        const std::vector<std::string> shape = keep_volumes();
         number_nodes(result_, pairs_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
-        result_.report.insert(result_.report.end(), shape.begin(), shape.end());
         log_defaults();
         return std::move(result_);
     }
@@ -123,8 +123,11 @@ private:
     {
         std::set<std::string> said;
         for (const std::size_t m : order_) {
-            for (const std::string& line : result_.parts[m].defaults)
-                if (said.insert(line).second) log_line(context_, members_[m].region + ": " + line);
+            for (const std::string& line : result_.parts[m].defaults) {
+                if (!said.insert(line).second) continue;
+                const std::string note = line.starts_with(kNote) ? kNote : "";
+                log_line(context_, note + members_[m].region + ": " + line.substr(note.size()));
+            }
         }
     }
 
@@ -246,120 +249,6 @@ private:
             first.insert(first.begin(), failed->member);
         }
         throw MemberFailed(reason->member, reason->code, reason->why);
-    }
-
-    /// Everything that is there after all members were swept.
-    struct Made {
-        SweptAssembly result;
-        AssemblyPlan plan;
-        std::vector<AssemblyMember> members;
-        std::vector<std::size_t> order;
-        std::vector<std::vector<SharedNodes>> pairs;
-    };
-    void restore(Made& made)
-    {
-        result_ = std::move(made.result);
-        plan_ = std::move(made.plan);
-        members_ = std::move(made.members);
-        order_ = std::move(made.order);
-        pairs_ = std::move(made.pairs);
-    }
-
-    /// Members of order 1 that lose more of their volume on bends than they may: their own sweeps give bends
-    /// more sides, but not those that others have too. Pieces of a turn are judged together.
-    [[nodiscard]] std::vector<std::size_t> losing() const
-    {
-        std::map<std::string, Fidelity> turns;
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            Fidelity& whole = turns[members_[m].turn_of];
-            whole.volume += result_.parts[m].fidelity.volume;
-            whole.sealed_volume += result_.parts[m].fidelity.sealed_volume;
-        }
-        std::vector<std::size_t> found;
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const AssemblyMember& member = members_[m];
-            if (member.fixed != nullptr || member.options.order > 1) continue;
-            const bool loses = member.turn_of.empty()
-                                   ? !plan_.nodes[m].empty() &&
-                                         loses_volume(result_.parts[m].fidelity, member.options)
-                                   : loses_volume(turns.at(member.turn_of), member.options);
-            if (loses) found.push_back(m);
-        }
-        return found;
-    }
-    [[nodiscard]] double lost_by(std::span<const std::size_t> members) const
-    {
-        double lost = 0, sealed = 0;
-        for (const std::size_t m : members) {
-            lost += result_.parts[m].fidelity.sealed_volume - result_.parts[m].fidelity.volume;
-            sealed += result_.parts[m].fidelity.sealed_volume;
-        }
-        return lost / sealed;
-    }
-    [[nodiscard]] double least_jacobian() const
-    {
-        double least = 1;
-        for (const Swept& part : result_.parts) least = std::min(least, part.min_scaled_jacobian);
-        return least;
-    }
-
-    /// The whole with more sides for a full turn in members that lose volume, as far as that helps, as in a
-    /// single sweep. @return  lines for the report
-    std::vector<std::string> keep_volumes()
-    {
-        std::vector<std::string> lines;
-        for (std::vector<std::size_t> few = losing(); !few.empty(); few = losing()) {
-            std::string names, last;
-            for (const std::size_t m : few) {
-                const std::string& name = members_[m].turn_of.empty() ? members_[m].region
-                                                                      : members_[m].turn_of;
-                if (name != last) names += (names.empty() ? "" : ", ") + name;
-                last = name;
-            }
-            const double before = lost_by(few), worst = least_jacobian();
-            Made made{std::move(result_), plan_, members_, order_, std::move(pairs_)};
-            result_ = {};
-            pairs_.clear();
-            result_.shared = made.result.shared;
-            result_.near_misses = made.result.near_misses;
-            int sides = 0;
-            for (const std::size_t m : few) {
-                SweepOptions& options = members_[m].options;
-                options.curvature = sides_for_volume(options.volume_share, options.curvature);
-                sides = std::max(sides, options.curvature);
-            }
-            const std::string what = "shape: " + names + " lost " + in_short(100 * before) +
-                                     " % of the sealed volume on bends; with " + std::to_string(sides) +
-                                     " sides for a full turn ";
-            std::string why = sweep_anew(sides);
-            if (why.empty() && !is_closer(lost_by(few), before)) why = "it is no less";
-            if (why.empty() &&
-                least_jacobian() < std::min(worst, members_[few[0]].options.improving.good_enough))
-                why = "cells are worse";
-            if (!why.empty()) {
-                restore(made);
-                lines.push_back(what + why + ", so it stays");
-                break;
-            }
-            lines.push_back(what + "it is " + in_short(100 * lost_by(few)) + " %");
-        }
-        return lines;
-    }
-
-    /// @return  why that is not possible; empty: it is done
-    std::string sweep_anew(int sides)
-    {
-        if (sides > kMostPerTurn) return "there would be too many";
-        inputs_.clear();
-        try {
-            plan_ = plan_assembly(members_, result_.shared, context_);
-            sweep_all();
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) {
-            return std::string("it is refused, ") + error.what();
-        }
-        return "";
     }
 
     void note_order(const std::vector<std::size_t>& order)

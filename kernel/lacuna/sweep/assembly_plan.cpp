@@ -6,10 +6,12 @@
 #include <lacuna/surface/default_size.h>
 #include <lacuna/surface/intervals.h>
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/rim_breaks.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/shared_faces.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
@@ -68,6 +70,8 @@ public:
             for (std::size_t e = 0; e < model.edges.size(); ++e) edges_.push_back(read(m, EdgeId(e)));
         }
         first_.push_back(edges_.size());
+        layers_.assign(members.size(), 1);
+        for (const AssemblyMember& member : members) per_turn_.push_back(member.options.curvature);
     }
 
     AssemblyPlan run()
@@ -169,6 +173,7 @@ private:
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
         const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*members_[m].volume);
         find_demands(m, links);
+        plan_sides(m, links);
         for (const surface::LinkingSurface& link : links) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
@@ -201,6 +206,24 @@ private:
         for (const auto& [from, to] : target_of) {
             if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
                 classes_.unite(number(m, from), number(m, *to.begin()));
+        }
+    }
+
+    /// What the member's volume asks for.
+    void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
+    {
+        const OpenVolume& volume = *members_[m].volume;
+        const SweepOptions& options = members_[m].options;
+        const surface::SizeField size_at = [this, m](const Vec3& p) { return size(m, p); };
+        per_turn_[m] = planned_sides(volume, links, options, size_at);
+        if (!sizes_by_default(options)) return;
+        layers_[m] = planned_layers(volume, links, 1, options, context_);
+        surface::RimFacets facets(volume, links);
+        for (const auto& [edge, at] : facets.breaks(per_turn_[m], size_at).edges) {
+            std::vector<double> ends{0};
+            ends.insert(ends.end(), at.begin(), at.end());
+            ends.push_back(1);
+            followed_[same_.find(number(m, edge))] = {number(m, edge), std::move(ends)};
         }
     }
 
@@ -307,10 +330,42 @@ private:
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
     }
 
+    /// An edge of facets with the vertices that are nodes, as shares of its length.
+    struct Followed {
+        std::size_t edge = 0;
+        std::vector<double> ends;
+    };
+    /// Sides between these, of about the size.
+    [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const
+    {
+        double sides = 0;
+        for (std::size_t i = 1; i < followed.ends.size(); ++i)
+            sides += std::max(1.0, std::round((followed.ends[i] - followed.ends[i - 1]) * edge.length /
+                                              size(edge.member, edge.middle)));
+        return sides;
+    }
+    /// So many sides between these, the longest divided first.
+    static std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
+    {
+        std::vector<int> parts(ends.size() - 1, 1);
+        const auto side = [&](std::size_t i) { return (ends[i + 1] - ends[i]) / parts[i]; };
+        for (std::size_t k = parts.size(); k < count; ++k) {
+            std::size_t longest = 0;
+            for (std::size_t i = 1; i < parts.size(); ++i)
+                if (side(i) > side(longest) * (1 + kInset)) longest = i;
+            ++parts[longest];
+        }
+        std::vector<double> at{0};
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (int k = 1; k <= parts[i]; ++k)
+                at.push_back(k == parts[i] ? ends[i + 1] : ends[i] + k * side(i));
+        }
+        return at;
+    }
+
     /// Sides an edge wants by its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
-        const AssemblyMember& member = members_[edge.member];
         const Edge& e = model(edge.member)[edge.edge];
         double sides = 0, turn = 0;
         for (std::size_t i = 0; i + 1 < e.points.size(); ++i) {
@@ -320,7 +375,15 @@ private:
             const Vec3 before = a - model(edge.member).at(e.points[i - 1]);
             turn += geometry::angle_between(before, b - a);
         }
-        return std::max(sides, turn * member.options.curvature / (2 * std::numbers::pi));
+        const std::size_t own = number(edge.member, edge.edge);
+        if (const auto followed = followed_.find(same_.find(own)); followed != followed_.end())
+            return followed_sides(followed->second, edge);
+        const auto lines = sides_.find(edge.member);
+        const bool is_side = lines != sides_.end() &&
+                             std::ranges::find(lines->second, edge.edge, &EdgeUse::edge) !=
+                                 lines->second.end();
+        if (is_side) sides = std::max(sides, static_cast<double>(layers_[edge.member]));
+        return std::max(sides, turn * per_turn_[edge.member] / (2 * std::numbers::pi));
     }
 
     [[nodiscard]] double size(std::size_t m, const Vec3& p) const
@@ -564,6 +627,12 @@ private:
                 own.push_back(model(edge.member).at(p));
             return own;
         }
+        if (const auto found = followed_.find(same_.find(e)); found != followed_.end()) {
+            const auto& [own, ends] = found->second;
+            if (static_cast<std::size_t>(count) + 1 >= ends.size())
+                return surface::edge_points(model(edges_[own].member), edges_[own].edge,
+                                            spread_between(ends, static_cast<std::size_t>(count)));
+        }
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
         // Layers as they are spread in a member that asks for it.
@@ -725,6 +794,8 @@ private:
     std::vector<bool> common_;                            ///< of each edge: other members have it too
     std::map<std::size_t, std::vector<EdgeUse>> sides_;   ///< of each member: side lines of one edge
     std::map<std::size_t, int> count_;                    ///< of each class
+    std::vector<int> per_turn_, layers_;                  ///< that each member's volume asks for
+    std::map<std::size_t, Followed> followed_;            ///< of the same edges
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< of each member that has intervals
     std::map<std::size_t, SidesOfClass> intervals_;           ///< of each class that intervals are about
     /// Of the same edges, the one that a bias was asked for, and that as it runs.

@@ -315,7 +315,7 @@ private:
         surface::Imprint imprint = surface::imprint_target(
             volume, surface::linking_surfaces(volume, surface::Turning::each, known_pairs(m, end, volume)),
             size, known);
-if (imprint.volume->model.faces.size() == volume.model.faces.size()) return false;
+        if (imprint.volume->model.faces.size() == volume.model.faces.size()) return false;
         keep_images(m, end, imprint);
         split_.insert(m);
         volumes_[m] = end == Role::source ? std::move(*imprint.volume)

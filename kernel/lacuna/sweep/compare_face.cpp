@@ -597,7 +597,8 @@ private:
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
         const double share = at_tip ? limit_.at_tip : limit_.share;
-        return (limit_.length > 0 ? limit_.length : share * sample.side) + shape_.slack;
+        return (limit_.length > 0 ? limit_.length : std::max(share * sample.side, limit_.least)) +
+               shape_.slack;
     }
 
     void take(const Tally& tally)

@@ -26,6 +26,10 @@ constexpr double kShareOfSide = 0.25;
 /// whole side.
 constexpr double kShareAtTip = 1;
 
+/// It is never less than this part of the model's diagonal, or this one of the face's, whichever is smaller:
+/// gaps and overlaps of the faces of real parts are as large, and no mesh shows them.
+constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
+
 /// The mesh's volume may be off by this share of the sealed one. Six sides for a turn, the fewest that the
 /// size alone leaves, lose 17 % of a disc. A choice, not a measurement.
 constexpr double kMostOfVolume = 0.2;
@@ -51,7 +55,7 @@ FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const D
             result.side = other.side[q];
         }
     }
-    result.allowed = limit.length > 0 ? limit.length : limit.share * result.side;
+    result.allowed = limit.length > 0 ? limit.length : std::max(limit.share * result.side, limit.least);
     if (width > result.allowed) result.misfit = Misfit::no_quads;
     return result;
 }
@@ -60,7 +64,13 @@ DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& 
 {
     const bool made_void = model[face].origin == Origin::made_void;
     const bool between = made_void && options.between.contains(face);
-    return {options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip, !made_void};
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : model[face].triangles)
+        for (const Index p : t) box.extend(model.at(p));
+    const double least = box.isEmpty()
+                             ? 0
+                             : std::min(kLeastOfModel * model.diagonal, kLeastOfFace * box.diagonal().norm());
+    return {options.max_deviation, between ? kShareAtTip : kShareOfSide, kShareAtTip, least, !made_void};
 }
 
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
@@ -167,10 +177,12 @@ std::string misfit_in_words(const Fidelity& fidelity, int layers, const Fidelity
     const bool given = options.max_deviation > 0;
     if (worst == nullptr) return {};
     const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;
-    const std::string limit = in_short(worst->allowed) + (given ? " (max_deviation)"
-                                                          : whole_side
-                                                              ? ", a quad's side there"
-                                                              : ", a quarter of a quad's side there");
+    const bool least = worst->allowed > 2 * kShareAtTip * worst->side;
+    const std::string limit = in_short(worst->allowed) +
+                              (given        ? " (max_deviation)"
+                               : least      ? ", the least allowed on a face of its extent"
+                               : whole_side ? ", a quad's side there"
+                                            : ", a quarter of a quad's side there");
     const std::string name = worst->name, place = at_place(worst->found_at);
     std::string message;
     switch (worst->misfit) {

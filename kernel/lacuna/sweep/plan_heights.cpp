@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/angle.h>
 #include <lacuna/surface/wall_columns.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -198,8 +199,11 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
     if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
     const Columns columns = columns_of(volume, links, size, options.size, context);
     const int bends = asked.empty() ? bend_layers(columns, options) : 0;
-    const bool by_bends = bends > std::max(least, static_cast<int>(std::lround(columns.sides)));
+    const int by_size = std::max(least, static_cast<int>(std::lround(columns.sides)));
     least = std::max(least, bends);
+    if (asked.empty() && sizes_by_default(options))
+        least = std::max(least, planned_layers(volume, links, std::max(least, by_size), options, context));
+    const bool by_bends = least > by_size;
     if (low == nullptr && high == nullptr) {
         if (columns.wanted.empty()) return {default_heights(columns, options.layers, least), by_bends};
         return {following_heights(columns, 0, 1, least), by_bends};

@@ -7,6 +7,7 @@
 #include <lacuna/quads/pave.h>
 #include <lacuna/quads/submap.h>
 #include <lacuna/surface/quads_asked.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -118,14 +119,22 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
     };
 }
 
-SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, const RunContext& context)
+SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                       const RunContext& context)
 {
     SourceSize size;
     if (options.size) {
         size.asked = checked(options.size, "size");
     } else {
         size.by_default = surface::default_size(volume);
-        size.asked = [length = size.by_default->length](const Vec3&) { return length; };
+        size.asked = even_size(size.by_default->length);
+        const double part = sizes_by_default(options)
+                                ? planned_part_of_size(volume, links, options, size.asked, context)
+                                : 1;
+        if (part < 1) {
+            size.by_default->why += ", of that " + in_short(part) + " for the bends of the ends";
+            size.asked = even_size(size.by_default->length *= part);
+        }
     }
     check_amount(volume, size.asked, options.layers);
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;

@@ -6,6 +6,7 @@
 #include <lacuna/core/number_text.h>
 #include <lacuna/core/progress.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/surface/default_size.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/finer_by_default.h>
@@ -137,7 +138,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
                      const RunContext& context)
 {
     const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
-        return sweep_one_way(way, source_size(way, rest, context), rest, outline, links, context);
+        return sweep_one_way(way, source_size(way, rest, links, context), rest, outline, links, context);
     };
     ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
     quality::require(result.proof);
@@ -216,7 +217,8 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// With more sides for a full turn as long as too much volume is lost.
+/// A mesh that follows the shape. With given numbers more sides for a full turn are tried as long as too much
+/// volume is lost; without, they are as many already.
 Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
@@ -260,7 +262,11 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         throw NotSweepable("sweep.not_closed",
                            "the volume is not sealed; close it first with volume:close()");
     }
-    const SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    if (sizes_by_default(options)) {
+        const surface::SizeField size = even_size(surface::default_size(volume).length);
+        options.curvature = planned_sides(volume, links.of(volume, context), options, size);
+    }
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_for_volume(volume, options, links, context);
     std::string why;
@@ -306,6 +312,26 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     std::rethrow_exception(why);
 }
 
+/// A mesh may be off the sealed volume by this share before that is noted.
+constexpr double kNoted = 0.02;
+/// What the sizes that a note names keep to.
+constexpr double kWanted = 0.01;
+
+/// How far the volume is off, and the numbers by which it would not be: what straight sides miss grows with
+/// their square.
+std::string volume_in_words(const Swept& swept)
+{
+    const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
+    double length = 0;
+    for (const Segment& side : swept.mesh.rim)
+        length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
+    return "note: the mesh has " + in_short(100 * std::abs(lost)) + " % " + (lost > 0 ? "less" : "more") +
+           " volume than what was sealed; by the sag of straight sides size = " +
+           in_short(part * length / static_cast<double>(swept.mesh.rim.size())) +
+           " and layers = " + std::to_string(static_cast<int>(std::ceil(swept.mesh.layers / part))) +
+           " keep it within 1 %";
+}
+
 /// What a size that nobody asked for has led to.
 std::string poor_in_words(double least)
 {
@@ -321,6 +347,10 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     Swept swept = sweep_or_with_wedges(volume, asked, context);
     if (!asked.size && swept.min_scaled_jacobian < kPoor) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
+        swept.report.push_back(swept.defaults.back());
+    }
+    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
+        swept.defaults.push_back(volume_in_words(swept));
         swept.report.push_back(swept.defaults.back());
     }
     if (!asked.beside.settle)

@@ -8,6 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/imprint.h>
+#include <lacuna/surface/rim_breaks.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/surface/wall_breaks.h>
 #include <lacuna/sweep/detail/given_meshes.h>
@@ -18,6 +19,7 @@
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/skin_patches.h>
 #include <lacuna/sweep/detail/source_quads.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/morph.h>
@@ -260,7 +262,13 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
     check_cancelled(context);
     GivenMeshes given = given_meshes(split, links, asked, size, options);
+    if (options.curvature > SweepOptions{}.curvature && may_divide_rims(volume, options)) {
+        for (surface::LinkingSurface& link : links)
+            for (surface::RimSegment& segment : link.segments) segment.given = false;
+    }
     const int least_layers = surface::set_wall_breaks(split, size, links);
+    if (sizes_by_default(options))
+        surface::follow_facets(surface::RimFacets(split, links).breaks(options.curvature, size), links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
     const auto [heights, by_bends] = plan_heights(
@@ -282,8 +290,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                      {static_cast<int>(heights.size()) - 1, by_rows, by_bends});
     result.report.insert(result.report.end(), result.defaults.begin(), result.defaults.end());
     std::vector<surface::LinkingNodes> rim;
-    for (const surface::LinkingSurface& link : links)
-        rim.push_back(seeds.nodes(link));
+    for (const surface::LinkingSurface& link : links) rim.push_back(seeds.nodes(link));
     const auto mesh_walls = [&](const RunContext& own) {
         return surface::mesh_walls(split, links, rim, heights, given.columns, own);
     };

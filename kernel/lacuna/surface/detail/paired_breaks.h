@@ -18,6 +18,9 @@ enum class Pairing {
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
                                                      const std::vector<double>& b,
                                                      Pairing pairing = Pairing::in_order);
+/// The same for breaks that go together only where they are less than `apart` from each other.
+std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
+                                                     const std::vector<double>& b, double apart);
 
 /// Fill in the other side of breaks that stand alone, at the same share of the way between the pairs around
 /// them; in order.

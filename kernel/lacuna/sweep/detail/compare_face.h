@@ -40,6 +40,7 @@ struct DeviationLimit {
     double length = 0; ///< for all; 0: a share of the side
     double share = 0;  ///< of the side of a quad
     double at_tip = 0; ///< the same within two sides of a tip: four quads round it are as many as can be
+    double least = 0;  ///< of both, however short the sides are
     /// Whether quads that face the other way are folds: on sharply twisted void walls, where neither skin is
     /// given, the facet nearest to a quad may face any way.
     bool folds = true;

@@ -5,6 +5,7 @@
 #include <lacuna/quads/region.h>
 #include <lacuna/surface/seeds.h>
 #include <lacuna/surface/source_mesh.h>
+#include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -20,9 +21,10 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// The same for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// The size asked for, or the default; smaller where the shape needs it.
+/// The size asked for, or the default; smaller where the shape needs it, and all over where the ends would
+/// lose too much of the volume by their bends.
 /// @throw InvalidInput  a size that is no positive length; too many cells to number. @throw Cancelled
-SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options,
+SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);
 
 /// The size, and the height of rows where they are asked for.
