@@ -262,6 +262,8 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
                            "the volume is not sealed; close it first with volume:close()");
     }
     const SweepOptions options = with_layer_intervals(volume, asked, links, context);
+    // Those of an assembly are counted together.
+    if (!asked.beside.settle) check_cells(source_size(volume, options, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_for_volume(volume, options, links, context);
     std::string why;
