@@ -222,7 +222,7 @@
 ---@field inverted integer cells with a corner that is not positive
 ---@field uncertified integer cells whose Jacobian was not shown positive everywhere
 ---@field certified boolean every cell is
----@field worst lacuna.WorstCell[] at most ten, worst first
+---@field worst lacuna.WorstCell[] at most ten, worst first; of a swept mesh one of each column
 ---@field histogram integer[] of the scaled Jacobian, twenty bins over [-1, 1]
 ---@field metrics table<integer|lacuna.MetricName, lacuna.MetricSummary> in order and by name; measured when first asked for
 ---@field volume number [model length³]
@@ -599,10 +599,11 @@ function lacuna.check(path) end
 ---@param options? lacuna.ConvertOptions
 ---@return { nodes: integer, elements: integer }
 function lacuna.convert(from, to, options) end
---- A page of a file for a browser: its faces, or the cells of a mesh.
+--- A page of a file for a browser: the cells of a mesh or deck that has solids, else faces.
 ---@param file string in any format that is read
 ---@param path string .html
 ---@param options? lacuna.ViewOptions
+---@return "cells"|"faces"
 function lacuna.view(file, path, options) end
 
 return lacuna

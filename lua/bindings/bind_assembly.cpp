@@ -14,6 +14,7 @@ WholeCells whole_cells(const sweep::SweptAssembly& swept)
 {
     WholeCells whole;
     whole.nodes.resize(swept.nodes);
+    std::size_t columns = 0;
     for (std::size_t p = 0; p < swept.parts.size(); ++p) {
         const mesh::HexMesh& mesh = swept.parts[p].mesh;
         const std::vector<Index>& number = swept.number[p];
@@ -23,11 +24,13 @@ WholeCells whole_cells(const sweep::SweptAssembly& swept)
             Hex hex = mesh.hex(kinds.cell(c));
             for (Index& n : hex) n = number[index(n)];
             whole.hexes.push_back(hex);
+            whole.column.push_back(static_cast<Index>(columns + kinds.cell(c) % mesh.quads.size()));
             if (mesh.order() == 1) continue;
             mesh::CellNodes cell = mesh::cell_nodes(mesh, kinds.cell(c));
             for (std::size_t n = 0; n < cell.count; ++n) cell.node[n] = number[index(cell.node[n])];
             whole.curved.push_back(cell);
         }
+        columns += mesh.quads.size();
     }
     return whole;
 }

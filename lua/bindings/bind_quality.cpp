@@ -179,8 +179,9 @@ int assembly_quality(lua_State* L)
     guard(L, [&] {
         WholeCells whole = whole_cells(mesh.swept);
         if (!mesh.quality)
-            mesh.quality = whole.curved.empty() ? quality::measure_cells(whole.nodes, whole.hexes, context)
-                                                : quality::measure_cells(whole.nodes, whole.curved, context);
+            mesh.quality = whole.curved.empty()
+                               ? quality::measure_cells(whole.nodes, whole.hexes, context, whole.column)
+                               : quality::measure_cells(whole.nodes, whole.curved, context, whole.column);
         source.quality = *mesh.quality;
         source.nodes = std::move(whole.nodes);
         source.hexes = std::move(whole.hexes);

@@ -249,40 +249,31 @@ void read_file_title(lua_State* L, int index, const Where& where, ViewFile& opti
 
 const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", read_show}};
 
-/// Meshes are shown as cells where they have solids; decks, whose voids are to be filled, by their faces.
-bool shows_cells(const io::Deck& deck)
-{
-    switch (deck.format) {
-    case io::DeckFormat::msh:
-    case io::DeckFormat::vtk:
-    case io::DeckFormat::vtu:
-    case io::DeckFormat::medit:
-        return deck.element_count(3) > 0;
-    default:
-        return false;
-    }
-}
-
 bool is_deck(const std::string& ending)
 {
     io::DeckFormat format;
     return io::find_deck_format(ending, format) || ending == ".mesh";
 }
 
-void view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
+/// @return  whether the page shows cells, else faces
+bool view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
                const cad::Limits& limits, const RunContext& context)
 {
     if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
         const io::Deck deck = io::read_deck(file);
-        if (options.show == Show::cells || shows_cells(deck))
-            return view::write_page(deck, path, options.page, context);
+        // A mesh is shown as one, whatever format it has.
+        if (options.show == Show::cells || deck.element_count(3) > 0) {
+            view::write_page(deck, path, options.page, context);
+            return true;
+        }
     }
     options.page.path = file;
     view::write_page(cad::load_files({file}, {}, context, limits).model, path, options.page, context);
+    return false;
 }
 
-/// lacuna.view(file, path [, options])
+/// "cells" or "faces" = lacuna.view(file, path [, options])
 int view(lua_State* L)
 {
     lua_settop(L, 3);
@@ -294,11 +285,13 @@ int view(lua_State* L)
     cad::Limits limits{};
     limits.may_raise = !lent.sandboxed;
     RunContext& context = push_context(L);
+    bool cells = false;
     guard(L, [&] {
         check_input_path(lent, file);
-        view_file(file, path, options, limits, context);
+        cells = view_file(file, path, options, limits, context);
     });
-    return 0;
+    lua_pushstring(L, cells ? "cells" : "faces");
+    return 1;
 }
 
 const luaL_Reg kModelMethods[] = {

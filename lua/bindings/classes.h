@@ -131,6 +131,7 @@ struct WholeCells {
     std::vector<Vec3> nodes;
     std::vector<Hex> hexes;              ///< corners; wedges as `mesh::is_wedge()` has them
     std::vector<mesh::CellNodes> curved; ///< of order 2: all nodes
+    std::vector<Index> column;           ///< that each cell is of, numbered over all parts
 };
 WholeCells whole_cells(const sweep::SweptAssembly& swept);
 

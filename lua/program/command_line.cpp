@@ -7,7 +7,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iterator>
+#include <system_error>
+#include <utility>
 
 namespace lacuna::program {
 
@@ -19,9 +22,10 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
        lacuna [option ...] -i
 
   RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
+  RECIPE --help           list the parameters that it declares with lacuna.params
   -j N RECIPE ...         run recipes side by side, N at once, each in a process of its own; what each
                           prints comes whole, in this order
-  -i                      a prompt; help there says what there is
+  -i                      a prompt; help there says what there is, exit leaves it
 )";
 
 const char* const kOptionHelp = R"(
@@ -43,15 +47,15 @@ exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 termi
 /// A word that does something with files; lua/program/commands.lua has what it does.
 struct Command {
     const char* name;
-    const char* files; ///< in capitals, one a file
-    std::size_t count; ///< of files
-    bool has_json;
+    const char* files;  ///< in capitals, one a file
+    std::size_t count;  ///< of files
+    const char* option; ///< of its own; null: none
     const char* summary;
     const char* help;
 };
 
 const Command kCommands[] = {
-    {"info", "FILE", 1, true, "the faces of a file, and the roles and class they seem to have",
+    {"info", "FILE", 1, "--json", "the faces of a file, and the roles and class they seem to have",
      R"(
 Reads CAD, facets or a finite element mesh, and prints a line a face: its tag, which is the one Gmsh
 shows, its kind with its sizes, area, centre, normal, box, edges, neighbours and what it may be. Then free
@@ -61,12 +65,15 @@ part:open_volume { source = 12, target = 31 }.
 
   --json   what model:info() says, with file =, class =, roles = or roles_refused =, for scripts
 )"},
-    {"view", "FILE", 1, false, "a page of its faces or cells, for a browser",
+    {"view", "FILE", 1, "--faces", "a page of its cells or faces, for a browser",
      R"(
 Writes FILE.view.html into the folder it is called in, from any file that is read. The page needs nothing
-else: open it in a browser. Faces are picked by clicking and their roles copied; cells are cut and coloured.
+else: open it in a browser. A mesh or deck with solid cells is shown as cells, to be cut and coloured; any
+other file as faces, to be picked by clicking and copied as roles.
+
+  --faces  the faces of a mesh or deck too, where its voids are to be filled
 )"},
-    {"check", "FILE", 1, true, "a mesh and its quality; exit code 1 when a cell is invalid",
+    {"check", "FILE", 1, "--json", "a mesh and its quality; exit code 1 when a cell is invalid",
      R"(
 Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh.
 Prints counts, a histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is
@@ -74,7 +81,7 @@ proved positive everywhere in it. The exit code is 1 when one is not.
 
   --json   every number that is printed, and the worst cells, for scripts
 )"},
-    {"convert", "IN OUT", 2, false, "a mesh or deck from one format to another",
+    {"convert", "IN OUT", 2, nullptr, "a mesh or deck from one format to another",
      R"(
 Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj, and writes it in the
 format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their
@@ -82,15 +89,57 @@ numbers, regions and sets are kept. What the format cannot hold is named on stan
 )"},
 };
 
-const char* const kFlags[] = {"--sandbox", "--output-dir", "--memory",  "--seconds", "--verbose",
-                              "--quiet",   "--traceback",  "--history", "--version", "--help",
-                              "--json",    "--threads",    "--timing"};
+const char* const kFlags[] = {"--output-dir", "--memory",  "--seconds", "--history", "--threads",
+                              "--timing",     "--sandbox", "--verbose", "--quiet",   "--traceback",
+                              "--version",    "--help",    "--json",    "--faces"};
+constexpr std::size_t kFlagsWithValue = 6; ///< the first ones
 
 const Command* find_command(const std::string& name)
 {
     const auto found = std::find_if(std::begin(kCommands), std::end(kCommands),
                                     [&](const Command& command) { return name == command.name; });
     return found == std::end(kCommands) ? nullptr : found;
+}
+
+/// " did you mean info?" where a command is like the word; else which commands there are.
+std::string like_command(const std::string& word)
+{
+    const char* names[std::size(kCommands) + 1] = {"help"};
+    std::string all;
+    for (std::size_t i = 0; i < std::size(kCommands); ++i) {
+        names[i + 1] = kCommands[i].name;
+        all += std::string(kCommands[i].name) + ", ";
+    }
+    const std::string near = names[lua::nearest(word.c_str(), names, std::size(names))];
+    constexpr std::size_t kSlips = 2; // two letters changed places, or one that is wrong, missing or too many
+    if (near.starts_with(word) || lua::edit_distance(word.c_str(), near.c_str()) <= kSlips)
+        return "did you mean " + near + "?";
+    return "the commands are " + all + "help";
+}
+
+/// Whether a word can only be a command: it names no file, and no recipe that is missing.
+bool is_misspelt(const std::string& word)
+{
+    std::error_code error;
+    return word.find_first_of("./") == std::string::npos && !std::filesystem::exists(word, error);
+}
+
+/// Words as the rest of this file reads them: -j4 and --threads=4 are two each.
+std::vector<std::string> split_words(const std::vector<std::string>& all)
+{
+    std::vector<std::string> words;
+    for (const std::string& word : all) {
+        const std::size_t equals = word.find('=');
+        const auto is_flag = [&](const char* flag) { return word.compare(0, equals, flag) == 0; };
+        if (word.starts_with("-j") && word.size() > 2) {
+            words.insert(words.end(), {"-j", word.substr(2)});
+        } else if (equals != std::string::npos && std::any_of(kFlags, kFlags + kFlagsWithValue, is_flag)) {
+            words.insert(words.end(), {word.substr(0, equals), word.substr(equals + 1)});
+        } else {
+            words.push_back(word);
+        }
+    }
+    return words;
 }
 
 bool is_parameter(const std::string& word)
@@ -182,8 +231,8 @@ void read_command(const Command& command, Words& words, CommandLine& line)
             line.action = Action::help;
             return;
         }
-        if (word == "--json" && command.has_json)
-            line.json = true;
+        if (command.option != nullptr && word == command.option)
+            line.option = true;
         else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
             throw BadUsage(std::string(command.name) + " has no option " + word + "; `lacuna " +
                            command.name + " --help` says what it has");
@@ -216,6 +265,22 @@ void read_batch(Words& words, CommandLine& line)
     if (!line.timing.empty()) throw BadUsage("--timing is of one recipe, and goes without -j");
 }
 
+/// A word behind a recipe.
+void read_parameter(const std::string& word, CommandLine& line)
+{
+    if (word == "--help" || word == "-h") {
+        line.action = Action::parameters;
+    } else if (is_parameter(word)) {
+        line.words.push_back(word);
+    } else {
+        const bool dashes = word.starts_with("--") && is_parameter(word.substr(2));
+        throw BadUsage(word + " after the recipe is not of the form key=value" +
+                       (dashes                  ? "; write " + word.substr(2)
+                        : word.starts_with("-") ? "; options go before the recipe"
+                                                : ""));
+    }
+}
+
 /// The word that says what is to be done, and what belongs to it.
 void read_action(const std::string& word, Words& words, CommandLine& line)
 {
@@ -225,7 +290,10 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
         line.action = Action::help;
         if (word == "help" && !words.empty()) {
             line.command = words.take();
-            if (!find_command(line.command)) throw BadUsage("there is no command " + line.command);
+            if (line.command.ends_with(".lua"))
+                line.action = Action::parameters, line.file = std::exchange(line.command, {});
+            else if (!find_command(line.command))
+                throw BadUsage("there is no command " + line.command + "; " + like_command(line.command));
         }
     } else if (word == "-i")
         line.action = Action::prompt;
@@ -236,15 +304,14 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
     else if (word != "-" && word.starts_with("-")) {
         const std::size_t near = lua::nearest(word.c_str(), kFlags, std::size(kFlags));
         throw BadUsage("unknown option " + word + "; the nearest is " + kFlags[near]);
+    } else if (word != "-" && is_misspelt(word)) {
+        throw BadUsage(
+            "there is no command and no file " + word + "; " +
+            (std::filesystem::exists(word + ".lua") ? "did you mean " + word + ".lua?" : like_command(word)));
     } else {
         line.action = Action::run;
         line.file = word;
-        while (!words.empty()) {
-            const std::string& parameter = words.take();
-            if (!is_parameter(parameter))
-                throw BadUsage(parameter + " after the recipe is not of the form key=value");
-            line.words.push_back(parameter);
-        }
+        while (!words.empty()) read_parameter(words.take(), line);
     }
 }
 
@@ -253,8 +320,9 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
 std::string help_text(const std::string& name)
 {
     if (const Command* command = find_command(name))
-        return std::string("usage: lacuna ") + command->name + (command->has_json ? " [--json] " : " ") +
-               command->files + "\n" + command->help;
+        return std::string("usage: lacuna ") + command->name +
+               (command->option ? std::string(" [") + command->option + "] " : " ") + command->files + "\n" +
+               command->help;
     std::string text = kHelp;
     for (const Command& command : kCommands) {
         std::string left = std::string("  ") + command.name + " " + command.files;
@@ -264,9 +332,10 @@ std::string help_text(const std::string& name)
     return text + kOptionHelp;
 }
 
-CommandLine parse(const std::vector<std::string>& all)
+CommandLine parse(const std::vector<std::string>& given)
 {
     CommandLine line;
+    const std::vector<std::string> all = split_words(given);
     Words words{all};
     bool limits = false;
     if (words.empty()) throw BadUsage("a recipe is wanted");

@@ -7,7 +7,7 @@
 
 namespace lacuna::program {
 
-enum class Action { run, batch, prompt, command, version, help };
+enum class Action { run, parameters, batch, prompt, command, version, help };
 
 /// A recipe of several that are run side by side.
 struct Job {
@@ -18,13 +18,13 @@ struct Job {
 /// What the command line asks for.
 struct CommandLine {
     Action action = Action::help;
-    std::string file;               ///< of a run: the recipe, "-" for standard input
+    std::string file;               ///< of a run, or of its parameters: the recipe, "-" for standard input
     std::string command;            ///< of a command, or of help: which; empty: all
     std::vector<std::string> words; ///< key=value words after the recipe; the files of a command
     std::vector<Job> batch;         ///< of a batch, in its order
     int jobs = 0;                   ///< of a batch: recipes at once
     int threads = 0;                ///< of the kernel, where a recipe asks for none; 0: all cores
-    bool json = false;              ///< of a command
+    bool option = false;            ///< of a command: its own, --json or --faces
     bool verbose = false;           ///< notes of the kernel on standard error
     bool quiet = false;             ///< no line of progress
     std::string timing;             ///< a file for seconds by stage, "-": standard error; empty: none

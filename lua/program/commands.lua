@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- The commands of the program: command, options, file, ...
-local command, json, first, second = ...
+-- The commands of the program: command, whether its own option was given, file, ...
+local command, option, first, second = ...
 local lacuna = require "lacuna"
 
 -- --- JSON --------------------------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ local commands = {}
 function commands.info()
   local model = lacuna.load(first)
   local found, volume = pcall(model.open_volume, model)
-  if json then
+  if option then
     local told = model:info()
     told.file = first
     if found then told.class, told.roles = volume.class, volume:describe() end
@@ -62,13 +62,14 @@ end
 
 function commands.view()
   local page = first:match("[^/]*$") .. ".view.html"
-  lacuna.view(first, page)
+  local shown = lacuna.view(first, page, { show = option and "faces" or "auto" })
   print("wrote " .. page .. "; open it in a browser")
+  if shown == "cells" then print("it shows cells; --faces shows faces, to fill voids between them") end
 end
 
 function commands.check()
   local quality = lacuna.check(first)
-  if json then
+  if option then
     local told = {}
     for key, value in pairs(quality) do told[key] = value end
     -- Metrics go by name; their places in the array repeat them.
@@ -88,6 +89,46 @@ end
 function commands.convert()
   local found = lacuna.convert(first, second)
   print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
+end
+
+-- Make ready to list the parameters of the recipe `first`: whatever it calls of lacuna first ends its run, by
+-- `second`, and is to be lacuna.params.
+function commands.parameters()
+  local params = lacuna.params
+  local function stop()
+    second()
+    while true do end  -- until it is met, which no pcall of the recipe can catch
+  end
+  local function stopping(owner, prefix)
+    for name, value in pairs(owner) do
+      if type(value) == "function" then
+        owner[name] = function()
+          print(("%s calls %s%s before lacuna.params; parameters that are declared first can be listed")
+              :format(first, prefix, name))
+          stop()
+        end
+      end
+    end
+  end
+  stopping(lacuna.synthetic, "lacuna.synthetic.")
+  stopping(lacuna, "lacuna.")
+  function lacuna.params(defaults)
+    params(defaults)  -- refuses what is no table of defaults
+    local names, lines, widest = {}, {}, 0
+    for name in pairs(defaults) do names[#names + 1] = name end
+    table.sort(names)
+    for i, name in ipairs(names) do
+      local kind = type(defaults[name])
+      local simple = kind == "number" or kind == "string" or kind == "boolean"
+      lines[i] = ("  %s=%s"):format(name, simple and tostring(defaults[name]) or "...")
+      widest = math.max(widest, #lines[i])
+      names[i] = kind .. (simple and "" or ", not to be changed here")
+    end
+    for i, line in ipairs(lines) do lines[i] = line .. (" "):rep(widest + 2 - #line) .. names[i] end
+    print(("usage: lacuna %s [key=value ...]\n\nparameters and their defaults:\n%s"):format(first,
+        #lines > 0 and table.concat(lines, "\n") or "  none"))
+    stop()
+  end
 end
 
 commands[command]()

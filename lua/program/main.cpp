@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #if defined(__GLIBC__)
@@ -32,6 +33,34 @@ local lacuna = require "lacuna"
 print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
 )lua";
 
+/// Run a recipe as far as its call of lacuna.params, which lists what it declares.
+void list_parameters(const std::string& recipe, lacuna::Interpreter& interpreter)
+{
+    struct Listing {
+        lacuna::Interpreter& interpreter;
+        bool done = false;
+    } listing{interpreter};
+    lua_State* const L = push_chunk(interpreter, "commands");
+    lua_pushliteral(L, "parameters");
+    lua_pushboolean(L, 0);
+    lua_pushstring(L, recipe.c_str());
+    lua_pushlightuserdata(L, &listing);
+    const auto stop = [](lua_State* state) {
+        auto& own = *static_cast<Listing*>(lua_touserdata(state, lua_upvalueindex(1)));
+        own.done = true;
+        own.interpreter.cancel();
+        return 0;
+    };
+    lua_pushcclosure(L, stop, 1);
+    interpreter.call(4);
+    try {
+        interpreter.run_file(recipe);
+        std::printf("%s has no parameters: it does not call lacuna.params\n", recipe.c_str());
+    } catch (const lacuna::Cancelled&) {
+        if (!listing.done) throw;
+    }
+}
+
 void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, ProgressLine& progress)
 {
     switch (line.action) {
@@ -41,13 +70,16 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, Progr
             std::fprintf(stderr, "lacuna: note: %s changed nothing: %s does not call lacuna.params\n",
                          line.words.front().c_str(), line.file.c_str());
         break;
+    case Action::parameters:
+        list_parameters(line.file, interpreter);
+        break;
     case Action::prompt:
         run_prompt(interpreter, line.history, progress);
         break;
     case Action::command: {
         lua_State* const L = push_chunk(interpreter, "commands");
         lua_pushstring(L, line.command.c_str());
-        lua_pushboolean(L, line.json);
+        lua_pushboolean(L, line.option);
         for (const std::string& word : line.words) lua_pushstring(L, word.c_str());
         interpreter.call(2 + static_cast<int>(line.words.size()));
         break;
@@ -81,6 +113,8 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
     // What a format cannot hold, and what a mesh lacks, is said by notes.
     const bool all = line.verbose || line.command == "convert";
     options.log = [&progress, all](std::string_view text) {
+        constexpr std::string_view kEstimate = "estimate: ";
+        if (text.starts_with(kEstimate)) progress.expect(text.substr(kEstimate.size()));
         if (!all && !text.starts_with("note: ")) return;
         progress.clear();
         std::fprintf(stderr, "lacuna: %.*s\n", static_cast<int>(text.size()), text.data());
@@ -113,6 +147,9 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
         std::fflush(stdout);
         tell_times();
         report(error);
+        if (line.action == Action::run && error.code() == "lua.syntax" && !line.file.ends_with(".lua"))
+            std::fprintf(stderr, "`lacuna info %s` lists the faces of a file, `lacuna view %s` shows it\n",
+                         line.file.c_str(), line.file.c_str());
         return Exit::failed;
     }
 }

@@ -47,12 +47,21 @@ void ProgressLine::watch(InterpreterOptions& options)
         changed_.notify_all();
         return true;
     };
-    options.ended = [this] { clear(); };
+    options.ended = [this] {
+        clear();
+        expect({});
+    };
     options.print = [this](std::string_view text) {
         clear();
         std::fwrite(text.data(), 1, text.size(), stdout);
         if (isatty(STDOUT_FILENO) == 1) std::fflush(stdout);
     };
+}
+
+void ProgressLine::expect(std::string_view cells)
+{
+    const std::lock_guard lock(mutex_);
+    expected_ = cells;
 }
 
 void ProgressLine::erase()
@@ -80,7 +89,7 @@ std::string ProgressLine::text(Clock::time_point now) const
         std::snprintf(numbers, sizeof numbers, " %.0f %%, %.1f %% a second, %.0f s, about %.0f s left",
                       100 * share_, 100 * rate, seconds(now - begin_), (1 - share_) / rate);
     }
-    return "lacuna: " + stage_ + numbers;
+    return "lacuna: " + expected_ + (expected_.empty() ? "" : ": ") + stage_ + numbers;
 }
 
 void ProgressLine::draw()

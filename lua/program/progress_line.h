@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace lacuna::program {
@@ -24,6 +25,8 @@ public:
 
     /// Fill in the callbacks that feed it.
     void watch(InterpreterOptions& options);
+    /// Say with every stage of the call that runs how many cells it is expected to make.
+    void expect(std::string_view cells);
     /// Nothing is shown until the next stage.
     void clear();
 
@@ -36,7 +39,8 @@ private:
     bool wanted_, terminal_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::string stage_; ///< empty: nothing goes on
+    std::string stage_;    ///< empty: nothing goes on
+    std::string expected_; ///< cells; empty: nobody knows
     double share_ = 0;
     Clock::time_point begin_;       ///< of what goes on without a pause
     Clock::time_point stage_begin_; ///< of the stage

@@ -200,13 +200,14 @@ void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLi
     const char* const named = std::getenv("LACUNA_HISTORY");
     const Lines lines(interpreter, !history.empty() ? history : named ? named : "");
     if (lines.at_terminal())
-        std::printf("lacuna %s, %s; help says what there is, Ctrl-D leaves\n", LACUNA_VERSION, LUA_RELEASE);
+        std::printf("lacuna %s, %s; help says what there is, exit leaves\n", LACUNA_VERSION, LUA_RELEASE);
     while (true) {
         bool given_up = false;
         const std::optional<std::string> line = lines.next("> ", given_up);
         if (given_up) continue;
         if (!line) break;
         try {
+            if (std::get<bool>(ask(interpreter, "leaves", {*line}))) break;
             run_statement(interpreter, *line, lines);
             progress.clear();
         } catch (const ScriptError& error) {

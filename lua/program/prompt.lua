@@ -80,7 +80,7 @@ help "sweep"                       a call and its options
 help "Volume"                      the calls and fields of a class
 help "size"                        an option, wherever it is taken
 help(mesh)                         what an object has
-Tab completes fields, calls, options and, in quotes, names of files.]]
+Tab completes fields, calls, options and, in quotes, names of files; exit leaves.]]
 
 local function add_options(lines, class)
   if not class or #class.fields == 0 then return end
@@ -224,6 +224,12 @@ local function print_all(...)
     if type(shown[i]) ~= "string" then shown[i] = show(shown[i], most_depth, {}) end
   end
   print(table.unpack(shown, 1, count))
+end
+
+-- Whether a line leaves the prompt: exit or quit, unless the person has given the name a value.
+function prompt.leaves(line)
+  local word = line:match("^%s*(%a+)%s*%(?%s*%)?%s*;?%s*$")
+  return (word == "exit" or word == "quit") and rawget(_G, word) == nil
 end
 
 -- true: the statement only lacks its end, and `last` does not say that no more comes.

@@ -12,7 +12,7 @@ set(prefix "${WORK_DIR}/prefix")
 # What the manual prints of them is theirs.
 file(READ "${HOSTS_DIR}/../../../docs/hosts.md" page)
 set(hosts "")
-foreach(host IN ITEMS host.cpp host.c host.py)
+foreach(host IN ITEMS host.cpp host.c host.py CMakeLists.txt)
   file(READ "${HOSTS_DIR}/${host}" text)
   string(APPEND hosts "${text}")
 endforeach()
@@ -29,7 +29,7 @@ foreach(begin IN LISTS begins)
   string(FIND "${page}" "\n```\n" end)
   string(SUBSTRING "${page}" 0 ${end} block)
   string(FIND "${hosts}" "${block}" found)
-  if(found EQUAL -1)
+  if(found EQUAL -1 AND NOT begin STREQUAL "\n```sh\n") # commands are no part of a host
     message(FATAL_ERROR "a block of docs/hosts.md is in no host:\n${block}")
   endif()
   math(EXPR end "${end} + 5") # behind its last line

@@ -50,6 +50,45 @@ do
   check.that(said, "the report says what was reached")
 end
 
+-- Walls in rings over each other: "walls" gives all of them the rows of those below, and one in the middle
+-- has none by itself.
+for sides = 3, 7 do
+  for rings = 2, 5 do
+    local model, heights = lacuna.model(), {}
+    for ring = 0, rings do heights[ring] = ring + 0.3 * math.sin(ring) end
+    local function point(i, level)
+      local angle = 2 * math.pi * i / sides
+      return { 2 * math.cos(angle), 2 * math.sin(angle), heights[level] }
+    end
+    for name, level in pairs { source = 0, target = rings } do
+      local points, cells = {}, {}
+      for i = 1, sides do points[i] = point(i, level) end
+      for i = 2, sides - 1 do cells[i - 1] = { 1, i, i + 1 } end
+      model:add_face { name = name, points = points, cells = cells }
+    end
+    for ring = 1, rings do
+      for i = 1, sides do
+        model:add_face { name = ("wall_%d_%d"):format(ring, i), cells = { { 1, 2, 3, 4 } },
+          points = { point(i, ring - 1), point(i + 1, ring - 1), point(i + 1, ring), point(i, ring) } }
+      end
+    end
+    local function volume()
+      return model:open_volume { source = "source", target = "target", walls = "auto" }
+    end
+    local what = sides .. " sides, " .. rings .. " rings"
+    local rows = { walls = "walls", first = 0.03, growth = 1.5, count = 2 }
+    local mesh = volume():sweep { layers = 6, size = 0.5, boundary_layers = rows }
+    for ring = 1, rings do
+      check.near(least_distance(mesh, model:face("wall_" .. ring .. "_1")), 0.03, 1e-9, what)
+    end
+    if rings > 2 then
+      rows.walls = "wall_2_1"
+      check.fails(function() volume():sweep { layers = 6, size = 0.5, boundary_layers = rows } end,
+          "stands on neither end", 'walls = "walls"', "surface.layers_unreached")
+    end
+  end
+end
+
 -- Void walls have names too.
 do
   local name

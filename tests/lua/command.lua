@@ -31,6 +31,19 @@ for _, command in ipairs { "info", "view", "check", "convert" } do
   expect({ command, "--jsn", "x" }, 2, {}, { command, "--jsn", "--help" })
 end
 expect({ "help", "nothing" }, 2, {}, { "nothing" })
+-- A command that is misspelt: letters that are missing, too many, wrong or changed places.
+for wrong, meant in pairs { inf = "info", inof = "info", infos = "info", infp = "info", vew = "view",
+  veiw = "view", chek = "check", chekc = "check", conv = "convert", convrt = "convert", hlep = "help" } do
+  for _, words in ipairs { { wrong }, { wrong, "x.step" }, { wrong, "a.msh", "b.msh" }, { "help", wrong } } do
+    expect(words, 2, {}, { "did you mean " .. meant .. "?" })
+  end
+end
+expect({ "remesh", "x.step" }, 2, {}, { "remesh", "the commands are info, view, check, convert, help" })
+check.write(folder .. "/inf", "print 'a recipe'")
+expect({ "inf" }, 0, { "a recipe" }, {}) -- a file of that name is a recipe
+os.remove(folder .. "/inf")
+check.write(folder .. "/gap.lua", "print 'a recipe'")
+expect({ "gap" }, 2, {}, { "did you mean gap.lua?" })
 expect({ "convert", "a.msh" }, 2, {}, { "IN OUT" })
 expect({ "convert", "--json", "a.msh", "b.vtu" }, 2, {}, { "--json" })
 
@@ -50,8 +63,8 @@ if params.how == "killed" then os.execute("kill -9 $PPID") end
 if params.how == "hangs" then while true do end end
 ]])
 local jobs = folder .. "/job.lua"
-for _, at_once in ipairs { "1", "2", "9" } do
-  local words = { "-j", at_once }
+for _, at_once in ipairs { "1", "2", "9", "joined" } do
+  local words = at_once == "joined" and { "--threads=1", "-j2" } or { "-j", at_once }
   local expected = ""
   for n = 1, 5 do
     words[#words + 1], words[#words + 2] = jobs, "n=" .. n
@@ -68,7 +81,8 @@ expect({ "-j", "2", jobs, "n=2", "how=killed", jobs, "n=3" }, 1, { "job\t3\n" },
 expect({ "--sandbox", "--seconds", "1", "-j", "2", jobs, jobs }, 1, {}, { "job.lua failed" })
 expect({ "-j", "2", folder .. "/no_such.lua", jobs }, 1, { "job\t1\n" }, { "no_such.lua" })
 for _, words in ipairs { { "-j" }, { "-j", "2" }, { "-j", "x", jobs }, { "-j", "1.5", jobs },
-  { "-j", "0", jobs }, { "-j", "2", "n=1", jobs }, { "-j", "2", "-" }, { "--threads", "1e9", jobs } } do
+  { "-j", "0", jobs }, { "-j0", jobs }, { "-jx", jobs }, { "-j", "2", "n=1", jobs }, { "-j", "2", "-" },
+  { "--threads", "1e9", jobs } } do
   expect(words, 2, {}, { "lacuna: " })
 end
 do
@@ -101,6 +115,8 @@ expect({}, 2, {}, { "lacuna: ", "--help" })
 expect({ "--sandbocks", "x.lua" }, 2, {}, { "--sandbocks", "--sandbox" })
 expect({ "x.lua", "layers" }, 2, {}, { "layers", "key=value" })
 expect({ "x.lua", "2layers=1" }, 2, {}, { "key=value" })
+expect({ "x.lua", "--layers=3" }, 2, {}, { "key=value", "write layers=3" })
+expect({ "x.lua", "--quiet" }, 2, {}, { "options go before the recipe" })
 expect({ "info" }, 2, {}, { "info", "file" })
 expect({ "check", "a.msh", "b.msh" }, 2, {}, { "b.msh" })
 expect({ "--memory", "100", "x.lua" }, 2, {}, { "--sandbox" })
@@ -127,6 +143,36 @@ local p = lacuna.params { layers = 12, size = 2.0, name = "a", fast = false, lis
 print(p.layers, math.type(p.layers), p.size, p.name, p.fast)
 print(arg[0], #arg, select("#", ...))
 ]])
+-- --help lists them, wherever it stands, and nothing behind their declaration is done.
+for _, words in ipairs { { "params.lua", "--help" }, { "params.lua", "layers=3", "-h" },
+  { "help", "params.lua" }, { "--sandbox", "params.lua", "--help" } } do
+  local code, out, err = run(words)
+  check.equal(code .. err, "0", err)
+  check.equal(out, [[
+usage: lacuna params.lua [key=value ...]
+
+parameters and their defaults:
+  fast=false  boolean
+  layers=12   number
+  list=...    table, not to be changed here
+  name=a      string
+  size=2.0    number
+]])
+end
+for name, lines in pairs {
+  late = "local lacuna = require 'lacuna'\nlocal part = lacuna.load 'nowhere.step'\nlacuna.params { a = 1 }",
+  none = "local x = 1",
+  caught = "pcall(require('lacuna').params, { a = 1 })\nassert(io.open('ran', 'w')):close()",
+  made = "local part = require('lacuna').synthetic.prism {}\nassert(io.open('ran', 'w')):close()",
+  wrong = "require('lacuna').params(3)",
+} do
+  check.write(folder .. "/" .. name .. ".lua", lines)
+  local told = { caught = "a=1", none = "has no parameters", late = "before lacuna.params",
+    made = "lacuna.synthetic.prism before" }
+  expect({ name .. ".lua", "--help" }, told[name] and 0 or 1, { told[name] },
+      told[name] and {} or { "params: a table" })
+  check.that(not check.exists(folder .. "/ran"), name .. ": the rest of a recipe is not run")
+end
 expect({ "params.lua" }, 0, { "12\tinteger\t2.0\ta\tfalse", "params.lua\t0\t0" }, {})
 expect({ "params.lua", "layers=20", "size=1.5", "name=b c=d", "fast=true" }, 0,
     { "20\tinteger\t1.5\tb c=d\ttrue" }, {})
@@ -144,6 +190,23 @@ expect({ "-" }, 1, {}, { "lacuna: stdin:2:" }, "\nerror 'here'")
 -- The prompt, fed by a pipe: values are printed, statements may span lines, errors do not end it.
 expect({ "-i" }, 0, { "3\n", "yes", lacuna.version }, { "prompt:1:" },
        "1 + 2\ndo\nprint 'yes'\nend\nerror 'no'\nlacuna.version\n")
+
+-- exit and quit leave it, unless a variable is called so.
+for _, word in ipairs { "exit", "quit", "exit()", " quit ", "quit();" } do
+  local code, out, err = run({ "-i" }, "print 'before'\n" .. word .. "\nprint 'after'\n")
+  check.equal(code .. out .. err, "0before\n", word)
+end
+expect({ "-i" }, 0, { "3\n", "after" }, {}, "quit = 3\nquit\nprint 'after'\n")
+
+-- A file that is no recipe; CAD that has no mesh.
+for _, ending in ipairs { "step", "stp", "STEP", "iges", "igs", "brep" } do
+  local path = "part." .. ending
+  check.write(folder .. "/" .. path, "ISO-10303-21;\nHEADER;\n")
+  expect({ path }, 1, {}, { path .. ":1:", "`lacuna info " .. path .. "`" })
+  for _, words in ipairs { { "check", path }, { "check", "--json", path }, { "convert", path, "x.msh" } } do
+    expect(words, 1, {}, { path .. " is CAD, which has no mesh", "`lacuna info`", "io.no_mesh" })
+  end
+end
 
 -- info and check.
 check.write(folder .. "/make.lua", [[
@@ -200,6 +263,14 @@ for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "nas", "dat", "unv"
     check.equal(field(found, "hexes"), field(good, "hexes"), path)
     check.near(field(found, "volume"), field(good, "volume"), 1e-5 * field(good, "volume"))
     expect({ "check", path }, 0, { "caled" }, {})
+  end
+  -- Solids are shown as they are in every format; faces on demand.
+  for option, shown in pairs { ["--quiet"] = true, ["--faces"] = false } do
+    local code, out, err = run { "view", option, path }
+    check.equal(code, 0, err)
+    check.equal(out:find("it shows cells", 1, true) ~= nil, shown, path .. " " .. option)
+    local file <close> = assert(io.open(folder .. "/" .. path .. ".view.html"))
+    check.equal(file:read("a"):find('"kind":%s*"cells"') ~= nil, shown, path .. " " .. option)
   end
 end
 expect({ "convert", "good.msh", "x.xyz" }, 1, {}, { "x.xyz", ".vtu" })
@@ -341,6 +412,36 @@ echo "exit code $?"; echo "at $((user + system)) of $(getconf CLK_TCK)"; times]]
   end
   check.that(#names <= 2, table.concat(names, " "))
   for _, name in ipairs(names) do check.that(name:find("^%d+%." .. ending .. "$"), name) end
+end
+
+-- How many cells are expected is said before each sweep, and is right to a factor of four.
+check.write(folder .. "/expected.lua", [[
+local lacuna = require "lacuna"
+local shapes, synthetic = {}, lacuna.synthetic
+for sides = 3, 8 do
+  shapes[#shapes + 1] = synthetic.prism { sides = sides, holes = sides % 2, twist = 10 * sides, taper = 0.8 }
+end
+for _, name in ipairs { "annulus", "elbow", "barrel", "plate" } do shapes[#shapes + 1] = synthetic[name]() end
+for _, shape in ipairs(shapes) do
+  for _, options in ipairs { {}, { size = 0.2 }, { size = 0.15, layers = 7 } } do
+    local void = shape:open_volume { source = "source", target = "target", walls = "auto" }
+    print(void:sweep(options).hexes)
+    io.stderr:write("made\n")
+  end
+end
+]])
+do
+  local code, out, err = run { "--verbose", "expected.lua" }
+  check.equal(code, 0, err)
+  local made, count = out:gmatch("%d+"), 0
+  for log in err:gmatch("(.-)\nmade") do
+    local hexes = tonumber(made())
+    local expected = tonumber(log:match("lacuna: estimate: about (%d+) cells"))
+    check.that(expected and expected < 4 * hexes and hexes < 4 * expected,
+        ("%d hexes, and expected were %s"):format(hexes, expected))
+    count = count + 1
+  end
+  check.equal(count, 30)
 end
 
 -- --timing: seconds by stage, which add up, of what fails too.

@@ -136,7 +136,66 @@ end
 local steps, sum = {}, 0
 for i = 1, 10 do sum = sum + 0.1; steps[i] = sum end
 check.that(sum ~= 1)
-check.that(#volume():sweep({ layers = steps, size = 1 }):quality().worst == 10)
+check.equal(volume():sweep({ layers = steps, size = 1 }).layers, 10)
+-- More cells than anybody means are refused at once where one of both numbers asks for them.
+do
+  local function refused(what, call)
+    local start = os.clock()
+    check.fails(call, "sweep.many_cells", "both 'size' and 'layers'")
+    check.that(os.clock() - start < 1, what .. " is refused at once")
+  end
+  local synthetic = lacuna.synthetic
+  local shapes = {
+    prism = synthetic.prism { radius = 40, height = 80 },
+    annulus = synthetic.annulus { outer = 40, inner = 20, height = 80 },
+    elbow = synthetic.elbow { radius = 20, bend_radius = 60 },
+    barrel = synthetic.barrel { radius = 40, height = 80 },
+    plate = synthetic.plate { length = 80, width = 80, height = 10 },
+    twisted = synthetic.prism { radius = 40, height = 80, twist = 30, taper = 0.5, holes = 1 },
+  }
+  for name, model in pairs(shapes) do
+    local function open()
+      return model:open_volume { source = "source", target = "target", walls = "auto" }
+    end
+    refused(name, function() open():sweep { size = 0.002 } end)
+    refused(name, function() open():sweep { size = 0.05 } end)
+    refused(name, function() open():sweep { layers = 10000000 } end)
+    refused(name, function() open():sweep { size = function() return 0.02 end } end)
+    refused(name, function() open():sweep_to("never_made.msh", { size = 0.002 }) end)
+    refused(name, function() lacuna.assembly({ open() }):sweep { size = 0.002 } end)
+  end
+  -- An assembly is counted as a whole: each of these has 30 million.
+  local both = lacuna.model()
+  for _, shift in ipairs { 0, 1 } do
+    local low = { { shift, 0, 0 }, { shift + 1, 0, 0 }, { shift + 1, 1, 0 }, { shift, 1, 0 } }
+    local high = {}
+    for i, p in ipairs(low) do high[i] = { p[1], p[2], 1 } end
+    both:add_face { name = "low" .. shift, points = low, cells = { { 1, 4, 3, 2 } } }
+    both:add_face { name = "high" .. shift, points = high, cells = { { 1, 2, 3, 4 } } }
+  end
+  local function pair()
+    return lacuna.assembly { both:open_volume { source = "low0", target = "high0", name = "left" },
+      both:open_volume { source = "low1", target = "high1", name = "right" } }
+  end
+  refused("assembly", function() pair():sweep { size = 30e6 ^ (-1 / 3) } end)
+  refused("assembly", function() pair():sweep_to("never_made.msh", { size = 30e6 ^ (-1 / 3) }) end)
+  -- Meshes that faces came with are counted, not what the size would make there.
+  local given = lacuna.model()
+  local function grid(name, at)
+    local points, cells = {}, {}
+    for i = 0, 3 do for j = 0, 3 do points[#points + 1] = at(i / 3, j / 3) end end
+    for i = 0, 2 do
+      for j = 1, 3 do cells[#cells + 1] = { 4 * i + j, 4 * i + j + 4, 4 * i + j + 5, 4 * i + j + 1 } end
+    end
+    given:add_face { name = name, points = points, cells = cells, keep_mesh = true }
+  end
+  grid("source", function(u, v) return { v, u, 0 } end)
+  grid("wall", function(u, v) return { u, 0, v } end)
+  given:add_face { name = "target", points = { { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } },
+    cells = { { 1, 2, 3, 4 } } }
+  local kept = given:open_volume { source = "source", target = "target", walls = "wall" }
+  check.equal(kept:sweep({ size = 1e-4 }).hexes, 27)
+end
 wrong("picture", "width", { 0, -1, 2.5, "8" }, "a positive whole number")
 wrong("picture", "width", { 15, 16385 }, "16 to 16384")
 wrong("picture", "view", { "izo" }, 'did you mean "iso"?')

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""prompt.py LACUNA FOLDER: the prompt at a terminal: completion, several lines, Ctrl-C, history."""
+"""prompt.py LACUNA FOLDER: the prompt at a terminal: completion, several lines, Ctrl-C, history; progress."""
 import os
 import pathlib
 import pty
@@ -61,6 +61,21 @@ class Terminal:
         self.wait_for(text)
         time.sleep(0.3)  # for the last one to be met before anything runs
         self.told = ""
+
+    def end(self):
+        """Until the program has ended by itself."""
+        end = time.time() + PATIENCE
+        while time.time() < end:
+            try:
+                if select.select([self.terminal], [], [], 0.1)[0]:
+                    self.told += os.read(self.terminal, 4096).decode(errors="replace")
+            except OSError:
+                pass  # it has ended
+            done, status = os.waitpid(self.process, os.WNOHANG)
+            if done:
+                return os.waitstatus_to_exitcode(status)
+        os.kill(self.process, signal.SIGKILL)
+        sys.exit("the program did not end: %r" % self.told)
 
     def close(self):
         """Ctrl-D on an empty line until the program has ended: one while no key is waited for is lost."""
@@ -125,6 +140,22 @@ def main():
     terminal.wait_for("> ")
     if terminal.close() != 0:
         sys.exit("Ctrl-D is no failure")
+    for word in ("exit", "quit()"):
+        terminal = Terminal(lacuna, "-i")
+        terminal.wait_for("> ")
+        terminal.type(word + "\r")
+        if terminal.end() != 0:
+            sys.exit(word + " is no failure")
+    # How many cells are expected is told with the progress.
+    (folder / "many.lua").write_text("""local lacuna = require "lacuna"
+local void = lacuna.synthetic.prism { sides = 4, radius = 2 ^ 0.5 }:open_volume {}
+void:sweep_to("many.msh", { size = 0.0025, layers = 100 })""")
+    terminal = Terminal(lacuna, "many.lua")
+    terminal.wait_for("lacuna: about 64 million cells: ")
+    terminal.type("\x03")
+    terminal.wait_for("interrupted")
+    if terminal.end() != 130 or (folder / "many.msh").exists():
+        sys.exit("a sweep that is stopped leaves nothing")
     if "still" not in history.read_text():
         sys.exit("the history was not kept")
     if list(home.iterdir()):

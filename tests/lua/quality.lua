@@ -46,6 +46,77 @@ for i = 2, #quality.worst do
   check.that(quality.worst[i - 1].scaled_jacobian <= quality.worst[i].scaled_jacobian)
 end
 
+-- The worst cells are one of each column, its least, of every kind of mesh; and so are those that a refusal
+-- names. What improves cells is a stage of its own.
+local improved_some, left_some = 0, 0
+for sides = 3, 7 do
+  for _, options in ipairs { { layers = 9 }, { layers = 9, size = 0.2, improve = false },
+    { layers = 9, size = 0.4, order = 2 }, { layers = 30, size = 0.4, wedges = true } } do
+    local shape = lacuna.synthetic.prism { sides = sides, twist = 90, taper = 0.4, holes = sides % 2,
+      height = 1 }
+    local swept = shape:open_volume():sweep(options)
+    local columns = (swept.hexes + swept.wedges) // options.layers
+    local worst, met = swept:quality().worst, {}
+    check.equal(#worst, math.min(10, columns))
+    for i, cell in ipairs(worst) do
+      local column = (cell.cell - 1) % columns
+      check.that(not met[column], "column " .. column .. " is named twice")
+      met[column] = true
+      check.that(i == 1 or worst[i - 1].scaled_jacobian <= cell.scaled_jacobian)
+    end
+    check.equal(worst[1].scaled_jacobian, swept:quality().min_scaled_jacobian)
+    local said = tostring(swept.report):find("improved: ", 1, true) or
+        tostring(swept.report):find("untangled: ", 1, true)
+    local seconds = swept.report.seconds
+    if said then
+      improved_some = improved_some + 1
+      check.that(seconds.improving and seconds.improving > 0, "seconds of improving")
+    end
+    if options.improve == false then
+      left_some = left_some + 1
+      check.equal(seconds.improving, nil)
+    end
+    check.that(seconds["proof of every cell"] > 0)
+    options.min_scaled_jacobian = 1
+    local message = check.fails(function() shape:open_volume():sweep(options) end, "quality.below_limit")
+    met = {}
+    local first = message:match("^(.-)\nfrom the ") or message  -- what the other end came to has a list too
+    for cell in first:gmatch("\n  cell (%d+)") do
+      local column = (tonumber(cell) - 1) % columns
+      check.that(not met[column], "column " .. column .. " is named twice in the refusal")
+      met[column] = true
+    end
+  end
+end
+check.that(improved_some > 0 and left_some > 0)
+
+-- In an assembly too, whose cells are numbered part by part.
+do
+  local behind = lacuna.synthetic.prism { sides = 6, twist = 60, height = 2 }
+  local before = lacuna.model()
+  local low, high = {}, {}
+  for i = 0, 5 do
+    local a = i * math.pi / 3
+    low[i + 1], high[i + 1] = { 1.2 * math.cos(a), math.sin(a), -1 }, { math.cos(a), math.sin(a), 0 }
+  end
+  local fan = { { 1, 2, 3, 4 }, { 1, 4, 5, 6 } }
+  before:add_face { name = "source", points = low, cells = fan }
+  before:add_face { name = "target", points = high, cells = fan }
+  local both = lacuna.assembly { behind:open_volume { name = "a", source = "source", target = "target",
+    walls = "auto" }, before:open_volume { name = "b", source = "source", target = "target" } }
+  local swept = both:sweep { layers = 8, size = 0.3 }
+  local worst, met = swept:quality().worst, {}
+  local own = {}
+  for _, group in ipairs(swept:groups()) do own[group.name] = group.cells end
+  check.equal(#worst, 10)
+  for _, cell in ipairs(worst) do
+    local at = cell.cell - 1
+    local column = at < own.a and "a" .. at % (own.a // 8) or "b" .. (at - own.a) % (own.b // 8)
+    check.that(not met[column], "column " .. column .. " is named twice")
+    met[column] = true
+  end
+end
+
 -- Where the worst cell is: the mean of its nodes.
 local x = 0
 for _, node in ipairs { mesh:hex(quality.worst[1].cell) } do x = x + mesh:node(node) / 8 end

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 
 using namespace lacuna;
 
@@ -61,9 +62,16 @@ TEST_CASE("a measured mesh has the least, the mean, the counts and the worst cel
             CHECK(std::accumulate(quality.histogram.begin(), quality.histogram.end(), std::size_t(0)) ==
                   scaled.size());
             REQUIRE(quality.worst.size() == 10);
-            std::vector<double> sorted = scaled;
+            // One of each column: its least.
+            std::vector<double> sorted(mesh.quads.size(), 2.0);
+            for (std::size_t c = 0; c < scaled.size(); ++c) {
+                double& least = sorted[c % sorted.size()];
+                least = std::min(least, scaled[c]);
+            }
             std::sort(sorted.begin(), sorted.end());
+            std::set<std::size_t> columns;
             for (std::size_t i = 0; i < 10; ++i) {
+                CHECK(columns.insert(quality.worst[i].cell % mesh.quads.size()).second);
                 CHECK(quality.worst[i].scaled_jacobian == sorted[i]);
                 CHECK(scaled[quality.worst[i].cell] == sorted[i]);
                 CHECK(quality.worst[i].layer == int(quality.worst[i].cell / mesh.quads.size()));
@@ -88,7 +96,10 @@ TEST_CASE("a mesh is measured the same to the bit for any number of threads, and
         CHECK(quality.histogram == expected.histogram);
         CHECK(quality.worst.front().cell == expected.worst.front().cell);
     }
-    const auto listed = quality::measure_cells(mesh.nodes, hexes);
+    std::vector<Index> columns;
+    for (std::size_t c = 0; c < hexes.size(); ++c)
+        columns.push_back(static_cast<Index>(c % mesh.quads.size()));
+    const auto listed = quality::measure_cells(mesh.nodes, hexes, {}, columns);
     CHECK(listed.min_scaled_jacobian == expected.min_scaled_jacobian);
     CHECK(listed.histogram == expected.histogram);
     CHECK(listed.volume == doctest::Approx(expected.volume));
@@ -97,6 +108,22 @@ TEST_CASE("a mesh is measured the same to the bit for any number of threads, and
         CHECK((listed.worst[i].centre - expected.worst[i].centre).norm() == 0);
         CHECK(listed.worst[i].layer == -1);
     }
+}
+
+TEST_CASE("the ten worst of a list of cells without columns are the ten worst of all")
+{
+    const auto mesh = shaken_block(6, 30, 0.5);
+    const auto hexes = all_hexes(mesh);
+    std::vector<double> scaled;
+    for (const Hex& hex : hexes) {
+        std::array<Vec3, 8> corners;
+        for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[static_cast<std::size_t>(hex[c])];
+        scaled.push_back(quality::scaled_jacobian(corners));
+    }
+    std::sort(scaled.begin(), scaled.end());
+    const auto listed = quality::measure_cells(mesh.nodes, hexes);
+    REQUIRE(listed.worst.size() == 10);
+    for (std::size_t i = 0; i < 10; ++i) CHECK(listed.worst[i].scaled_jacobian == scaled[i]);
 }
 
 TEST_CASE("the volume of a mesh follows an affine map by its determinant")

@@ -7,9 +7,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
+#include <string>
 
 using namespace lacuna;
 
@@ -225,6 +228,29 @@ TEST_CASE("a refusal names the worst cells, their layer and their place")
     CHECK(message.find("layer 2 of 3") != std::string::npos);
     CHECK(message.find("scaled Jacobian -") != std::string::npos);
     CHECK(message.find(" at ") != std::string::npos);
+}
+
+TEST_CASE("a refusal names as many cells as there are columns with bad ones, ten at most")
+{
+    for (const Index moved : {1, 2, 5}) { // columns of four cells round each node
+        auto mesh = test::block({.columns = 10, .rows = 3, .layers = 20});
+        for (std::size_t n = 44; n < mesh.nodes.size() - 44; ++n) { // of inner levels, every second one
+            const Vec3 at = mesh.nodes[n] - Vec3(0.1, 1. / 3, 0);
+            const double column = std::round(5 * at.x());
+            if (std::abs(at.y()) < 0.1 && std::abs(5 * at.x() - column) < 0.1 && column < moved &&
+                n / 44 % 2 != 0)
+                mesh.nodes[n].z() += 1.7;
+        }
+        const quality::Proof proof = quality::prove(mesh);
+        REQUIRE(proof.finding);
+        std::set<std::size_t> columns;
+        std::size_t lines = 0;
+        const std::string& message = proof.finding->message;
+        for (std::size_t at = 0; (at = message.find("\n  cell ", at)) != std::string::npos; ++lines)
+            columns.insert((std::stoul(message.substr(at += 8)) - 1) % mesh.quads.size());
+        CHECK(lines == std::min<std::size_t>(10, 4 * index(moved)));
+        CHECK(columns.size() == lines);
+    }
 }
 
 TEST_CASE("a finding becomes an error of the same code and words where it is required that there is none")

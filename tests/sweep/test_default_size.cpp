@@ -8,6 +8,7 @@
 #include <lacuna/surface/default_size.h>
 #include <lacuna/surface/shape_size.h>
 #include <lacuna/sweep/detail/finer_by_default.h>
+#include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>
@@ -98,6 +99,46 @@ TEST_CASE("the size and the layers that nobody asked for are logged, once, and n
         for (const std::string& line : swept.defaults) {
             CHECK(std::count(lines.begin(), lines.end(), line) == 1);
             CHECK(std::count(swept.report.begin(), swept.report.end(), line) == 1);
+        }
+    }
+}
+
+TEST_CASE("more than 50 million cells are refused unless both the size and the layers are given")
+{
+    constexpr double kMost = 50e6;
+    for (const int sides : {3, 4, 7, 0}) {
+        const auto volume = test::sealed({.sides = sides, .cuts = 6});
+        const double base = face_area(volume.model, volume.faces(Role::source)[0]);
+        for (const double cells : {1e4, 0.9 * kMost, 1.1 * kMost, 1e9}) {
+            for (const bool sized : {false, true}) {
+                for (const bool counted : {false, true}) {
+                    if (!sized && !counted) continue; // the default, which is coarse
+                    CAPTURE(sides);
+                    CAPTURE(cells);
+                    CAPTURE(sized);
+                    CAPTURE(counted);
+                    SweepOptions options;
+                    options.curvature = 0;
+                    double side = std::cbrt(base / cells);
+                    if (counted) options.layers.count = 1000;
+                    if (counted) side = std::sqrt(base * options.layers.count / cells);
+                    if (sized) options.size = [side](const Vec3&) { return side; };
+                    const sweep::ExpectedCells found = sweep::source_size(volume, options, {}).expected;
+                    if (sized && counted) CHECK(found.all == doctest::Approx(cells).epsilon(0.01));
+                    CHECK(found.unasked == (sized && counted ? 0 : found.all));
+                    std::string line;
+                    RunContext context;
+                    context.log = [&](std::string_view text) { line = text; };
+                    std::string code;
+                    try {
+                        sweep::check_cells(found, context);
+                    } catch (const InvalidInput& error) {
+                        code = error.code();
+                    }
+                    CHECK(code == (found.unasked > kMost ? "sweep.many_cells" : ""));
+                    CHECK(line.starts_with("estimate: about "));
+                }
+            }
         }
     }
 }

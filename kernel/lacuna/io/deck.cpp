@@ -227,6 +227,9 @@ Deck read_deck(const std::string& name, std::string_view bytes)
 
 Deck read_deck(const std::string& path)
 {
+    for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
+        if (ending_of(path) == cad)
+            throw InvalidInput("io.no_mesh", path + " is CAD, which has no mesh; `lacuna info` lists faces");
     needed_deck_format(path, {});
     return read_deck(path, read_file(path));
 }

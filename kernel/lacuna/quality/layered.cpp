@@ -7,6 +7,7 @@
 #include <lacuna/quality/metrics.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -69,15 +70,18 @@ std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, con
     return all;
 }
 
-/// Keep the worst of both, worst first.
-void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more)
+/// Keep the worst of both, one of each of so many columns, worst first.
+void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more, std::size_t columns)
 {
     constexpr std::size_t kMost = 10; // as Quality::worst has
     worst.insert(worst.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     std::stable_sort(worst.begin(), worst.end(), [](const WorstCell& a, const WorstCell& b) {
         return std::pair(a.scaled_jacobian, a.cell) < std::pair(b.scaled_jacobian, b.cell);
     });
-    if (worst.size() > kMost) worst.resize(kMost);
+    std::set<std::size_t> known;
+    std::erase_if(worst, [&](const WorstCell& cell) {
+        return known.size() == kMost || !known.insert(cell.cell % columns).second;
+    });
 }
 
 /// A box that lies as a slab does: its first axis leads from the slab's lowest level to its highest.
@@ -397,7 +401,7 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         all.volume += own.volume;
         sum += own.mean_scaled_jacobian * static_cast<double>(own.hexes + own.wedges);
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
-        add_worst(all.worst, std::move(own.worst));
+        add_worst(all.worst, std::move(own.worst), mesh.quads.size());
     }
     if (all.hexes + all.wedges == 0) return measured;
     all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);

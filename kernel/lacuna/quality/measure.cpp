@@ -16,7 +16,7 @@ constexpr std::size_t kWorst = 10; ///< as `Quality::worst` promises
 
 struct Ranked {
     double scaled_jacobian;
-    std::size_t cell;
+    std::size_t cell, column;
 
     bool operator<(const Ranked& other) const
     {
@@ -25,7 +25,7 @@ struct Ranked {
     }
 };
 
-/// The worst few cells, in order.
+/// The worst few cells, one of each column, in order.
 struct WorstList {
     std::array<Ranked, kWorst> cells{};
     std::size_t count = 0;
@@ -38,8 +38,10 @@ struct WorstList {
     void offer(const Ranked& candidate)
     {
         if (count == kWorst && !(candidate < cells[kWorst - 1])) return;
-        if (count < kWorst) ++count;
-        std::size_t i = count - 1;
+        std::size_t i = 0; // the place that goes: of its column, else a new one, else the last
+        while (i < count && cells[i].column != candidate.column) ++i;
+        if (i < count && !(candidate < cells[i])) return;
+        if (i == count) i = count < kWorst ? count++ : kWorst - 1;
         for (; i > 0 && candidate < cells[i - 1]; --i) cells[i] = cells[i - 1];
         cells[i] = candidate;
     }
@@ -89,7 +91,9 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
 
 /// The cells of a batch, the first of which has the number `first`. What most have in common is asked of all
 /// at once.
-void add_batch(Partial& partial, const Values& values, const Signs& signs, std::size_t first, int filled)
+template <class Cells>
+void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,
+               std::size_t first, int filled)
 {
     double sum = partial.sum, volume = partial.volume;
     double least = values.scaled[0], most = values.scaled[0];
@@ -108,8 +112,9 @@ void add_batch(Partial& partial, const Values& values, const Signs& signs, std::
     if (low == high) partial.histogram[static_cast<std::size_t>(low)] += static_cast<std::uint32_t>(filled);
     for (int lane = 0; lane < filled && low != high; ++lane)
         ++partial.histogram[static_cast<std::size_t>(bin_of(values.scaled[lane]))];
-    for (int lane = 0; lane < filled && partial.worst.takes(least); ++lane)
-        partial.worst.offer({values.scaled[lane], first + static_cast<std::size_t>(lane)});
+    const std::size_t end = first + static_cast<std::size_t>(filled);
+    for (std::size_t c = first; c < end && partial.worst.takes(least); ++c)
+        partial.worst.offer({values.scaled[c - first], c, cells.column_of(c)});
     if (!positive) count_bad(partial, values, signs, filled);
 }
 
@@ -145,7 +150,7 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
                         put_cell(values, signs, lane, wedge.scaled, wedge.volume, is_positive(wedge));
                         ++partials[c].wedges;
                     });
-                    add_batch(partials[c], values, signs, first, filled);
+                    add_batch(partials[c], cells, values, signs, first, filled);
                     if (kept == nullptr) return;
                     for (int lane = 0; lane < filled; ++lane)
                         kept[first + static_cast<std::size_t>(lane)] = static_cast<float>(
@@ -199,13 +204,14 @@ Quality measure(const mesh::HexMesh& mesh, const RunContext& context, Keep keep)
     return quality;
 }
 
-Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context)
+Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context,
+                      std::span<const Index> columns)
 {
-    return measure_all(ListedCells{nodes, hexes}, kNoneCurved, context);
+    return measure_all(ListedCells{nodes, hexes, columns}, kNoneCurved, context);
 }
 
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
-                      const RunContext& context)
+                      const RunContext& context, std::span<const Index> columns)
 {
     std::vector<Hex> corners(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) std::copy_n(cells[c].node.begin(), 8, corners[c].begin());
@@ -219,7 +225,7 @@ Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNod
         if (all.size() < 27) places = mesh::as_hex27(std::span<const Vec3>(places).first(all.size()));
         return !is_straight(places);
     };
-    return measure_all(ListedCells{nodes, corners}, curved, context);
+    return measure_all(ListedCells{nodes, corners, columns}, curved, context);
 }
 
 } // namespace lacuna::quality

@@ -10,6 +10,7 @@
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 
@@ -205,30 +206,28 @@ Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunC
 
 Found check_quality(const Quality& quality, double min_scaled_jacobian, int layers)
 {
-    const auto worst = [&](std::size_t bad) {
+    const auto worst = [&](double below) {
         std::string text;
-        for (std::size_t i = 0; i < std::min(bad, quality.worst.size()); ++i)
-            text += "\n  " + describe(quality.worst[i], layers);
+        for (const WorstCell& cell : quality.worst)
+            if (!(cell.scaled_jacobian >= below)) text += "\n  " + describe(cell, layers);
         return text;
     };
     const std::string cells = " of " + std::to_string(quality.hexes + quality.wedges) + " cells ";
     if (quality.inverted > 0)
-        return Finding{Fault::inverted, std::to_string(quality.inverted) + cells +
-                                            "are inverted. The worst:" + worst(quality.inverted)};
+        return Finding{Fault::inverted,
+                       std::to_string(quality.inverted) + cells +
+                           "are inverted. The worst:" + worst(std::numeric_limits<double>::denorm_min())};
     if (quality.uncertified > 0)
         return Finding{Fault::not_certified,
                        std::to_string(quality.uncertified) + cells +
                            "have a Jacobian that is not positive everywhere, though it is at their corners. "
                            "The worst cells of the mesh:" +
-                           worst(quality.worst.size())};
-    if (quality.min_scaled_jacobian < min_scaled_jacobian) {
-        const auto below = static_cast<std::size_t>(
-            std::count_if(quality.worst.begin(), quality.worst.end(),
-                          [&](const WorstCell& cell) { return cell.scaled_jacobian < min_scaled_jacobian; }));
+                           worst(std::numeric_limits<double>::infinity())};
+    if (quality.min_scaled_jacobian < min_scaled_jacobian)
         return Finding{Fault::below_limit, "the smallest scaled Jacobian is " +
                                                number(quality.min_scaled_jacobian) + ", below the limit of " +
-                                               number(min_scaled_jacobian) + ". The worst:" + worst(below)};
-    }
+                                               number(min_scaled_jacobian) +
+                                               ". The worst:" + worst(min_scaled_jacobian)};
     return std::nullopt;
 }
 

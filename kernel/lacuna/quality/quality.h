@@ -49,7 +49,7 @@ struct Quality {
     std::size_t inverted = 0;                ///< cells with a corner that is not positive
     std::size_t uncertified = 0;             ///< cells whose Jacobian could not be shown positive everywhere
     std::array<std::size_t, 20> histogram{}; ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
-    std::vector<WorstCell> worst;            ///< at most ten, worst first
+    std::vector<WorstCell> worst;            ///< at most ten, worst first, one of each column of a sweep
     double volume = 0;                       ///< sum over the cells [model length³]
     /// The scaled Jacobian of every cell, where `measure()` was to keep it; null: not kept.
     std::shared_ptr<const std::vector<float>> of_cells;
@@ -67,8 +67,9 @@ enum class Keep {
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
 /// The same for hexahedra, and wedges as `mesh::is_wedge()` has them, of any origin.
-Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,
-                      const RunContext& context = {});
+/// @param columns  of sweeps, that of each cell, for `Quality::worst`; empty: none is known.
+Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {},
+                      std::span<const Index> columns = {});
 
 /// As a table with a histogram.
 std::string to_table(const Quality& quality);

@@ -44,7 +44,8 @@ std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunConte
 /// Measure hexahedra of order 1 and 2 of any origin; those that are straight are measured as of order 1, the
 /// others by `judge()`.
 /// @param cells  of 8, 20 or 27 nodes; a middle node of -1 is left out and lies straight.
+/// @param columns  as `measure_cells()` of hexahedra has them.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
-                      const RunContext& context = {});
+                      const RunContext& context = {}, std::span<const Index> columns = {});
 
 } // namespace lacuna::quality

@@ -73,12 +73,17 @@ public:
                 rows_.parts[low.edge].push_back(part);
             }
         }
+        // Where all walls have the same rows, those in the middle of a stack have them from the walls below.
+        const std::vector<FaceId> walls = volume_.faces(Role::wall);
         for (const auto& [wall, table] : tables_.of) {
-            if (volume_.role[wall.index()] != Role::wall || reached.contains(wall)) continue;
+            const auto has_table = [&, table = table](FaceId other) { return tables_.at(other) == table; };
+            if (volume_.role[wall.index()] != Role::wall || reached.contains(wall) ||
+                std::ranges::all_of(walls, has_table))
+                continue;
             throw NotSweepable("surface.layers_unreached",
                                name_of(model_, wall) +
                                    " is to have boundary layers and stands on neither end; name the wall "
-                                   "below or above it");
+                                   "below or above it, or all walls: walls = \"walls\"");
         }
         for (const FaceId face : volume_.faces(Role::source)) find_ends(face);
         return std::move(rows_);

@@ -9,6 +9,7 @@
 #include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
+#include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/give_mesh.h>
@@ -100,6 +101,7 @@ public:
     SweptAssembly run()
     {
         check_members();
+        check_count();
         find_shared();
         before_ = members_before(members_, result_.shared);
         plan_ = plan_assembly(members_, result_.shared, context_);
@@ -156,6 +158,18 @@ private:
                                                                  members_[m].region + "\"");
             }
         }
+    }
+
+    void check_count() const
+    {
+        ExpectedCells all;
+        for (const AssemblyMember& member : members_) {
+            if (member.fixed != nullptr) continue;
+            const ExpectedCells own = source_size(*member.volume, member.options, context_).expected;
+            all.all += own.all;
+            all.unasked += own.unasked;
+        }
+        check_cells(all, context_);
     }
 
     /// Faces that are shared in part are split first.

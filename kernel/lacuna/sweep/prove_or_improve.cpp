@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/number_text.h>
+#include <lacuna/core/progress.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
 #include <lacuna/quality/layered.h>
@@ -123,7 +124,9 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
                           [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); },
                           std::move(held)};
+    report_progress(context, "improving");
     const Improved improved = improve(swept.mesh, improving, sliding, context);
+    report_progress(context, "proof of every cell");
     if (improved.stuck) {
         if (proof.finding) proof.finding->message = in_words(*improved.stuck, swept.mesh, model);
         return proof;

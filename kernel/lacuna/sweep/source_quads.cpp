@@ -25,6 +25,10 @@ namespace {
 /// three quads in a width of a 200th of its radius has some 8,000. A choice, not a measurement.
 constexpr double kMostForWidth = 20000;
 
+/// Cells that a size or a number of layers alone may ask for: what fills a large workstation's memory in a
+/// solver, and is more often a length in the wrong unit than meant. A choice, not a measurement.
+constexpr double kMostUnasked = 50e6;
+
 /// A field that refuses what is no length before anything is divided by it.
 surface::SizeField checked(const surface::SizeField& field, const std::string& option)
 {
@@ -39,32 +43,58 @@ surface::SizeField checked(const surface::SizeField& field, const std::string& o
     };
 }
 
-/// Refuse at once what could never be numbered, instead of filling the memory first.
-void check_amount(const OpenVolume& volume, const surface::SizeField& size, const LayerSpec& layers)
+/// Sides that faces of a role are expected to have: quads with a power of 2, sides across them with 1. Where
+/// some came with quads that stay, all count as those, else as the size asks.
+double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
+                  const SweepOptions& options)
 {
     constexpr std::size_t kSamples = 64; ///< facets a face; a rough count will do
-    double quads = 0;
-    for (const FaceId face : volume.faces(Role::source)) {
-        const std::vector<Triangle>& triangles = volume.model[face].triangles;
-        const std::size_t step = std::max<std::size_t>(1, triangles.size() / kSamples);
-        double sum = 0, samples = 0;
-        for (std::size_t t = 0; t < triangles.size(); t += step) {
-            const double h = size(volume.model.at(triangles[t][0]));
-            sum += 1 / (h * h);
-            ++samples;
+    const bool kept = role == Role::wall || options.quads == Quads::automatic || options.quads == Quads::keep;
+    double by_size = 0, given = 0, given_area = 0, all_area = 0;
+    for (const FaceId id : volume.faces(role)) {
+        const Face& face = volume.model[id];
+        const double area = face_area(volume.model, id);
+        all_area += area;
+        if (kept && face.keeps_nodes && has_cells_to_keep(face, false)) {
+            given += area * std::pow(static_cast<double>(face.given_quads.size()) / area, power / 2.);
+            given_area += area;
         }
-        quads += face_area(volume.model, face) * sum / std::max(samples, 1.0);
+        double sum = 0, sampled = 0;
+        const std::size_t step = std::max<std::size_t>(1, face.triangles.size() / kSamples);
+        for (std::size_t t = 0; t < face.triangles.size(); t += step) {
+            const Vec3 &a = volume.model.at(face.triangles[t][0]), &b = volume.model.at(face.triangles[t][1]),
+                       &c = volume.model.at(face.triangles[t][2]);
+            const double own = (b - a).cross(c - a).norm();
+            sum += own * std::pow(size((a + b + c) / 3), -power);
+            sampled += own;
+        }
+        by_size += area * sum / std::max(sampled, std::numeric_limits<double>::min());
     }
-    const double levels = static_cast<double>(
-        std::max<std::size_t>(layers.heights.size(), static_cast<std::size_t>(std::max(layers.count, 1))));
-    if (quads < 1 || quads * levels < std::numeric_limits<Index>::max()) {
-        if (levels < std::numeric_limits<Index>::max() / 16.0) return;
+    return given_area > 0 ? given * all_area / given_area : by_size;
+}
+
+/// Cells that are to be expected, by areas, lengths and given meshes alone. What could never be numbered is
+/// refused at once, instead of filling the memory first.
+ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options)
+{
+    constexpr double kMost = std::numeric_limits<Index>::max();
+    const double quads = std::max(1., sides_over(volume, Role::source, size.shape.at, 2, options));
+    double layers = std::max(options.layers.count, static_cast<int>(options.layers.heights.size()));
+    const double asked = std::max(1., layers);
+    if (!(quads * asked < kMost && asked < kMost / 16))
+        throw InvalidInput("sweep.too_many", "about " + in_short(quads) + " quads on the source and " +
+                                                 with_decimals(asked, 0) +
+                                                 " layers are more hexahedra than can be numbered; "
+                                                 "ask for a larger 'size' or fewer 'layers'");
+    if (layers > 0 && options.size) return {quads * layers, 0};
+    if (layers == 0) { // walls are as wide as the rims of both ends in the mean
+        double width = 0;
+        for (const Role end : {Role::source, Role::target})
+            for (const Rim& rim : rims(volume.model, volume.faces(end)))
+                for (const EdgeUse& use : rim.uses) width += edge_length(volume.model, use.edge) / 2;
+        layers = std::max(1., sides_over(volume, Role::wall, size.along, 1, options) / width);
     }
-    throw InvalidInput(
-        "sweep.too_many",
-        "about " + in_short(quads) + " quads on the source and " + with_decimals(levels, 0) +
-            " layers make " + in_short(std::max(quads, 1.0) * levels) +
-            " hexahedra, more than can be numbered; ask for a larger 'size' or fewer 'layers'");
+    return {quads * layers, quads * layers};
 }
 
 } // namespace
@@ -136,7 +166,6 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
             size.asked = even_size(size.by_default->length *= part);
         }
     }
-    check_amount(volume, size.asked, options.layers);
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
     const bool gap_by_default = size.by_default && options.gap == 0;
     check_cancelled(context);
@@ -155,7 +184,20 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
         size.along = surface::shape_size(volume, size.asked, {options.curvature, 0}).at;
         size.sizing.counts_across = false;
     }
+    size.expected = expected_cells(volume, size, options);
     return size;
+}
+
+void check_cells(const ExpectedCells& expected, const RunContext& context)
+{
+    const double all = expected.all;
+    const std::string cells = all < 1e7 ? with_decimals(all, 0) : with_decimals(all / 1e6, 0) + " million";
+    log_line(context, "estimate: about " + cells + " cells");
+    if (expected.unasked > kMostUnasked)
+        throw InvalidInput("sweep.many_cells",
+                           "about " + cells +
+                               " cells are to be expected; more than 50 million are made only where both "
+                               "'size' and 'layers' are given: ask for a larger 'size', or give both");
 }
 
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)

@@ -267,6 +267,8 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         const surface::SizeField size = even_size(surface::default_size(volume).length);
         options.curvature = planned_sides(volume, links.of(volume, context), options, size);
     }
+    // Those of an assembly are counted together.
+    if (!asked.beside.settle) check_cells(source_size(volume, options, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_for_volume(volume, options, links, context);
     std::string why;

@@ -15,6 +15,7 @@ _lacuna()
     case $command in
         help) mapfile -t COMPREPLY < <(compgen -W "info view check convert" -- "$word") && return ;;
         info | check) flags+=" --json" ;;
+        view) flags+=" --faces" ;;
         "") flags+=" --history --sandbox --output-dir --memory --seconds --version -i -j" ;;
     esac
     if [[ $word == -* ]]; then

@@ -7,6 +7,7 @@ complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a convert -d 
 complete -c lacuna -n "not __fish_seen_subcommand_from $commands" -a help -d 'about a command'
 complete -c lacuna -n "__fish_seen_subcommand_from help" -f -a 'info view check convert'
 complete -c lacuna -n "__fish_seen_subcommand_from info check" -l json -d 'for scripts'
+complete -c lacuna -n "__fish_seen_subcommand_from view" -l faces -d 'faces of a mesh too'
 complete -c lacuna -s i -d 'a prompt'
 complete -c lacuna -s j -x -d 'so many recipes side by side'
 complete -c lacuna -l threads -x -d 'most threads of a recipe'

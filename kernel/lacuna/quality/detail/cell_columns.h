@@ -23,6 +23,7 @@ struct SweptCells {
     [[nodiscard]] bool is_wedge(std::size_t column) const { return column >= hex_columns; }
 
     [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
+    [[nodiscard]] std::size_t column_of(std::size_t cell) const { return cell % mesh.quads.size(); }
     [[nodiscard]] std::size_t layers() const { return static_cast<std::size_t>(mesh.layers); }
     /// Corners 0..3 of the cell on `layer`, which are 4..7 of the one below.
     [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const
@@ -37,7 +38,9 @@ struct SweptCells {
 struct ListedCells {
     std::span<const Vec3> nodes;
     std::span<const Hex> hexes;
+    std::span<const Index> swept{}; ///< column of a sweep that each cell is of; empty: each is its own
 
+    [[nodiscard]] std::size_t column_of(std::size_t c) const { return swept.empty() ? c : index(swept[c]); }
     [[nodiscard]] bool is_wedge(std::size_t column) const { return mesh::is_wedge(hexes[column]); }
 
     [[nodiscard]] std::size_t columns() const { return hexes.size(); }

@@ -12,6 +12,12 @@
 
 namespace lacuna::sweep {
 
+/// Cells that are to be expected of a sweep before anything is meshed.
+struct ExpectedCells {
+    double all = 0;
+    double unasked = 0; ///< of sweeps for which not both the size and the layers are given
+};
+
 /// The sizes of a sweep's quads, and where they come from.
 struct SourceSize {
     surface::SizeField asked;
@@ -23,6 +29,7 @@ struct SourceSize {
     /// all.
     std::optional<surface::SizeCause> too_narrow;
     bool narrow = false; ///< quads are to be across places that are, or may be, narrow
+    ExpectedCells expected{};
 };
 
 /// How many layers there are, and whether rows of quads on walls or bends of the walls said so.

@@ -27,6 +27,10 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);
 
+/// Log the number of cells that are to be expected of volumes swept together, before any is meshed.
+/// @throw InvalidInput "sweep.many_cells"  more than 50 million that were not asked for by both numbers.
+void check_cells(const ExpectedCells& expected, const RunContext& context);
+
 /// The size, and the height of rows where they are asked for.
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options);
 

@@ -96,6 +96,9 @@ class SweptCells {
     layerOf(c) {
         return Math.floor(c / this.quadCount);
     }
+    columnOf(c) {
+        return c % this.quadCount;
+    }
     corners(c, out) {
         const q = 4 * (c % this.quadCount),
             low = this.base + this.layerOf(c) * this.perLayer;
@@ -239,6 +242,9 @@ class ListedCells {
 
     layerOf() {
         return 0;
+    }
+    columnOf(c) {
+        return c;
     }
     corners(c, out) {
         for (let k = 0; k < 8; k++) out[k] = this.base + this.corner[8 * c + k];

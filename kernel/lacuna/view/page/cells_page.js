@@ -47,7 +47,7 @@ class CellsPage {
         return page;
     }
 
-    // Least, mean, histogram and the worst cells, from the values that came along.
+    // Least, mean, histogram and the worst cells, one of each column, from the values that came along.
     measure() {
         const bins = new Array(20).fill(0),
             worst = [];
@@ -63,9 +63,13 @@ class CellsPage {
                 if (value < least) least = value;
                 bins[Math.min(19, Math.max(0, Math.floor((value + 10000) / 1000)))]++;
                 if (worst.length < 10 || value < worst[9].value) {
+                    const column = region.columnOf(c),
+                        known = worst.findIndex(w => w.region === region && w.column === column);
+                    if (known >= 0 && worst[known].value <= value) continue;
+                    if (known >= 0) worst.splice(known, 1);
                     let at = worst.length;
                     while (at > 0 && worst[at - 1].value > value) at--;
-                    worst.splice(at, 0, { region, c, value });
+                    worst.splice(at, 0, { region, c, column, value });
                     if (worst.length > 10) worst.pop();
                 }
             }
