@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -217,7 +218,8 @@ private:
             if (const Index e = elements_->find(tag); e >= 0) is_out_[index(e)] = 1;
     }
 
-    /// Where files hold the skin as elements, those on faces of solids left out, and of no others, go too.
+    /// Where files hold the skin as elements, those on faces of solids left out go too; but for one where the
+    /// face is one of a solid that stays.
     void mark_skin()
     {
         std::map<Quad, bool> stays; // of faces of solids left out
@@ -235,9 +237,8 @@ private:
         for (const DeckBlock& block : deck_.blocks)
             for (std::size_t e = 0; e < block.count(); ++e, ++at)
                 if (shape_info(block.shape).dimension == 2)
-                    if (const auto face = stays.find(shell_key(block, e));
-                        face != stays.end() && !face->second)
-                        is_out_[at] = 1;
+                    if (const auto face = stays.find(shell_key(block, e)); face != stays.end())
+                        is_out_[at] = std::exchange(face->second, false) ? is_out_[at] : 1;
     }
 
     /// Nodes that only elements left out use.
