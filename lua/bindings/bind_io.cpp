@@ -247,10 +247,10 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
         options.material = meshes[m].material;
         const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
         joined = io::join_deck(with, model.model, model.scale, *meshes[m].mesh, options, context,
-                               without ? &split.gone : nullptr);
+                               split.gone.get());
         options.first_node = options.first_cell = 0;
     }
-    io::close_gap(joined);
+    io::close_gap(joined, context);
     return joined;
 }
 

@@ -132,7 +132,16 @@ local function judge(name, text)
   check.that(text:find("*SOLID SECTION, ELSET=plug, MATERIAL=foam", 1, true))
   check.that(not text:find("ELSET=plug, MATERIAL=steel", 1, true))
   check.that(text:find("*ELSET, ELSET=some\n1000, 1001\n", 1, true))
-  check.that(not text:find("NAME=top\n", 1, true) and not text:find("ELSET=core", 1, true))
+  -- What held the plug holds the new cells, what lay on it lies on them.
+  local cells, own = {}, 0
+  for tag in pairs(new) do
+    if not old[tag] then own = own + 1 end
+  end
+  for tag in text:match("ELSET=core\n([^*]+)"):gmatch "%d+" do cells[tonumber(tag)] = true end
+  check.equal(block.size(cells), own)
+  for tag in pairs(cells) do check.that(new[tag] and not old[tag]) end
+  local tag = text:match "NAME=top\n(%d+), S%d\n"
+  check.that(cells[tonumber(tag)], "top")
   check.that(text:find(("*NSET, NSET=line\n%d, %d\n"):format(node(3, 3, 0), node(3, 3, 2)), 1, true) == nil)
   check.that(text:find(("*NSET, NSET=line\n%d\n"):format(node(3, 3, 0)), 1, true))
   if name == "solved" and block.ccx then check.equal(block.solve("replaced", text, after), 8 * #all) end

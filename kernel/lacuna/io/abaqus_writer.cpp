@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
 
@@ -14,39 +15,6 @@ namespace {
 
 constexpr std::size_t kWidth = 20;   // characters of a coordinate
 constexpr std::size_t kPerLine = 16; // numbers of a line, at most
-
-/// The word of a shape that came from elsewhere.
-std::string_view type_of(DeckShape shape)
-{
-    switch (shape) {
-    case DeckShape::tri3:
-        return "S3";
-    case DeckShape::tri6:
-        return "STRI65";
-    case DeckShape::quad4:
-        return "S4";
-    case DeckShape::quad8:
-        return "S8R";
-    case DeckShape::quad9:
-        return "S9R5";
-    case DeckShape::tet4:
-        return "C3D4";
-    case DeckShape::tet10:
-        return "C3D10";
-    case DeckShape::pyramid5:
-        return "C3D5";
-    case DeckShape::wedge6:
-        return "C3D6";
-    case DeckShape::wedge15:
-        return "C3D15";
-    case DeckShape::hex8:
-        return "C3D8";
-    case DeckShape::hex20:
-        return "C3D20";
-    default:
-        return {};
-    }
-}
 
 /// Sets of several instances are "instance.set", which a flat deck cannot say.
 bool is_flat(const Deck& deck) { return deck.format == DeckFormat::abaqus && deck.instances.size() < 2; }
@@ -113,21 +81,17 @@ public:
         }
         add_nodes();
         choose_sets();
+        choose_names();
         for (const DeckBlock& block : deck_.blocks) add_elements(block);
         add_text(cards.elements);
         for (std::size_t s = 0; s < deck_.sets.size(); ++s)
-            if (!by_elements_[s]) add_set(deck_.sets[s]);
+            if (!by_elements_[s]) add_set(deck_.sets[s], names_[s]);
         add_text(cards.others);
         return std::move(file_);
     }
 
 private:
     void add_text(const std::string& text) { file_.sections.push_back({text, 0, 0, {}}); }
-
-    [[nodiscard]] std::string name_of(const std::string& name) const
-    {
-        return same_ ? name : abaqus_name(name);
-    }
 
     void add_nodes()
     {
@@ -151,6 +115,8 @@ private:
     void choose_sets()
     {
         by_elements_.assign(deck_.sets.size(), false);
+        region_names_.resize(deck_.regions.size());
+        set_of_region_.assign(deck_.regions.size(), -1);
         makes_set_.assign(deck_.regions.size(), !same_);
         std::vector<std::vector<DeckTag>> members(deck_.regions.size());
         for (const DeckBlock& block : deck_.blocks)
@@ -165,14 +131,44 @@ private:
                     continue;
                 by_elements_[s] = true;
                 makes_set_[r] = true;
+                set_of_region_[r] = static_cast<Index>(s);
             }
         }
+    }
+
+    /// Of sets and regions, each its own: surfaces before sets of elements, names that stay before others.
+    void choose_names()
+    {
+        using enum DeckSet::Kind;
+        std::vector<std::pair<DeckSet::Kind, std::string>> taken;
+        const auto choose = [&](DeckSet::Kind kind, const std::string& name) {
+            if (same_) return name;
+            const std::string free = free_name(name, DeckFormat::abaqus, [&](const std::string& other) {
+                return std::ranges::any_of(taken, [&](const auto& of) {
+                    return share_names(DeckFormat::abaqus, kind, of.first) && same_word(of.second, other);
+                });
+            });
+            if (free != abaqus_name(name)) file_.notes.push_back("the set " + name + " is called " + free);
+            taken.emplace_back(kind, free);
+            return free;
+        };
+        names_.resize(deck_.sets.size());
+        for (const auto kind : {sides, nodes, elements})
+            for (const bool stays : {true, false})
+                for (std::size_t s = 0; s < names_.size(); ++s)
+                    if (const DeckSet& set = deck_.sets[s];
+                        set.kind == kind && (abaqus_name(set.name) == set.name) == stays)
+                        names_[s] = choose(kind, set.name);
+        for (std::size_t r = 0; r < deck_.regions.size(); ++r)
+            region_names_[r] = set_of_region_[r] >= 0          ? names_[index(set_of_region_[r])]
+                               : deck_.regions[r].name.empty() ? ""
+                                                               : choose(elements, deck_.regions[r].name);
     }
 
     void add_elements(const DeckBlock& block)
     {
         const bool own = is_abaqus_element(block.type, block.shape);
-        const std::string_view type = own ? std::string_view(block.type) : type_of(block.shape);
+        const std::string_view type = own ? std::string_view(block.type) : words_of(block.shape).abaqus;
         if (type.empty()) refuse_element(block, "Abaqus", "there is no such element");
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
             refuse_element(block, "Abaqus", "some have not all their middle nodes");
@@ -213,7 +209,7 @@ private:
     {
         std::string head = "*ELEMENT, TYPE=" + std::string(type);
         if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
-            head += ", ELSET=" + name_of(deck_.regions[index(region)].name);
+            head += ", ELSET=" + region_names_[index(region)];
         return head + "\n";
     }
 
@@ -232,11 +228,11 @@ private:
         return out;
     }
 
-    void add_set(const DeckSet& set)
+    void add_set(const DeckSet& set, const std::string& name)
     {
         if (set.kind == DeckSet::Kind::sides) {
-            file_.sections.push_back({"*SURFACE, TYPE=ELEMENT, NAME=" + name_of(set.name) + "\n",
-                                      set.sides.size(), 2 * kNumberBytes,
+            file_.sections.push_back({"*SURFACE, TYPE=ELEMENT, NAME=" + name + "\n", set.sides.size(),
+                                      2 * kNumberBytes,
                                       [&set](std::size_t begin, std::size_t end, char* out) {
                                           for (std::size_t i = begin; i < end; ++i)
                                               out = put_side(set.sides[i], out);
@@ -246,7 +242,7 @@ private:
         }
         const std::string word = set.kind == DeckSet::Kind::nodes ? "NSET" : "ELSET";
         file_.sections.push_back(
-            {"*" + word + ", " + word + "=" + name_of(set.name) + "\n", bulk_.count(set), kNumberBytes + 2,
+            {"*" + word + ", " + word + "=" + name + "\n", bulk_.count(set), kNumberBytes + 2,
              [bulk = bulk_, &set](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = begin; i < end; ++i) {
                      out = put_text(out, static_cast<long long>(bulk.member(set, i)));
@@ -272,8 +268,10 @@ private:
     BulkReader bulk_;
     bool same_; ///< names and text stay
     DeckFile file_;
-    std::vector<bool> by_elements_; ///< sets
-    std::vector<bool> makes_set_;   ///< regions
+    std::vector<bool> by_elements_;                 ///< sets
+    std::vector<bool> makes_set_;                   ///< regions
+    std::vector<Index> set_of_region_;              ///< that it makes; -1: none
+    std::vector<std::string> names_, region_names_; ///< of sets and regions in the file
 };
 
 } // namespace

@@ -4,6 +4,8 @@
 #include <lacuna/core/types.h>
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -128,10 +130,16 @@ struct DeckText {
     std::string text;
 };
 
+struct Deck;
+
 /// What was left out of a deck.
 struct DeckGap {
     std::vector<std::string> names{}; ///< regions and sets without elements or members now
     DeckTag node = 0, cell = 0;       ///< the highest numbers left out, which text may still name
+    /// What each `leave_out()` left out; the sets are those that held some of it, as they were.
+    std::vector<std::shared_ptr<const Deck>> gone{};
+    /// Of these sets, by kind and name, the share of what they lost that meshes have replaced [-].
+    std::map<std::pair<DeckSet::Kind, std::string>, double> replaced{};
 };
 
 /// A finite element mesh as a file holds it.

@@ -187,6 +187,28 @@ std::string abaqus_name(std::string_view name)
     return fit;
 }
 
+std::string free_name(std::string_view name, DeckFormat format,
+                      const std::function<bool(const std::string&)>& is_taken)
+{
+    constexpr std::size_t kLongest = 80; // characters that Abaqus and CalculiX take
+    const bool abaqus = format == DeckFormat::abaqus;
+    const std::string fit = abaqus ? abaqus_name(name) : std::string(name);
+    const std::size_t longest = abaqus ? kLongest : fit.npos;
+    std::string unique = fit.substr(0, longest);
+    for (int i = 2; is_taken(unique); ++i) {
+        const std::string number = "_" + std::to_string(i);
+        unique = fit.substr(0, longest - number.size()) + number;
+    }
+    return unique;
+}
+
+bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b)
+{
+    constexpr auto kNodes = DeckSet::Kind::nodes;
+    return a == b || format == DeckFormat::unv ||
+           (format == DeckFormat::abaqus && a != kNodes && b != kNodes);
+}
+
 TextNumbers numbers_in_text(const Deck& deck)
 {
     TextNumbers numbers;
@@ -204,6 +226,8 @@ TextNumbers numbers_in_text(const Deck& deck)
                 nastran_numbers(rest.substr(0, end), numbers);
             } else if (deck.format == DeckFormat::abaqus && line.starts_with('*')) {
                 if (!line.starts_with("**")) elements = same_word(line.substr(0, 8), "*ELEMENT");
+                if (const Keyword keyword = parse_keyword(line); keyword.name == "SURFACE")
+                    numbers.surfaces.push_back(keyword.value("NAME"));
             } else if (elements && is_number_start(line)) {
                 const auto tag = parse_integer<DeckTag>(trimmed(line.substr(0, line.find(','))));
                 if (tag) numbers.cells.insert(*tag);
@@ -241,12 +265,13 @@ std::vector<std::string> materials_in_text(const Deck& deck)
     return found;
 }
 
-bool has_section(const Deck& deck, std::string_view set)
+std::optional<std::string> section_material(const Deck& deck, std::string_view set)
 {
-    bool found = false;
+    std::optional<std::string> found;
     for (const DeckText& text : deck.texts)
         each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
-            found = found || (is_section(keyword) && same_word(keyword.value("ELSET"), set));
+            if (is_section(keyword) && same_word(keyword.value("ELSET"), set))
+                found = keyword.value("MATERIAL");
             return !found;
         });
     return found;
@@ -411,7 +436,7 @@ void write_bulk(const Deck& deck, const LayeredBulk& bulk, DeckFormat format, co
 {
     const DeckFile file = file_of(deck, format, options, &bulk);
     if (team == nullptr || team->rank == 0)
-        for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
+        for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
     write_file(path, file.sections, file.sizes, context, team);
 }
 
@@ -511,7 +536,7 @@ void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, con
     if (format != deck.format && texts)
         file.notes.push_back("materials, loads and other cards of " + deck.path +
                              " are of another format and not carried over");
-    for (const std::string& note : file.notes) log_line(context, path.text() + ": " + note);
+    for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
     write_file(path, file.sections, file.sizes, context);
 }
 

@@ -185,43 +185,6 @@ private:
     std::vector<Array> arrays_;
 };
 
-/// What Exodus calls a shape; null: it has none.
-const char* exodus_type(DeckShape shape)
-{
-    switch (shape) {
-    case DeckShape::tri3:
-        return "TRI3";
-    case DeckShape::tri6:
-        return "TRI6";
-    case DeckShape::quad4:
-        return "SHELL4";
-    case DeckShape::quad8:
-        return "SHELL8";
-    case DeckShape::quad9:
-        return "SHELL9";
-    case DeckShape::tet4:
-        return "TETRA";
-    case DeckShape::tet10:
-        return "TETRA10";
-    case DeckShape::pyramid5:
-        return "PYRAMID";
-    case DeckShape::pyramid13:
-        return "PYRAMID13";
-    case DeckShape::wedge6:
-        return "WEDGE";
-    case DeckShape::wedge15:
-        return "WEDGE15";
-    case DeckShape::hex8:
-        return "HEX8";
-    case DeckShape::hex20:
-        return "HEX20";
-    case DeckShape::hex27:
-        return "HEX27";
-    default:
-        return nullptr;
-    }
-}
-
 /// Numbers of an element's nodes in Exodus's order.
 char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
 {
@@ -306,7 +269,7 @@ private:
     {
         for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
             const DeckBlock& block = deck_.blocks[b];
-            if (exodus_type(block.shape) == nullptr)
+            if (*words_of(block.shape).exodus == 0)
                 refuse_element(block, "Exodus", "there is no such element");
             if (std::ranges::find(block.nodes, -1) != block.nodes.end())
                 refuse_element(block, "Exodus", "some have not all their middle nodes");
@@ -447,7 +410,7 @@ private:
                           });
                           return out;
                       }),
-                      {text_attribute("elem_type", exodus_type(of.shape))});
+                      {text_attribute("elem_type", words_of(of.shape).exodus)});
         }
     }
 

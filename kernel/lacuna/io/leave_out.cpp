@@ -5,11 +5,14 @@
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/join_sets.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -140,6 +143,8 @@ private:
             if (field == 3) name(card, 0, tag);
         } else if (card == "PLOAD2") {
             if (field == 0 || field > 3) name(card, 0, tag);
+        } else if (is({"SET1", "SET3"})) {
+            if (field == 0 || field > 2) name(card, tag, tag);
         } else if (card == "PLOAD") {
             if (field > 3) name(card, tag, 0);
         } else if (card == "BSURFS") {
@@ -186,6 +191,9 @@ public:
     LeftOut leave_out()
     {
         for (const std::string& part : parts_) mark(part);
+        using enum DeckFormat;
+        if (deck_.format == msh || deck_.format == vtk || deck_.format == vtu || deck_.format == unv)
+            mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
             throw InvalidInput("io.nothing_left", "without: " + list() + " " +
@@ -197,29 +205,40 @@ public:
         copy_rest();
         filter_sets();
         note(count);
+        found_.gone = std::make_shared<const Deck>(std::move(gone_));
+        found_.kept.gap.gone.push_back(found_.gone);
         return std::move(found_);
     }
 
 private:
     void mark(const std::string& part)
     {
-        bool known = false;
-        std::vector<char> regions(deck_.regions.size(), 0);
-        for (std::size_t r = 0; r < regions.size(); ++r) {
-            regions[r] = is_part(deck_, deck_.regions[r], part) ? 1 : 0;
-            known = known || regions[r] != 0;
+        if (!has_part(deck_, part)) refuse_part(std::span(&deck_, 1), part);
+        for (const DeckTag tag : cells_of_part(deck_, part))
+            if (const Index e = elements_->find(tag); e >= 0) is_out_[index(e)] = 1;
+    }
+
+    /// Where files hold the skin as elements, those on faces of solids left out go too; but for one where the
+    /// face is one of a solid that stays.
+    void mark_skin()
+    {
+        std::map<Quad, bool> stays; // of faces of solids left out
+        for (const bool out : {true, false}) {
+            std::size_t at = 0;
+            for (const DeckBlock& block : deck_.blocks)
+                for (std::size_t e = 0; e < block.count(); ++e, ++at)
+                    for (const Quad& face : face_corners(block.shape)) {
+                        const Quad key = face_key(block, e, face);
+                        if (out && is_out_[at] != 0) stays.emplace(key, false);
+                        if (!out && is_out_[at] == 0 && stays.contains(key)) stays[key] = true;
+                    }
         }
         std::size_t at = 0;
         for (const DeckBlock& block : deck_.blocks)
             for (std::size_t e = 0; e < block.count(); ++e, ++at)
-                if (block.regions[e] >= 0 && regions[index(block.regions[e])] != 0) is_out_[at] = 1;
-        for (const DeckSet& set : deck_.sets) {
-            if (!is_part(set, part)) continue;
-            known = true;
-            for (const DeckTag tag : set.members)
-                if (const Index e = elements_->find(tag); e >= 0) is_out_[index(e)] = 1;
-        }
-        if (!known) refuse_part(std::span(&deck_, 1), part);
+                if (shape_info(block.shape).dimension == 2)
+                    if (const auto face = stays.find(shell_key(block, e)); face != stays.end())
+                        is_out_[at] = std::exchange(face->second, false) ? is_out_[at] : 1;
     }
 
     /// Nodes that only elements left out use.
@@ -262,7 +281,7 @@ private:
                 if (is_out) found_.kept.gap.cell = std::max(found_.kept.gap.cell, block.tags[e]);
             }
             if (kept.count() > 0) found_.kept.blocks.push_back(std::move(kept));
-            if (out.count() > 0) found_.gone.blocks.push_back(std::move(out));
+            if (out.count() > 0) gone_.blocks.push_back(std::move(out));
         }
         for (std::size_t r = 0; r < left.size(); ++r)
             if (gone[r] > 0 && left[r] == 0) add_emptied(deck_.regions[r].name);
@@ -306,7 +325,7 @@ private:
 
     void copy_rest()
     {
-        Deck &kept = found_.kept, &gone = found_.gone;
+        Deck &kept = found_.kept, &gone = gone_;
         kept.path = gone.path = deck_.path;
         kept.format = gone.format = deck_.format;
         kept.version = gone.version = deck_.version;
@@ -315,6 +334,7 @@ private:
         kept.notes = deck_.notes;
         kept.gap.node = std::max(kept.gap.node, deck_.gap.node);
         kept.gap.cell = std::max(kept.gap.cell, deck_.gap.cell);
+        kept.gap.gone = deck_.gap.gone;
         for (const std::string& name : deck_.gap.names) add_emptied(name);
         gone.points = deck_.points;
         gone.point_tags = deck_.point_tags;
@@ -333,7 +353,8 @@ private:
 
     void filter_sets()
     {
-        for (DeckSet set : deck_.sets) {
+        for (const DeckSet& all : deck_.sets) {
+            DeckSet set = all;
             const std::size_t before = set.members.size() + set.sides.size();
             if (set.kind == DeckSet::Kind::nodes)
                 std::erase_if(set.members, [&](DeckTag tag) { return node_goes(tag); });
@@ -345,6 +366,8 @@ private:
                 sets_.push_back(set.name + " loses " + std::to_string(before - after) + " of " +
                                 std::to_string(before));
             if (after == 0 && before > 0) add_emptied(set.name);
+            // All nodes, of which the part may have none of its own, are more with the part that replaces it.
+            if (after < before || after >= deck_.points.size()) gone_.sets.push_back(all);
             found_.kept.sets.push_back(std::move(set));
         }
     }
@@ -373,7 +396,7 @@ private:
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back(deck_.path + ": " + card +
+            found_.kept.notes.push_back("note: " + deck_.path + ": " + card +
                                         " names nodes or elements that are left "
                                         "out, " +
                                         std::to_string(times) +
@@ -386,6 +409,7 @@ private:
     std::vector<char> is_out_; ///< elements, of all blocks one after the other
     std::vector<char> goes_;   ///< nodes
     LeftOut found_;
+    Deck gone_;
     std::vector<std::string> sets_; ///< that lose members, in words
 };
 
@@ -438,15 +462,44 @@ void refuse_part(std::span<const Deck> decks, const std::string& name)
                            (known.empty() ? ", which has none with a name" : ", which has " + list));
 }
 
+std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name)
+{
+    std::vector<DeckTag> cells;
+    for (const DeckBlock& block : deck.blocks)
+        for (std::size_t e = 0; e < block.count(); ++e)
+            if (block.regions[e] >= 0 && is_part(deck, deck.regions[index(block.regions[e])], name))
+                cells.push_back(block.tags[e]);
+    for (const DeckSet& set : deck.sets)
+        if (is_part(set, name)) cells.insert(cells.end(), set.members.begin(), set.members.end());
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
+}
+
 LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
 {
     return Leaver(deck, parts).leave_out();
 }
 
-void close_gap(Deck& deck)
+void close_gap(Deck& deck, const RunContext& context)
 {
+    // Chords of 60 degrees lack 4.5 % of an arc: another mesh of the same surface.
+    constexpr double kSameArea = 0.05;
+    std::string lost;
+    std::size_t count = 0;
+    for (const auto& gone : deck.gap.gone)
+        for (const DeckSet& set : gone->sets) {
+            if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) <= kSameArea || ++count > kMostListed)
+                continue;
+            lost += (count > 1 ? ", " : "") + set.name;
+        }
+    if (count > kMostListed) lost += " and " + std::to_string(count - kMostListed) + " more";
+    if (count > 0)
+        log_line(context, "note: " + deck.path +
+                              ": what was left out of these sets is not replaced, or in part: " + lost);
+    deck.gap.gone.clear();
     if (deck.gap.names.empty()) return;
-    std::vector<std::string> empty;
+    std::vector<std::string> empty; // of elements, whose sections go
     std::vector<char> used(deck.regions.size(), 0);
     for (const DeckBlock& block : deck.blocks)
         for (const Index region : block.regions)
@@ -456,14 +509,13 @@ void close_gap(Deck& deck)
         for (std::size_t r = 0; r < used.size(); ++r)
             has_any = has_any || (used[r] != 0 && same_word(deck.regions[r].name, name));
         for (const DeckSet& set : deck.sets)
-            has_any = has_any || (same_word(set.name, name) && set.members.size() + set.sides.size() > 0);
+            has_any = has_any || (is_part(set, name) && !set.members.empty());
         if (!has_any) empty.push_back(name);
     }
-    const auto is_empty = [&](const std::string& name) {
-        return std::ranges::any_of(empty, [&](const std::string& of) { return same_word(of, name); });
-    };
     std::erase_if(deck.sets, [&](const DeckSet& set) {
-        return set.members.empty() && set.sides.empty() && is_empty(set.name);
+        return set.members.empty() && set.sides.empty() &&
+               std::ranges::any_of(deck.gap.names,
+                                   [&](const std::string& of) { return same_word(of, set.name); });
     });
     if (deck.format == DeckFormat::abaqus)
         for (DeckText& text : deck.texts) text.text = without_sections(text.text, empty);

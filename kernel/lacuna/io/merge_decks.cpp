@@ -63,6 +63,12 @@ public:
         add_texts();
         all_.path += ", " + more_.path;
         all_.gap.names.insert(all_.gap.names.end(), more_.gap.names.begin(), more_.gap.names.end());
+        if (same_ && !clashes_ && scale == 1)
+            all_.gap.gone.insert(all_.gap.gone.end(), more_.gap.gone.begin(), more_.gap.gone.end());
+        else if (!more_.gap.gone.empty())
+            log_line(context_, "note: sets of " + more_.path +
+                                   " do not get the cells that replace what was left "
+                                   "out of it: they have other names, numbers or units now");
         all_.gap.node = std::max(all_.gap.node, more_.gap.node + node_offset_);
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
         all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());

@@ -6,12 +6,14 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/mesh/mesh_part.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace lacuna::io {
 namespace {
@@ -82,10 +84,18 @@ public:
         texts_ = numbers_in_text(deck_);
         find_place();
         choose_material();
+        const bool joins = added_.bulk == nullptr && added_.groups == nullptr && !deck_.points.empty();
+        const std::vector<std::size_t> of_all = joins ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
-        add_groups();
+        if (joins) update_sets(of_all);
+        if (abaqus) add_groups(); // surfaces keep their names, sets of elements make room
+        if (options_.format != DeckFormat::nastran)
+            for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
+        if (added_.skin_cells) add_skin_cells();
+        if (!abaqus) add_groups();
         add_region_card();
+        tell_names();
     }
 
 private:
@@ -156,15 +166,12 @@ private:
             std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
         for (const DeckRegion& region : deck_.regions) highest = std::max(highest, region.tag);
         volume_ = volume();
-        if (!takes_place())
-            deck_.regions.push_back({highest + 1, set_name(DeckSet::Kind::elements, volume_), material_});
+        if (!takes_place()) deck_.regions.push_back({highest + 1, volume_, material_});
         const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
         if (added_.bulk != nullptr) {
             added_.bulk->first_cell = first_cell_;
             added_.bulk->region = region;
         }
-        if (name_of_region() != volume_)
-            log_line(context_, "the cells of " + volume_ + " are the set " + name_of_region());
         const bool abaqus = options_.format == DeckFormat::abaqus;
         const bool nastran = options_.format == DeckFormat::nastran;
         const mesh::CellKinds kinds(mesh_);
@@ -192,12 +199,11 @@ private:
             : unv()   ? "112"
                       : "",
             kinds.hexes(), mesh_.cell_count());
-        if (!nastran)
-            for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
-        if (added_.skin_cells) add_skin_cells();
+        if (has_sides()) {
+            cells_ = cells_of_skin(mesh_);
+            sides_ = sides_of_skin(mesh_, cells_);
+        }
     }
-
-    [[nodiscard]] const std::string& name_of_region() const { return deck_.regions[index(region_)].name; }
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
     {
@@ -226,25 +232,102 @@ private:
 
     void add_volume_set(const std::string& group)
     {
-        DeckSet& set = set_of(DeckSet::Kind::elements, group);
-        if (group == volume_) set.name = name_of_region();
+        std::string& region = deck_.regions[index(region_)].name;
+        const bool own = group == volume_;
+        DeckSet cells;
+        for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
+            cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
+        const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
+        if (own && !takes_place()) region = set.name;
         if (added_.bulk != nullptr)
             added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
-        for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
-            set.members.push_back(first_cell_ + static_cast<DeckTag>(c));
     }
 
-    /// The set of a group: a new one, or that of the meshes added before.
-    DeckSet& set_of(DeckSet::Kind kind, const std::string& group)
+    /// Sets of the deck that the mesh joins get what they are to hold of it.
+    void update_sets(const std::vector<std::size_t>& of_all)
     {
-        const std::string name = options_.format == DeckFormat::abaqus ? abaqus_name(group) : group;
-        for (std::size_t s = added_.own_sets; s < deck_.sets.size(); ++s)
-            if (deck_.sets[s].kind == kind && same_word(deck_.sets[s].name, name)) return deck_.sets[s];
-        for (DeckSet& set : deck_.sets)
-            if (set.kind == kind && set.members.empty() && is_emptied(set.name) && same_word(set.name, name))
-                return set;
-        return deck_.sets.emplace_back(
-            DeckSet{.kind = kind, .tag = next_set(), .name = set_name(kind, group)});
+        if (of_all.empty() && deck_.gap.gone.empty()) return;
+        NewCells added{.mesh = mesh_, .scale = added_.scale, .volume = volume_};
+        for (const Index place : point_) added.nodes.push_back(deck_.point_tags[index(place)]);
+        for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
+            added.cells.push_back(first_cell_ + static_cast<DeckTag>(c));
+        for (std::size_t i = 0; i < sides_.size(); ++i)
+            added.sides.push_back({first_cell_ + cells_[i], sides_[i]});
+        for (std::size_t i = 0; added_.skin_cells && i < mesh_.skin_count(); ++i)
+            added.skin.push_back(skin_tag(i));
+        join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
+    }
+
+    /// Whether the cells may be in a set: not where its section would give them a second material.
+    bool may_join(const DeckSet& set)
+    {
+        if (options_.format != deck_.format || takes_place()) return true;
+        const std::optional<std::string> section = section_material(deck_, set.name);
+        if (!section) return true;
+        const bool other = !options_.material.empty() && !same_word(*section, material_);
+        if (other)
+            log_line(context_, "note: " + volume_ + " is not in the set " + set.name +
+                                   ", whose section has the material " + *section);
+        if (other || is_emptied(set.name)) return false;
+        return has_section_ = true;
+    }
+
+    /// Add the set of a group, whose name is `wanted` where that is free: to that of the meshes added before,
+    /// to one that lost all members, or as a new one.
+    const DeckSet& add_set(DeckSet& set, const std::string& group, const std::string& wanted)
+    {
+        tidy(set.members);
+        tidy(set.sides);
+        const auto put = [&](DeckSet& into) -> const DeckSet& {
+            into.members.insert(into.members.end(), set.members.begin(), set.members.end());
+            into.sides.insert(into.sides.end(), set.sides.begin(), set.sides.end());
+            tidy(into.members);
+            tidy(into.sides);
+            return into;
+        };
+        GroupSets own;
+        const auto [known, fresh] =
+            (added_.groups ? *added_.groups : own).try_emplace({set.kind, group}, deck_.sets.size());
+        if (!fresh) return put(deck_.sets[known->second]);
+        const auto find = [&](const std::string& name) {
+            return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
+                if (other.kind != set.kind || !same_word(other.name, name)) return false;
+                const bool none = other.members.empty() && other.sides.empty();
+                return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
+            });
+        };
+        set.name = free_name(wanted, options_.format, [&](const std::string& name) {
+            return find(name) == deck_.sets.end() && is_taken(set.kind, name);
+        });
+        const bool behind = options_.format == DeckFormat::abaqus && group.ends_with(kSkin);
+        if (!behind && set.name != free_name(wanted, options_.format, [](const auto&) { return false; }))
+            renamed_.emplace(wanted, set.name);
+        if (const auto same = find(set.name); same != deck_.sets.end()) {
+            known->second = static_cast<std::size_t>(same - deck_.sets.begin());
+            deck_.gap.replaced[{same->kind, same->name}] = 1;
+            return put(*same);
+        }
+        set.tag = next_set();
+        return deck_.sets.emplace_back(std::move(set));
+    }
+
+    [[nodiscard]] bool is_taken(DeckSet::Kind kind, const std::string& name) const
+    {
+        const auto same = [&](const std::string& other) { return same_word(other, name); };
+        if (kind == DeckSet::Kind::sides && std::ranges::any_of(texts_.surfaces, same)) return true;
+        return std::ranges::any_of(deck_.sets, [&](const DeckSet& set) {
+            return share_names(options_.format, kind, set.kind) && same(set.name);
+        });
+    }
+
+    void tell_names() const
+    {
+        std::string list;
+        std::size_t count = 0;
+        for (const auto& [wanted, name] : renamed_)
+            if (++count <= kMostListed) list += (count > 1 ? ", " : "") + wanted + " is called " + name;
+        if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
+        if (count > 0) log_line(context_, "note: names that other sets have: " + list);
     }
 
     void add_skin_cells()
@@ -305,18 +388,6 @@ private:
         return tag + 1;
     }
 
-    /// A name that no set of the kind has.
-    std::string set_name(DeckSet::Kind kind, const std::string& group) const
-    {
-        const std::string name = options_.format == DeckFormat::abaqus ? abaqus_name(group) : group;
-        std::string unique = name;
-        const auto taken = [&](const DeckSet& set) {
-            return set.kind == kind && same_word(set.name, unique);
-        };
-        for (int i = 2; std::ranges::any_of(deck_.sets, taken); ++i) unique = name + "_" + std::to_string(i);
-        return unique;
-    }
-
     void add_groups()
     {
         std::vector<std::string> names;
@@ -329,10 +400,6 @@ private:
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
             }
-        }
-        if (has_sides()) {
-            cells_ = cells_of_skin(mesh_);
-            sides_ = sides_of_skin(mesh_, cells_);
         }
         // A name that Abaqus holds as it is was given so, and keeps it: "wall:3" makes room for wall_3. Those
         // with a colon are made up, and come last.
@@ -351,26 +418,25 @@ private:
 
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
     {
-        const auto add = [&](DeckSet::Kind kind) -> DeckSet& { return set_of(kind, name); };
+        DeckSet set;
         if (added_.skin_cells) {
-            DeckSet& set = add(DeckSet::Kind::elements);
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
-            tidy(set.members);
+            add_set(set, unv() ? name + kSkin : name, name);
             return;
         }
-        DeckSet& nodes = add(DeckSet::Kind::nodes);
+        set.kind = DeckSet::Kind::nodes;
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_nodes(mesh_, i).all()) nodes.members.push_back(point_tag(node));
-        tidy(nodes.members);
+            for (const Index node : skin_nodes(mesh_, i).all()) set.members.push_back(point_tag(node));
+        add_set(set, name, name);
         if (!has_sides()) return;
-        if (options_.format == DeckFormat::abaqus) {
-            DeckSet& cells = add(DeckSet::Kind::elements);
-            for (const std::uint32_t i : quads) cells.members.push_back(first_cell_ + cells_[i]);
-            tidy(cells.members);
+        DeckSet cells, sides;
+        sides.kind = DeckSet::Kind::sides;
+        for (const std::uint32_t i : quads) {
+            cells.members.push_back(first_cell_ + cells_[i]);
+            sides.sides.push_back({first_cell_ + cells_[i], sides_[i]});
         }
-        DeckSet& sides = add(DeckSet::Kind::sides);
-        for (const std::uint32_t i : quads) sides.sides.push_back({first_cell_ + cells_[i], sides_[i]});
-        tidy(sides.sides);
+        if (options_.format == DeckFormat::abaqus) add_set(cells, name + kSkin, name + "_cells");
+        add_set(sides, name, name);
     }
 
     template <class Value>
@@ -415,6 +481,7 @@ private:
                                                  (known.empty() ? "no materials" : "the materials " + list));
     }
     static constexpr std::size_t kMostListed = 20; // what still reads as a list
+    static constexpr const char* kSkin = "\n";     // tells groups of the skin from the volume's: in no name
 
     [[nodiscard]] std::string volume() const
     {
@@ -432,8 +499,8 @@ private:
             if (number != material_ && !material_.empty()) text += ", material " + material_;
             deck_.texts.push_back({DeckText::Place::cards, "",
                                    text + "\nPSOLID," + std::to_string(region.tag) + "," + number + "\n"});
-        } else if (deck_.format == DeckFormat::abaqus && !material_.empty() &&
-                   !has_section(deck_, region.name)) {
+        } else if (deck_.format == DeckFormat::abaqus && !material_.empty() && !has_section_ &&
+                   !section_material(deck_, region.name)) {
             add_model_cards(deck_, "*SOLID SECTION, ELSET=" + region.name + ", MATERIAL=" + material_ + "\n");
         }
     }
@@ -447,6 +514,8 @@ private:
     std::string material_;
     std::vector<Index> point_; ///< of each node of the mesh
     std::string volume_, element_;
+    bool has_section_ = false;                   ///< by a set of the deck that the cells are in
+    std::map<std::string, std::string> renamed_; ///< groups whose names were taken
     Index place_ = -1, region_ = -1; ///< the region that the volume takes the place of, and the cells' own
     DeckTag first_cell_ = 1;
     std::vector<std::uint32_t> cells_;       ///< behind each quad of the skin
@@ -542,13 +611,14 @@ Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill
         return quad;
     };
     const bool cells = has_skin_cells(options.format);
+    GroupSets groups;
     std::vector<std::vector<char>> inner(meshes.size());
     if (cells && !interfaces) inner = inner_quads(std::span(meshes), rising);
     std::map<Quad, DeckTag> skin_tags;
     std::map<std::string, Index> regions; // parts of one name are one region
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const mesh::HexMesh& mesh = *meshes[m];
-        AddedMesh added{.points = {}, .skin_cells = cells, .own_sets = 0};
+        AddedMesh added{.points = {}, .skin_cells = cells, .groups = &groups};
         if (interfaces) added.skin_tags = &skin_tags;
         added.inner = std::move(inner[m]);
         fill(m, added);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/nastran.h>
 
@@ -13,37 +14,6 @@ namespace {
 
 constexpr std::size_t kSmall = 8, kLarge = 16; // characters of a field
 constexpr std::size_t kNumber = 20;            // characters of a tag, at most
-
-/// The card of a shape that came from elsewhere.
-std::string_view card_of(DeckShape shape)
-{
-    switch (shape) {
-    case DeckShape::tri3:
-        return "CTRIA3";
-    case DeckShape::tri6:
-        return "CTRIA6";
-    case DeckShape::quad4:
-        return "CQUAD4";
-    case DeckShape::quad8:
-        return "CQUAD8";
-    case DeckShape::quad9:
-        return "CQUAD";
-    case DeckShape::tet4:
-    case DeckShape::tet10:
-        return "CTETRA";
-    case DeckShape::pyramid5:
-    case DeckShape::pyramid13:
-        return "CPYRAM";
-    case DeckShape::wedge6:
-    case DeckShape::wedge15:
-        return "CPENTA";
-    case DeckShape::hex8:
-    case DeckShape::hex20:
-        return "CHEXA";
-    default:
-        return {};
-    }
-}
 
 /// Gathers the fields of a card and puts it out.
 class CardWriter {
@@ -173,7 +143,7 @@ void add_nodes(const Deck& deck, const BulkReader& bulk, bool same, DeckFile& fi
 void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, bool same, DeckFile& file)
 {
     const std::string_view name = same && !block.type.empty() ? std::string_view(block.type)
-                                                              : card_of(block.shape);
+                                                              : words_of(block.shape).nastran;
     if (name.empty()) refuse_element(block, "Nastran", "there is no such card");
     const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
     const std::size_t more = same ? room_of(block.more) : 0;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cell_shapes.h>
+#include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/unv.h>
 
@@ -46,23 +48,6 @@ std::string columns(std::initializer_list<long long> numbers)
     return text + "\n";
 }
 
-/// Thin shells of a shape; 0: it is none.
-int shell_of(DeckShape shape)
-{
-    switch (shape) {
-    case DeckShape::tri3:
-        return 91;
-    case DeckShape::tri6:
-        return 92;
-    case DeckShape::quad4:
-        return 94;
-    case DeckShape::quad8:
-        return 95;
-    default:
-        return 0;
-    }
-}
-
 void add_nodes(const BulkReader& bulk, DeckFile& file)
 {
     file.sections.push_back({std::string(kMark) + "  2411\n", bulk.points(), 5 * kNumberBytes + 3 * kReal,
@@ -83,7 +68,7 @@ void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& blo
 {
     const auto solid = std::ranges::find(kUnvSolids, block.shape, &UnvSolid::shape);
     const bool is_solid = solid != std::end(kUnvSolids);
-    long long descriptor = is_solid ? solid->descriptor : shell_of(block.shape);
+    long long descriptor = is_solid ? solid->descriptor : words_of(block.shape).shell;
     if (descriptor == 0) refuse_element(block, "UNV", "there is no such element");
     if (std::ranges::find(block.nodes, -1) != block.nodes.end())
         refuse_element(block, "UNV", "some have not all their middle nodes");
@@ -166,6 +151,7 @@ DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
     bool groups = false;
     int number = 0;
     for (const DeckSet& set : deck.sets) number = std::max(number, set.tag);
+    std::vector<std::string> names;
     for (std::size_t s = 0; s < deck.sets.size(); ++s) {
         const DeckSet& set = deck.sets[s];
         if (set.kind == DeckSet::Kind::sides || bulk.count(set) == 0) {
@@ -177,7 +163,12 @@ DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
                          deck.sets[s + 1].name == set.name && deck.sets[s + 1].kind == DeckSet::Kind::nodes;
         const std::size_t count = bulk.count(set) + (two ? deck.sets[s + 1].members.size() : 0);
         head += columns({set.tag > 0 ? set.tag : ++number, 0, 0, 0, 0, 0, 0, static_cast<long long>(count)});
-        head += set.name + "\n";
+        const std::string name = free_name(set.name, DeckFormat::unv, [&](const std::string& other) {
+            return !same && std::ranges::any_of(names, [&](const auto& of) { return same_word(of, other); });
+        });
+        if (name != set.name) file.notes.push_back("the set " + set.name + " is called " + name);
+        names.push_back(name);
+        head += name + "\n";
         add_members(set, bulk, std::move(head), file);
         groups = true;
         if (two) add_members(deck.sets[++s], bulk, {}, file);

@@ -8,8 +8,10 @@
 #include <lacuna/mesh/second_order.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -224,6 +226,12 @@ std::string text_at(const Deck& deck, DeckText::Place place);
 
 /// A name of Abaqus: letters, digits, - and _ , a letter first.
 std::string abaqus_name(std::string_view name);
+/// A name as a format can hold it, with a number behind it where that is taken.
+std::string free_name(std::string_view name, DeckFormat format,
+                      const std::function<bool(const std::string&)>& is_taken);
+/// Whether sets of two kinds must not have one name. CalculiX takes a load on a surface for one on the set of
+/// elements of that name, and applies none; a universal file has groups of both nodes and elements.
+bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 
 /// Whether Abaqus's word in capitals is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
@@ -231,14 +239,15 @@ bool is_abaqus_element(std::string_view type, DeckShape shape);
 /// Numbers that the text of a deck takes.
 struct TextNumbers {
     std::set<DeckTag> nodes, cells;
-    DeckTag set = 0, property = 0; ///< the highest
+    DeckTag set = 0, property = 0;       ///< the highest
+    std::vector<std::string> surfaces{}; ///< names of Abaqus
 };
 TextNumbers numbers_in_text(const Deck& deck);
 
 /// Materials that the text of a Nastran or Abaqus deck defines, as it calls them, each once.
 std::vector<std::string> materials_in_text(const Deck& deck);
-/// Whether the text of an Abaqus deck has a section of a set of elements.
-bool has_section(const Deck& deck, std::string_view set);
+/// The material of the section of a set of elements in the text of an Abaqus deck; none: it has no section.
+std::optional<std::string> section_material(const Deck& deck, std::string_view set);
 /// Cards of an Abaqus deck up to its first step, and from there on.
 std::pair<std::string, std::string> model_and_steps(const std::string& cards);
 /// Put cards of the model before the first step of an Abaqus deck.

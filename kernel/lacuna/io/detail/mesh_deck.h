@@ -5,9 +5,10 @@
 
 #include <lacuna/mesh/mesh_part.h>
 
-#include <limits>
 #include <map>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 /// Putting a swept mesh into a deck. Internal to this folder.
@@ -21,6 +22,9 @@ struct BulkPlace {
     DeckTag highest = 0;             ///< number of a cell of the meshes before it
 };
 
+/// Places of sets in a deck, by their kind and the group that they hold.
+using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
+
 struct AddedMesh {
     std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
     double scale = 1;              ///< of the mesh's coordinates to the deck's
@@ -28,8 +32,8 @@ struct AddedMesh {
     /// Quads of the skin that the deck has already as elements, by their nodes rising; those added join them.
     /// Null: none are to be shared.
     std::map<Quad, DeckTag>* skin_tags = nullptr;
-    /// Sets from this one on are those of meshes added before, and join this one's of the same names.
-    std::size_t own_sets = std::numeric_limits<std::size_t>::max();
+    /// Sets of the meshes added before, by kind and group, which this one's join; null: there are none.
+    GroupSets* groups = nullptr;
     Index region = -1; ///< of the deck, that the cells are more of; -1: one of their own
     /// Not null: nodes and cells are not put in the deck, only regions, sets and empty blocks of the cells'
     /// shapes; here is where it would have them. Points are numbered from 1.

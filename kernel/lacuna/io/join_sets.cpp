@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/join_sets.h>
+
+#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/leave_out.h>
+#include <lacuna/mesh/second_order.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <span>
+
+namespace lacuna::io {
+namespace {
+
+template <class Value>
+void add(std::vector<Value>& to, const std::vector<Value>& values)
+{
+    to.insert(to.end(), values.begin(), values.end());
+    std::ranges::sort(to);
+    to.erase(std::unique(to.begin(), to.end()), to.end());
+}
+
+bool holds(const std::vector<DeckTag>& set, const std::vector<DeckTag>& all)
+{
+    return !all.empty() && std::ranges::includes(set, all);
+}
+
+std::vector<DeckTag> solids_of(const Deck& deck)
+{
+    std::vector<DeckTag> solids;
+    for (const DeckBlock& block : deck.blocks)
+        if (shape_info(block.shape).dimension == 3) add(solids, block.tags);
+    return solids;
+}
+
+/// Solids of a part.
+std::vector<DeckTag> solids_called(const Deck& deck, const std::string& name)
+{
+    std::vector<DeckTag> called;
+    std::ranges::set_intersection(solids_of(deck), cells_of_part(deck, name), std::back_inserter(called));
+    return called;
+}
+
+/// A face or a quad: half the cross product of its diagonals, and its middle.
+struct Facet {
+    Vec3 area, centre;
+};
+template <class Place>
+Facet facet_of(const Quad& quad, const Place& place)
+{
+    const Vec3 a = place(quad[0]), b = place(quad[1]), c = place(quad[2]), d = place(quad[3]);
+    return {(c - a).cross(d - b) / 2, (a + b + c + d) / 4};
+}
+
+/// What one mesh replaces of what was left out of a deck.
+class Replacer {
+public:
+    /// @param named  a part that was left out has the volume's name; else the mesh replaces all that was.
+    Replacer(const Deck& gone, const NewCells& added, bool named) : gone_(gone), added_(added)
+    {
+        cells_ = named ? solids_called(gone, added.volume) : solids_of(gone);
+        std::map<Quad, std::vector<Face>> faces;
+        std::map<Quad, DeckTag> shells;
+        for (const DeckBlock& block : gone.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e) {
+                const std::span<const Index> nodes = block.element(e);
+                if (shape_info(block.shape).dimension == 2) shells[shell_key(block, e)] = block.tags[e];
+                int side = 0;
+                for (const Quad& face : face_corners(block.shape)) {
+                    Quad corners = face; // the last of a triangle stands twice
+                    for (Index& k : corners) k = nodes[index(k < 0 ? face[2] : k)];
+                    faces[face_key(block, e, face)].push_back({corners, {block.tags[e], ++side}});
+                }
+                for (const Index node : nodes)
+                    if (node >= 0 && std::ranges::binary_search(cells_, block.tags[e]))
+                        nodes_.push_back(gone.point_tags[index(node)]);
+            }
+        add(nodes_, {});
+        for (auto& [key, of] : faces) {
+            if (of.size() > 1) continue;
+            if (const auto shell = shells.find(key); shell != shells.end()) of.front().shell = shell->second;
+            skin_.push_back(of.front());
+        }
+        find_places();
+    }
+
+    /// Put into a set what it is to hold. @param old  as it was. @return  the share of what it lost [-]
+    double fill(const DeckSet& old, DeckSet& set, const std::function<bool(const DeckSet&)>& fits)
+    {
+        using enum DeckSet::Kind;
+        if (old.kind != sides && holds(old.members, old.kind == nodes ? nodes_ : cells_)) {
+            if (old.kind == elements && !fits(set)) return 0;
+            add(set.members, old.kind == nodes ? added_.nodes : added_.cells);
+            return 1;
+        }
+        if (old.kind == elements && added_.skin.empty()) return 0;
+        std::vector<double> held; // area of each face of the skin that the set had
+        for (const Face& face : skin_) {
+            std::vector<DeckTag> corners;
+            for (const Index node : face.corners) corners.push_back(gone_.point_tags[index(node)]);
+            add(corners, {});
+            const bool has = old.kind == sides   ? std::ranges::binary_search(old.sides, face.side)
+                             : old.kind == nodes ? holds(old.members, corners)
+                                                 : std::ranges::binary_search(old.members, face.shell);
+            held.push_back(has ? face.area.norm() : 0);
+        }
+        double share = 0;
+        for (std::size_t i = 0; i < on_.size(); ++i) {
+            if (on_[i] < 0 || held[index(on_[i])] == 0) continue;
+            share += area_[i];
+            if (old.kind == sides && !added_.sides.empty()) set.sides.push_back(added_.sides[i]);
+            if (old.kind == elements) set.members.push_back(added_.skin[i]);
+            for (const Index node : skin_nodes(added_.mesh, i).all())
+                if (old.kind == nodes) set.members.push_back(added_.nodes[index(node)]);
+        }
+        add(set.sides, {});
+        add(set.members, {});
+        return share > 0 ? share / std::accumulate(held.begin(), held.end(), 0.0) : 0;
+    }
+
+private:
+    struct Face {
+        Quad corners;
+        DeckSide side;
+        DeckTag shell = -1; ///< of the element that lies on it
+        Vec3 area = Vec3::Zero();
+    };
+
+    /// The face of the old skin that each quad of the new one lies on.
+    void find_places()
+    {
+        std::vector<Triangle> triangles;
+        for (Face& face : skin_) {
+            const auto& [a, b, c, d] = face.corners;
+            triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+            face.area = facet_of(face.corners, [&](Index node) { return gone_.points[index(node)]; }).area;
+        }
+        const geometry::FacetTree tree(gone_.points, triangles);
+        for (std::size_t i = 0; i < added_.mesh.skin_count(); ++i) {
+            const Facet quad = facet_of(skin_quad(added_.mesh, i).nodes, [&](Index node) {
+                return Vec3(added_.mesh.node(index(node)) / added_.scale);
+            });
+            area_.push_back(quad.area.norm());
+            const Index hit = tree.closest(quad.centre, kReach * kReach * area_.back()).triangle;
+            on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);
+        }
+    }
+    /// How far a quad's centre may be from the face it lies on [-] × the root of its area: more than the sag
+    /// of a chord of 60 degrees, 0.13 of it, less than half a cell, where quads between two meshes are.
+    static constexpr double kReach = 0.25;
+
+    const Deck& gone_;
+    const NewCells& added_;
+    std::vector<DeckTag> cells_, nodes_; ///< of the part that has the volume's name, else of all; rising
+    std::vector<Face> skin_;             ///< of what was left out
+    std::vector<Index> on_;              ///< of each quad of the new skin, in `skin_`; -1: none
+    std::vector<double> area_;           ///< of these quads
+};
+
+/// Whether a set of all solids is no body's own name, nor the cells behind a surface, of one layer.
+bool is_of_all(const Deck& deck, const DeckSet& set)
+{
+    if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;
+    bool others = false;
+    for (const DeckRegion& region : deck.regions) {
+        if (same_word(region.name, set.name)) return false;
+        others = others || !region.name.empty();
+    }
+    return others && std::ranges::none_of(deck.sets, [&](const DeckSet& surface) {
+               return surface.sides.size() == set.members.size() && set.name.starts_with(surface.name);
+           });
+}
+
+} // namespace
+
+std::vector<std::size_t> sets_of_all(const Deck& deck)
+{
+    std::vector<std::size_t> found;
+    std::vector<DeckTag> nodes;
+    add(nodes, deck.point_tags);
+    const std::vector<DeckTag> solids = solids_of(deck);
+    for (std::size_t s = 0; s < deck.sets.size() && deck.gap.gone.empty(); ++s) {
+        const DeckSet& set = deck.sets[s];
+        const bool of_nodes = set.kind == DeckSet::Kind::nodes;
+        if (holds(set.members, of_nodes ? nodes : solids) && (of_nodes || is_of_all(deck, set)))
+            found.push_back(s);
+    }
+    return found;
+}
+
+void join_sets(Deck& deck, const NewCells& added, const std::vector<std::size_t>& of_all,
+               const std::function<bool(const DeckSet&)>& fits)
+{
+    for (const std::size_t s : of_all)
+        if (DeckSet& set = deck.sets[s]; set.kind == DeckSet::Kind::nodes || fits(set))
+            add(set.members, set.kind == DeckSet::Kind::nodes ? added.nodes : added.cells);
+    const bool named = std::ranges::any_of(
+        deck.gap.gone, [&](const auto& gone) { return !solids_called(*gone, added.volume).empty(); });
+    for (const auto& gone : deck.gap.gone) {
+        Replacer replacer(*gone, added, named);
+        for (const DeckSet& old : gone->sets)
+            for (DeckSet& set : deck.sets)
+                if (set.kind == old.kind && same_word(set.name, old.name))
+                    deck.gap.replaced[{old.kind, old.name}] += replacer.fill(old, set, fits);
+    }
+}
+
+} // namespace lacuna::io
