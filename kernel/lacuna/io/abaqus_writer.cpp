@@ -185,7 +185,7 @@ private:
         for (const BulkReader::MadeRun& run : bulk_.made_runs(block))
             made[run.region].emplace_back(run.begin, run.end);
         for (const auto& [region, runs] : made) {
-            std::string head = head_of(type, region);
+            std::string head = head_of(type, block, region);
             for (const auto& [first, last] : runs) {
                 file_.sections.push_back(
                     {std::move(head), last - first, (nodes + 1) * kNumberBytes + 4,
@@ -199,7 +199,7 @@ private:
         }
         for (auto& [region, elements] : of_region) {
             const std::size_t count = elements.size();
-            file_.sections.push_back({head_of(type, region), count, (nodes + 1) * kNumberBytes + 4,
+            file_.sections.push_back({head_of(type, block, region), count, (nodes + 1) * kNumberBytes + 4,
                                       [bulk = bulk_, &block, all = std::move(elements)](
                                           std::size_t begin, std::size_t end, char* out) {
                                           for (std::size_t i = begin; i < end; ++i)
@@ -209,12 +209,16 @@ private:
         }
     }
 
-    [[nodiscard]] std::string head_of(std::string_view type, Index region) const
+    /// A region of another format that has a number alone is called by it.
+    [[nodiscard]] std::string head_of(std::string_view type, const DeckBlock& block, Index region) const
     {
         std::string head = "*ELEMENT, TYPE=" + std::string(type);
-        if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
-            head += ", ELSET=" + name_of(deck_.regions[index(region)].name);
-        return head + "\n";
+        if (region < 0 || !makes_set_[index(region)]) return head + "\n";
+        std::string name = deck_.regions[index(region)].name;
+        if (name.empty() && !same_)
+            name = (shape_info(block.shape).dimension == 3 ? "volume:" : "surface:") +
+                   std::to_string(deck_.regions[index(region)].tag);
+        return head + (name.empty() ? "" : ", ELSET=" + name_of(name)) + "\n";
     }
 
     static char* put_element(const BulkReader& bulk, const DeckBlock& block, std::size_t e, char* out)

@@ -263,7 +263,8 @@ private:
 } // namespace
 
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context, const Deck* gone)
+               const MeshDeckOptions& options, const RunContext& context, const Deck* gone,
+               JoinedBefore* before)
 {
     std::vector<bool> was_there(mesh.skin_count(), false);
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
@@ -276,8 +277,15 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;
     }
+    const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
+    if (before != nullptr) {
+        added.own_sets = before->sets = std::min(before->sets, deck.sets.size());
+        if (const auto known = before->regions.find(region); known != before->regions.end())
+            added.region = known->second;
+    }
     Deck joined = deck;
-    add_mesh(joined, mesh, added, options, context);
+    const Index place = add_mesh(joined, mesh, added, options, context);
+    if (before != nullptr) before->regions.try_emplace(region, place);
     return joined;
 }
 

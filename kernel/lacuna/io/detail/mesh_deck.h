@@ -43,8 +43,9 @@ struct AddedMesh {
     std::string neighbour_material{}, neighbour{};
 };
 /// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `join_deck()`.
-void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
-              const RunContext& context = {});
+/// @return  place of the region in the deck.
+Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+               const RunContext& context = {});
 
 /// `deck_of()` without nodes and cells; see `AddedMesh::bulk`.
 Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
