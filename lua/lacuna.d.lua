@@ -112,7 +112,7 @@
 ---@field threads? integer default: all cores
 
 ---@class lacuna.SweepToOptions: lacuna.SweepOptions
----@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[], partitions?: integer|"processes", ghosts?: integer, interfaces?: boolean, gmsh_options?: boolean } how the file is written; default as mesh:write
+---@field write? { version?: 4.1|2.2, binary?: boolean, quality?: boolean|lacuna.MetricName|lacuna.MetricName[], partitions?: integer|"processes", ghosts?: integer, interfaces?: boolean, groups?: "one"|"all", gmsh_options?: boolean } how the file is written; default as mesh:write
 
 ---@class lacuna.WriteOptions
 ---@field version? 4.1|2.2
@@ -124,6 +124,7 @@
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
 ---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+---@field groups? "one"|"all" of .msh: whether cells are in one physical group or in all of theirs, which overlap; default "one"
 ---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
 ---@field partitions? integer|"processes" of .pvtu and .msh: parts; of .pvtu default as many as processes
@@ -132,6 +133,7 @@
 ---@class lacuna.ConvertOptions
 ---@field version? 4.1|2.2 of .msh; default 4.1
 ---@field binary? boolean of .msh and .vtk; default true
+---@field groups? "one"|"all" of .msh; default "one"
 
 ---@class lacuna.PageOptions
 ---@field title? string default: what the input is called
@@ -363,7 +365,7 @@ function Volume:sweep(options) end
 function Volume:sweep_to(path, options) end
 --- The facets of the sealed volume, watertight and outward.
 ---@param path string .stl, .msh or .obj
----@param options? { binary: boolean } of .stl and .msh; default true
+---@param options? { binary?: boolean, groups?: "one"|"all" } of .stl and .msh, default true; of .msh, default "one"
 function Volume:write_facets(path, options) end
 --- The sealed volume as one CAD solid: given CAD faces exact, void faces as planes or fitted surfaces.
 ---@param path string .step, .stp or .brep

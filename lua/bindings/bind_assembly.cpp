@@ -312,8 +312,13 @@ int groups(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
     auto& quads = temporary<std::map<std::string, std::size_t>>(L);
+    auto& regions = temporary<std::vector<std::pair<std::string, std::size_t>>>(L); // as first met
     guard(L, [&] {
         for (const sweep::Swept& part : state.swept.parts) {
+            const std::string& region = part.mesh.volume_groups.front();
+            auto known = std::ranges::find(regions, region, &std::pair<std::string, std::size_t>::first);
+            if (known == regions.end()) known = regions.insert(known, {region, 0});
+            known->second += part.mesh.cell_count();
             for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
                 for (const std::string& name : part.mesh.patches[index(skin_quad(part.mesh, i).patch)].groups)
                     ++quads[name];
@@ -325,12 +330,9 @@ int groups(lua_State* L)
         push_group(L, name, 2, cells);
         lua_rawseti(L, -2, next++);
     }
-    for (std::size_t p = 0; p < state.regions.size(); ++p) {
-        if (!begins_region(state, p)) continue;
-        std::size_t cells = 0;
-        for (std::size_t q = p; q < state.regions.size(); ++q)
-            if (state.regions[q] == state.regions[p]) cells += state.swept.parts[q].mesh.cell_count();
-        push_group(L, state.regions[p], 3, cells);
+    for (const auto& [name, cells] : regions) {
+        if (name == "volume") continue; // the pieces of one volume without a name
+        push_group(L, name, 3, cells);
         lua_rawseti(L, -2, next++);
     }
     push_group(L, "volume", 3, sum(state, &mesh::HexMesh::cell_count));

@@ -116,11 +116,11 @@ RunContext& push_swept(lua_State* L, int index, const char* call, bool layered, 
             const std::string name = entry.volume->name.empty() ? "volume_" + std::to_string(m + 1)
                                                                 : entry.volume->name;
             options.name = name;
-            const auto add = [&] { add_members(members, entry.volume, name, options, context); };
+            const auto add = [&] { add_members(members, entry.volume, name, name, options, context); };
             if (!do_or_leave_out(left_out, name, options, add))
                 members.push_back({entry.volume, &options, nullptr, true});
         }
-        box = sweep_members(members, std::move(left_out), context);
+        box = sweep_members(members, std::move(left_out), false, context);
         box->seconds = clock.seconds();
     });
     return context;

@@ -17,8 +17,15 @@ void read_version(lua_State* L, int index, const Where& where, io::DeckFileOptio
     if (options.msh_version != 4.1 && options.msh_version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
 }
 
-const Option<io::DeckFileOptions> kOptions[] = {{"version", read_version},
-                                                {"binary", boolean<&io::DeckFileOptions::binary>}};
+const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
+
+void read_groups(lua_State* L, int index, const Where& where, io::DeckFileOptions& options)
+{
+    options.all_groups = read_word(L, index, where, kGroups);
+}
+
+const Option<io::DeckFileOptions> kOptions[] = {
+    {"version", read_version}, {"binary", boolean<&io::DeckFileOptions::binary>}, {"groups", read_groups}};
 
 /// { nodes =, elements = } = lacuna.convert(from, to [, options])
 int convert(lua_State* L)
@@ -40,7 +47,7 @@ int convert(lua_State* L)
                 "convert: the ending of " + to.text() +
                     " says no format that meshes are written in; those are .msh .vtu .vtk .inp "
                     ".bdf .nas .dat .unv .exo .e");
-        const io::Deck deck = io::read_deck(from);
+        const io::Deck deck = io::skin_as_sets(io::read_deck(from), format);
         nodes = deck.points.size();
         for (const io::DeckBlock& block : deck.blocks) elements += block.count();
         io::write_deck(deck, format, to, context, options);

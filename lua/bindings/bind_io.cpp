@@ -34,6 +34,7 @@ struct WriteArguments {
     bool renumber = false, renumber_given = false;
     bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
     bool interfaces = false;   ///< of an assembly: quads between its volumes too
+    bool groups_given = false; ///< of a .msh
     io::PartitionOptions partition;
     bool partitions_given = false, by_process = false; ///< a part for each process
 };
@@ -169,6 +170,14 @@ void read_ghosts(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.partition.ghosts = static_cast<int>(read_whole(L, index, where, 0));
 }
 
+const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
+
+void read_groups(lua_State* L, int index, const Where& where, WriteArguments& arguments)
+{
+    arguments.msh.all_groups = read_word(L, index, where, kGroups);
+    arguments.groups_given = true;
+}
+
 /// As many parts as processes, where that is asked for or a .pvtu leaves it open.
 void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Crew* crew)
 {
@@ -191,6 +200,7 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
+    {"groups", read_groups},
 };
 
 /// Of files that are written a layer at a time.
@@ -202,7 +212,15 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"ghosts", read_ghosts},
     {"interfaces", boolean<&WriteArguments::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
+    {"groups", read_groups},
 };
+
+io::DeckFileOptions file_options(const WriteArguments& arguments)
+{
+    return {.binary = arguments.msh.binary,
+            .msh_version = arguments.msh.version,
+            .all_groups = arguments.msh.all_groups};
+}
 
 /// The decks that models were read from as one; `merged` holds it where there are several.
 const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, const RunContext& context)
@@ -233,7 +251,7 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
 {
     io::MeshDeckOptions options = arguments.deck;
     io::Deck merged;
-    const io::Deck& deck = deck_with(arguments, merged, context);
+    const io::Deck deck = io::skin_as_sets(deck_with(arguments, merged, context), options.format);
     io::LeftOut split;
     const bool without = !arguments.without.empty();
     if (without) {
@@ -243,11 +261,12 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
     }
     const ModelState& model = *arguments.with.front();
     io::Deck joined;
+    io::JoinedBefore before;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         options.material = meshes[m].material;
         const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
         joined = io::join_deck(with, model.model, model.scale, *meshes[m].mesh, options, context,
-                               split.gone.get());
+                               split.gone.get(), &before);
         options.first_node = options.first_cell = 0;
     }
     io::close_gap(joined, context);
@@ -263,8 +282,7 @@ void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const Wri
     if (arguments.with.empty())
         return io::write_deck(io::deck_of(mesh, all.deck, context), format, path, context);
     const JoinedMesh one{&mesh, arguments.deck.material};
-    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context,
-                   {arguments.msh.binary, arguments.msh.version});
+    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, file_options(arguments));
 }
 
 /// A format by its ending, and which options it has.
@@ -315,6 +333,7 @@ const char* idle_option(const Format& format, const WriteArguments& arguments)
     if (!arguments.without.empty() && arguments.with.empty()) return "without";
     if (arguments.element_given && !format.has_element) return "element";
     if (arguments.gmsh_options && std::string_view(format.ending) != ".msh") return "gmsh_options";
+    if (arguments.groups_given && std::string_view(format.ending) != ".msh") return "groups";
     const bool pieces = std::string_view(format.ending) == ".pvtu";
     const bool parted = (pieces || std::string_view(format.ending) == ".msh") && arguments.with.empty();
     if (!arguments.with.empty() && pieces) return "with";
@@ -425,8 +444,11 @@ void write_parts(const AssemblyMeshState& state, const io::OutputPath& path, Wri
                  const Crew* crew, const RunContext& context)
 {
     if (state.swept.number.empty())
-        return team::write_parts(state.swept, path, {arguments.msh.binary, arguments.msh.version}, crew,
-                                 context);
+        return team::write_parts(state.swept, path,
+                                 {.binary = arguments.msh.binary,
+                                  .version = arguments.msh.version,
+                                  .all_groups = arguments.msh.all_groups},
+                                 crew, context);
     const std::string ending = io::ending_of(path.text());
     const bool pieces = ending == ".pvtu";
     if (pieces)
@@ -434,7 +456,7 @@ void write_parts(const AssemblyMeshState& state, const io::OutputPath& path, Wri
     else
         io::find_deck_format(ending, arguments.deck.format);
     const io::Deck deck = deck_of_parts(state, arguments, context);
-    io::DeckFileOptions options{arguments.msh.binary, arguments.msh.version};
+    io::DeckFileOptions options = file_options(arguments);
     io::DeckPartition partition;
     if (arguments.partition.parts > 0) {
         if (arguments.msh.version != 4.1)
@@ -464,7 +486,13 @@ int write_assembly(lua_State* L)
     return 0;
 }
 
-const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>}};
+void read_facet_groups(lua_State* L, int index, const Where& where, io::FacetFileOptions& options)
+{
+    options.all_groups = read_word(L, index, where, kGroups);
+}
+
+const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>},
+                                                      {"groups", read_facet_groups}};
 
 /// volume:write_facets(path [, options])
 int write_facets(lua_State* L)
@@ -665,10 +693,10 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
         add_fields(swept, format, arguments, context);
         return format.write(mesh, path, arguments, context);
     }
-    team::write_layered(
-        {mesh, *swept.layers}, *swept.plan, path,
-        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material, arguments.partition},
-        crew, context);
+    team::write_layered({mesh, *swept.layers}, *swept.plan, path,
+                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material,
+                         arguments.partition, arguments.msh.all_groups},
+                        crew, context);
 }
 
 void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,

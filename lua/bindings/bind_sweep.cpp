@@ -65,8 +65,10 @@ bool sweep_steps(lua_State* L, const Box<VolumeState>& volume, SweepArguments& a
         StageClock clock(context);
         done = sweep_or_turn(*volume, ways, context, [&]() -> std::vector<std::string>& {
             std::vector<ToMesh> pieces;
-            add_members(pieces, volume, volume->name.empty() ? "piece" : volume->name, arguments, context);
-            box = sweep_members(pieces, {}, context);
+            const std::string name = volume->name;
+            add_members(pieces, volume, name.empty() ? "piece" : name, name.empty() ? "volume" : name,
+                        arguments, context);
+            box = sweep_members(pieces, {}, true, context);
             return box->swept.report;
         });
         if (done) box->seconds = clock.seconds();

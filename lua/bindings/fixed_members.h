@@ -17,6 +17,8 @@ struct FixedMember {
     sweep::Swept swept; ///< of which `faces` are the skin's
     std::string region; ///< empty: the mesh has no name
     std::string material;
+    std::string whole;   ///< the volume it is a piece of; empty: it is none
+    std::string turn_of; ///< of a piece of a full turn: the region that all of it is
 };
 
 /// The parts of the mesh an assembly's entry is, in their order. @pre the entry is a mesh

@@ -8,7 +8,7 @@
 
 namespace lacuna::lua {
 
-/// Make the pieces of each full turn one region: they have its name, and what lies between them no groups.
+/// Make the pieces of each full turn one region of its name.
 /// @param turn_of  of each part, the region that the whole turn is; empty: it is no piece of one.
 void join_turns(AssemblyMeshState& mesh, const std::vector<std::string>& turn_of);
 

@@ -127,7 +127,7 @@ void share_layers(const VolumeState& state, sweep::LayerSpec& layers)
 } // namespace
 
 void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, const std::string& name,
-                 const SweepArguments& arguments, const RunContext& context)
+                 const std::string& whole, const SweepArguments& arguments, const RunContext& context)
 {
     if (!closure::has_pieces(volume->volume, context)) {
         members.push_back({volume, &arguments, nullptr, false});
@@ -144,6 +144,8 @@ void add_members(std::vector<ToMesh>& members, const Box<VolumeState>& volume, c
         if (piece.turn_to - piece.turn_from < 1) own.turn_of = name;
         own.name = name + "_" + std::to_string(++number);
         own.material = volume->material;
+        members.back().piece_of = volume;
+        members.back().whole = whole;
     }
 }
 
@@ -154,7 +156,7 @@ void tell_left_out(const VolumeState& state, std::vector<std::string>& report)
 }
 
 std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
-                                                 std::vector<sweep::LeftOut> left_out,
+                                                 std::vector<sweep::LeftOut> left_out, bool alone,
                                                  const RunContext& context)
 {
     std::vector<sweep::AssemblyMember> members;
@@ -168,6 +170,8 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
             materials.push_back(fixed->material);
             members.push_back(
                 {&fixed->skin.volume, {}, fixed->region.empty() ? number : fixed->region, &fixed->swept, {}});
+            members.back().whole = fixed->whole;
+            members.back().turn_of = fixed->turn_of;
             members.back().options.order = own.order();
             members.back().options.second_order.serendipity = own.order() > 1 && !own.middles.full;
             continue;
@@ -182,6 +186,9 @@ std::shared_ptr<AssemblyMeshState> sweep_members(const std::vector<ToMesh>& all,
         if (all[m].left_out || !do_or_leave_out(left_out, region, *all[m].arguments, close)) continue;
         materials.push_back(state.material);
         members.push_back({&state.volume, all[m].arguments->options, region, nullptr, state.turn_of});
+        members.back().whole = all[m].whole;
+        members.back().piece_of = all[m].piece_of ? &all[m].piece_of->volume : nullptr;
+        members.back().alone = alone;
         if (state.level > 0) members.back().options.layers = {};
         share_layers(state, members.back().options.layers);
     }

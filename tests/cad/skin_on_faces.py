@@ -33,7 +33,7 @@ local part = lacuna.load "{file}"
 local void = part:open_volume {{ {roles} }}
 void:close()
 local mesh = void:sweep {{ layers = 8, size = {size:.6g} }}
-mesh:write "{mesh}"
+mesh:write("{mesh}", {{ groups = "all" }})
 for tag, face in pairs(mesh.fidelity.faces) do
   print("FACE", tag, ("%.17g"):format(face.max_distance))
 end

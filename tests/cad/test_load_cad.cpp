@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <set>
+#include <string>
 
 using namespace lacuna;
 namespace occ = gmsh::model::occ;
@@ -272,6 +275,42 @@ TEST_CASE("scripts of both of Gmsh's kernels are read, names of physical groups 
                                      "Circle(1) = {2,1,3}; Extrude {0,0,2} { Curve{1}; }\n")});
     test::check_model(swept);
     CHECK(test::total_area(swept) == doctest::Approx(std::numbers::pi).epsilon(kChord));
+}
+
+TEST_CASE("labels that CAD programs write by default are no names of faces, those that somebody gave are")
+{
+    // A product of each face, which Open CASCADE labels.
+    const test::TempFolder folder;
+    const std::string path = folder.gmsh("faces.step", [] {
+        for (int i = 0; i < 4; ++i) occ::addRectangle(0, 0, i, 2, 1);
+    });
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto names = [&](const std::string& label, int number) {
+        std::string own = text;
+        const std::string before = "Open CASCADE STEP translator ";
+        for (std::size_t at = own.find(before); at != std::string::npos; at = own.find(before, at + 1)) {
+            const std::size_t end = own.find('\'', at);
+            const std::string last = own.substr(end - 2, 2);
+            if (last == "." + std::to_string(number)) own.replace(at, end - at, label);
+        }
+        std::multiset<std::string> found;
+        for (const topology::Face& face : cad::load({folder.write("named.step", own)}).faces)
+            found.insert(face.name);
+        return found;
+    };
+    const std::multiset<std::string> none{"", "", "", ""};
+    CHECK(names("Open CASCADE STEP translator 7.8 9.1", 1) == none);
+    for (const char* label : {"NONE", "Solid1", "Face 12", "Boss-Extrude1", "SOLID", "Part 1", "17"})
+        for (int number = 1; number <= 4; ++number) CHECK(names(label, number) == none);
+    for (const char* label : {"inlet", "hot side", "face_a", "hole", "R12x"})
+        for (int number = 1; number <= 4; ++number)
+            CHECK(names(label, number) == std::multiset<std::string>{"", "", "", label});
+    // Physical groups are the user's, whatever they are called.
+    const topology::Model model = cad::load(
+        {folder.write("square.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 2, 1};\n"
+                                    "Physical Surface(\"Face 12\") = {1};\n")});
+    CHECK(model.faces.at(0).name == "Face 12");
 }
 
 TEST_CASE("facets turn little from one to the next, and a small face of a large model keeps its shape")

@@ -20,6 +20,7 @@ int main(int count, char** arguments)
         if (arguments[i] == std::string_view("2.2")) options.msh_version = 2.2;
         if (arguments[i] == std::string_view("text")) options.binary = false;
     }
+    options.all_groups = options.msh_version != 2.2;
     try {
         const auto begin = std::chrono::steady_clock::now();
         const io::Deck deck = io::read_deck(arguments[1]);

@@ -269,16 +269,30 @@ TEST_CASE("groups and entities of an MSH file keep their tags, lines stay, a cel
     check(deck);
     const Folder folder;
     for (const bool binary : {true, false}) {
-        io::write_deck(deck, DeckFormat::msh, folder.file("a.msh"), {}, {.binary = binary});
+        io::write_deck(deck, DeckFormat::msh, folder.file("a.msh"), {},
+                       {.binary = binary, .all_groups = true});
         check(io::read_deck(folder.file("a.msh")));
-        // A group an element: the smaller.
-        io::write_deck(deck, DeckFormat::msh, folder.file("b.msh"), {}, {binary, 2.2});
-        const Deck old = io::read_deck(folder.file("b.msh"));
-        CHECK(elements_of(old) == elements_of(deck));
-        std::vector<int> tags;
-        for (const io::DeckSet& set : old.sets) tags.push_back(set.tag);
-        std::ranges::sort(tags);
-        CHECK(tags == std::vector<int>{2, 5, 6, 7, 8});
+        // A group an element: the smaller; and a note names the one that lacks some of its elements.
+        for (const double version : {2.2, 4.1}) {
+            std::vector<std::string> said;
+            RunContext context;
+            context.log = [&](std::string_view line) { said.emplace_back(line); };
+            io::write_deck(deck, DeckFormat::msh, folder.file("b.msh"), context, {binary, version});
+            const Deck old = io::read_deck(folder.file("b.msh"));
+            CHECK(elements_of(old) == elements_of(deck));
+            std::vector<int> tags;
+            std::size_t members = 0;
+            for (const io::DeckSet& set : old.sets) {
+                tags.push_back(set.tag);
+                members += set.members.size();
+            }
+            std::ranges::sort(tags);
+            CHECK(tags == std::vector<int>{2, 5, 6, 7, 8});
+            CHECK(members == 5);
+            CHECK(std::ranges::any_of(said, [](const std::string& line) {
+                return line.starts_with("note: ") && line.find("skin lacks") != std::string::npos;
+            }));
+        }
     }
     for (const Target& target : kTargets) {
         const Deck other = written(deck, target);

@@ -275,7 +275,7 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
     for (auto& [name, volume] : sealed_volumes()) {
         CAPTURE(name);
         volume.model.faces.front().name = "a \"given\" name";
-        io::write_facets(volume, folder.file("a.msh"), {.binary = false});
+        io::write_facets(volume, folder.file("a.msh"), {.binary = false, .all_groups = true});
         const TextMsh msh(test::bytes_of(folder.file("a.msh")));
         REQUIRE(msh.facets.size() == volume.model.faces.size());
         Places<double> facets;
@@ -307,6 +307,18 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
             if (given == volume.model.faces.begin()) CHECK(names.contains("a 'given' name"));
         }
         CHECK(voids > 0);
+
+        // By default a surface is in one of these, that of its name before that of its role.
+        io::write_facets(volume, folder.file("one.msh"), {.binary = false});
+        const TextMsh one(test::bytes_of(folder.file("one.msh")));
+        CHECK(one.physical.size() == msh.physical.size());
+        for (const auto& [tag, groups] : one.physical) {
+            REQUIRE(groups.size() == 1);
+            const std::string& name = one.names.at({2, groups[0]});
+            const auto is_it = [&](int group) { return msh.names.at({2, group}) == name; };
+            CHECK(std::ranges::any_of(msh.physical.at(tag), is_it));
+            if (tag == volume.model.faces.front().tag) CHECK(name == "a 'given' name");
+        }
     }
 }
 
@@ -340,13 +352,11 @@ TEST_CASE("a binary MSH holds what the text one holds, and two writings are alik
         }
         CHECK(bytes.substr(place) == "\n$EndElements\n");
         place = bytes.find("$Nodes\n") + 7 + 32;
-        for (std::size_t block = 0, first = 1; block < msh.facets.size(); ++block) {
-            const auto count = std::size_t(at<std::uint64_t>(bytes, place + 12));
-            place += 20 + 8 * count;
-            for (std::size_t n = first; n < first + count; ++n, place += 24)
-                CHECK(at<std::array<double, 3>>(bytes, place) == msh.nodes.at(n));
-            first += count;
-        }
+        const auto count = std::size_t(at<std::uint64_t>(bytes, place + 12));
+        CHECK(count == msh.nodes.size());
+        place += 20 + 8 * count;
+        for (std::size_t n = 1; n <= count; ++n, place += 24)
+            CHECK(at<std::array<double, 3>>(bytes, place) == msh.nodes.at(n));
         CHECK(bytes.substr(place, 11) == "\n$EndNodes\n");
     }
 }

@@ -86,7 +86,7 @@ TEST_CASE("every group has its name and its surfaces; a name over several patche
     std::fill(mesh.wall_patch.begin() + 4, mesh.wall_patch.end(), 3);
     mesh.volume_groups = {"volume", "inlet"};
     for (const bool binary : {true, false}) {
-        const io::MshCells cells = written_and_read(mesh, {.binary = binary});
+        const io::MshCells cells = written_and_read(mesh, {.binary = binary, .all_groups = true});
         const auto entities = [&](const char* name) {
             const io::MshGroup* group = find_group(cells, name);
             return group == nullptr ? std::vector<int>{-1} : group->entities;
@@ -101,6 +101,38 @@ TEST_CASE("every group has its name and its surfaces; a name over several patche
             if (group.dimension == 3) ++volumes;
         CHECK(volumes == 2);
         CHECK(cells.groups.size() == 6);
+    }
+}
+
+TEST_CASE("entities are in one group each, with fields, in parts and in every version")
+{
+    auto mesh = test::block({.layers = 4});
+    std::fill(mesh.wall_patch.begin() + 4, mesh.wall_patch.end(), 3);
+    mesh.volume_groups = {"resin", "volume"};
+    // Groups that overlap in any way: the first of each patch counts.
+    for (unsigned choice = 0; choice < 81; ++choice) {
+        mesh.patches = {{7, {"source"}}, {2, {"target"}}, {31, {"wall:3"}}, {50, {}}};
+        for (std::size_t p = 0, left = choice; p < 4; ++p, left /= 3) {
+            mesh::SkinPatch& patch = mesh.patches[p];
+            if (left % 3 == 1) patch.groups.emplace_back("inlet");
+            if (left % 3 == 2) patch.groups.insert(patch.groups.begin(), "inlet");
+        }
+        for (io::MshOptions options : kFormats)
+            for (const int parts : {0, 2}) {
+                if (parts > 0 && options.version == 2.2) continue;
+                options.partition.parts = parts;
+                const io::MshCells cells = written_and_read(mesh, options);
+                std::map<std::pair<int, int>, std::vector<std::string>> groups; // of each entity
+                for (const io::MshGroup& group : cells.groups)
+                    for (const int entity : group.entities)
+                        groups[{group.dimension, entity}].push_back(group.name);
+                CHECK(groups.size() == 5);
+                CHECK(groups[{3, 1}] == std::vector<std::string>{"resin"});
+                for (const mesh::SkinPatch& patch : mesh.patches) {
+                    const std::string one = patch.groups.empty() ? "surface:50" : patch.groups.front();
+                    CHECK(groups[{2, patch.tag}] == std::vector{one});
+                }
+            }
     }
 }
 

@@ -179,7 +179,7 @@ check.fails(function() sweep { order = 3 } end, "order", "1 or 2")
 -- of the bore's quads moved a little.
 do
   local path = params.scratch .. "/full_ring.msh"
-  sweep({ order = 2 }):write(path, { binary = false })
+  sweep({ order = 2 }):write(path, { binary = false, groups = "all" })
   local lines, at_node, centres, moved = {}, {}, {}, {}
   local part, block
   for line in io.lines(path) do

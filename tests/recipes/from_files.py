@@ -70,7 +70,7 @@ local model = lacuna.load "{path}"
 local void = model:open_volume {{ name = "foam", {roles} }}
 print("class", void.class)
 local mesh = void:sweep {{ layers = {layers}, size = {size!r} }}
-mesh:write "mesh.msh"
+mesh:write("mesh.msh", {{ groups = "all" }})
 if "{joined}" ~= "" then mesh:write("{joined}", {{ with = model }}) end
 """
 

@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/narrow_sides.h>
+#include <lacuna/core/default_labels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,8 @@ std::string name_of_face(int tag)
     // A product's face is called "Shapes/assembly/part/face".
     std::string name;
     gmsh::model::getEntityName(2, tag, name);
-    return name.substr(name.find_last_of('/') + 1);
+    name.erase(0, name.find_last_of('/') + 1);
+    return is_default_label(name) ? std::string() : name;
 }
 
 struct Cut {

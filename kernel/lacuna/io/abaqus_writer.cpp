@@ -116,12 +116,16 @@ private:
     {
         by_elements_.assign(deck_.sets.size(), false);
         region_names_.resize(deck_.regions.size());
+        dimensions_.assign(deck_.regions.size(), 3);
         set_of_region_.assign(deck_.regions.size(), -1);
         makes_set_.assign(deck_.regions.size(), !same_);
         std::vector<std::vector<DeckTag>> members(deck_.regions.size());
         for (const DeckBlock& block : deck_.blocks)
             for (std::size_t e = 0; e < block.count(); ++e)
-                if (block.regions[e] >= 0) members[index(block.regions[e])].push_back(block.tags[e]);
+                if (block.regions[e] >= 0) {
+                    members[index(block.regions[e])].push_back(block.tags[e]);
+                    dimensions_[index(block.regions[e])] = shape_info(block.shape).dimension;
+                }
         for (std::size_t r = 0; r < members.size(); ++r) {
             std::sort(members[r].begin(), members[r].end());
             for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
@@ -159,10 +163,15 @@ private:
                     if (const DeckSet& set = deck_.sets[s];
                         set.kind == kind && (abaqus_name(set.name) == set.name) == stays)
                         names_[s] = choose(kind, set.name);
-        for (std::size_t r = 0; r < deck_.regions.size(); ++r)
-            region_names_[r] = set_of_region_[r] >= 0          ? names_[index(set_of_region_[r])]
-                               : deck_.regions[r].name.empty() ? ""
-                                                               : choose(elements, deck_.regions[r].name);
+        for (std::size_t r = 0; r < deck_.regions.size(); ++r) {
+            std::string name = deck_.regions[r].name;
+            // A region of another format that has a number alone is called by it.
+            if (name.empty() && !same_)
+                name = (dimensions_[r] == 3 ? "volume:" : "surface:") + std::to_string(deck_.regions[r].tag);
+            region_names_[r] = set_of_region_[r] >= 0 ? names_[index(set_of_region_[r])]
+                               : name.empty()         ? ""
+                                                      : choose(elements, name);
+        }
     }
 
     void add_elements(const DeckBlock& block)
@@ -208,7 +217,7 @@ private:
     [[nodiscard]] std::string head_of(std::string_view type, Index region) const
     {
         std::string head = "*ELEMENT, TYPE=" + std::string(type);
-        if (region >= 0 && makes_set_[index(region)] && !deck_.regions[index(region)].name.empty())
+        if (region >= 0 && makes_set_[index(region)] && !region_names_[index(region)].empty())
             head += ", ELSET=" + region_names_[index(region)];
         return head + "\n";
     }
@@ -271,6 +280,7 @@ private:
     std::vector<bool> by_elements_;                 ///< sets
     std::vector<bool> makes_set_;                   ///< regions
     std::vector<Index> set_of_region_;              ///< that it makes; -1: none
+    std::vector<int> dimensions_;                   ///< of the elements of regions
     std::vector<std::string> names_, region_names_; ///< of sets and regions in the file
 };
 

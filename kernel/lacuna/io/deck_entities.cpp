@@ -60,7 +60,6 @@ DeckEntities entities_of(const Deck& deck, const BulkReader& bulk)
         for (const BulkReader::MadeRun& run : bulk.made_runs(block)) {
             const Index place = entity_of(dimension, run.region, list_of_part[run.part]);
             made.emplace_back(run.end, place);
-            found.all[index(place)].count += run.end - run.begin;
         }
         std::pair<Index, int> last{-2, 0};
         Index place = 0;
@@ -69,7 +68,6 @@ DeckEntities entities_of(const Deck& deck, const BulkReader& bulk)
             if (key != last) place = entity_of(dimension, block.regions[b], list[e]);
             last = key;
             of[b] = place;
-            ++found.all[index(place)].count;
         }
     }
 

@@ -3,6 +3,7 @@
 // facets_of(): sides of solids are matched in heaps by their least node, together with the shells.
 #include <lacuna/io/detail/deck_facets.h>
 
+#include <lacuna/core/default_labels.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/large_pages.h>
 #include <lacuna/healing/weld.h>
@@ -420,6 +421,8 @@ private:
                     about.regions.back().push_back(deck_.regions[index(label.shell)].part);
             }
             std::string name = about.groups.empty() ? "" : about.groups.front();
+            const bool facets = deck_.format == DeckFormat::stl || deck_.format == DeckFormat::obj;
+            if (facets && is_default_label(name)) name.clear();
             if (label.shell == -1 && name.empty())
                 for (const auto& region : about.regions) name += (name.empty() ? "" : "|") + region.front();
             file_.soup.label_name.push_back(std::move(name));

@@ -9,9 +9,12 @@
 #include <lacuna/mesh/mesh_part.h>
 #include <lacuna/topology/model.h>
 
+#include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace lacuna::io {
 
@@ -53,6 +56,15 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const Ru
 /// @throw  as `deck_of()`.
 Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false);
 
+/// Places of sets in a deck, by their kind and the group that they hold.
+using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
+
+/// What meshes that joined a deck one after the other have put there.
+struct JoinedBefore {
+    GroupSets sets{};                       ///< theirs
+    std::map<std::string, Index> regions{}; ///< theirs, by the names of their meshes'
+};
+
 /// A deck and the mesh that fills a void of it as one conformal mesh. What the deck has keeps its numbers; a
 /// node of the skin that lies on a node of the deck is that node, a middle node that of the side.
 ///
@@ -70,6 +82,8 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 /// @param scale    of the model's coordinates to the deck's [-].
 /// @param options  `format` is the one it will be written in.
 /// @param gone     `LeftOut::gone`, where the model was made of the deck with it; its faces are let go.
+/// @param before   of the meshes that joined it before: one of the same region is more of it, and groups of
+///                 one name are one set. Out: of this one too. Null: there are none.
 /// @throw InvalidInput "io.not_conformal"  a face of the deck whose quads the mesh has not; with counts.
 ///                     "io.nodes_coincide" elements beside the void use both of two coincident nodes; names
 ///                                         both.
@@ -80,7 +94,15 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
 ///                     as `deck_of()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr);
+               const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
+               JoinedBefore* before = nullptr);
+
+/// A deck of a format whose faces of solids are elements, MSH, VTK or Medit, for one where such elements
+/// would be shells, Abaqus, Nastran or Exodus: instead of those that lie on solids it has sets of nodes and
+/// of sides, called as the sets they are in, else as their region, else by its number, `surface:3`. All
+/// others as they are.
+/// @note  O(n log n) in the elements of two dimensions, O(n) in the solids.
+Deck skin_as_sets(Deck deck, DeckFormat format);
 
 struct DeckInScale {
     const Deck* deck = nullptr; ///< read, not kept
@@ -106,6 +128,7 @@ struct DeckFileOptions {
     bool binary = true;                       ///< of .msh and .vtk
     double msh_version = 4.1;                 ///< or 2.2
     const DeckPartition* partition = nullptr; ///< of .msh 4.1: which part elements are of; null: they are one
+    bool all_groups = false;                  ///< of .msh: as `MshOptions::all_groups`
 };
 
 /// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK:
@@ -117,7 +140,8 @@ struct DeckFileOptions {
 /// nodes, elements, regions and sets; the log says what is left out.
 ///
 /// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
-/// Regions and sets of elements are physical groups in .msh. In .vtk and .vtu elements that are in the same
+/// In .msh a region is a physical group, and a set of elements where these have no region; with `all_groups`
+/// all regions and sets of elements are. In .vtk and .vtu elements that are in the same
 /// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
 /// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
 /// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.

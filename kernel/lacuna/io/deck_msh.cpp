@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A deck as Gmsh has it: an entity of every region and list of sets, a physical group of every name. All
-// nodes are of the first entity.
+// A deck as Gmsh has it: an entity of every region and list of sets, a physical group of every region or,
+// where all are asked for, of every name. All nodes are of the first entity.
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_entities.h>
@@ -9,6 +9,7 @@
 #include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/msh_parts.h>
 #include <lacuna/io/detail/msh_shapes.h>
+#include <lacuna/topology/skin_groups.h>
 
 #include <algorithm>
 #include <map>
@@ -45,7 +46,6 @@ struct Content {
     DeckEntities entities;
     std::vector<int> tag;                   ///< of each entity
     std::vector<std::vector<int>> physical; ///< tags of each entity's groups, rising
-    std::vector<int> smallest;              ///< of these the one with the fewest elements
     std::vector<PhysicalName> names;
     std::vector<Part> parts;
     std::size_t elements = 0;
@@ -80,6 +80,43 @@ void keep_tags(const Deck& deck, const BulkReader& bulk, GroupTags& groups)
         else if (const Index e = places.find(first); e >= 0)
             groups.keep(dimension[index(e)], set.name, set.tag);
     }
+}
+
+/// Physical groups of entities: all, or one each. That is the region's, else the first set's.
+/// @return  sets of a deck that was read whose elements are in other groups, in words.
+std::string name_groups(const Deck& deck, const BulkReader& bulk, bool all, Content& content)
+{
+    std::set<std::string> lost;
+    GroupTags tags;
+    const bool same = deck.format == DeckFormat::msh;
+    if (same) keep_tags(deck, bulk, tags);
+    std::set<std::pair<int, int>> used; // dimensions and tags
+    for (const DeckEntity& entity : content.entities.all) {
+        std::vector<std::string> groups = entity.groups;
+        if (groups.empty() && !same) groups.emplace_back("elements");
+        const std::string region = entity.region < 0 ? "" : deck.regions[index(entity.region)].name;
+        if (!all && groups.size() > 1) {
+            const std::string one = region.empty() ? groups.front() : region;
+            lost.insert(groups.begin(), groups.end());
+            lost.erase(one);
+            groups = {one};
+        }
+        content.physical.push_back(tags.tags_of(entity.dimension, groups));
+        for (const int tag : content.physical.back()) used.emplace(entity.dimension, tag);
+    }
+    content.names = tags.take();
+    std::erase_if(content.names, [&](const PhysicalName& name) {
+        return !used.contains({name.dimension, name.tag});
+    });
+    std::erase_if(lost, [](const std::string& name) { // what a swept mesh has by itself
+        return name == "volume" || topology::is_role_group(name) ||
+               topology::is_role_group(name.substr(name.find(':') + 1));
+    });
+    if (deck.path.empty() || lost.empty()) return {};
+    std::string names;
+    for (const std::string& name : lost) names += (names.empty() ? "" : ", ") + name;
+    return "an element is in one group, so that " + names + (lost.size() > 1 ? " lack" : " lacks") +
+           " elements that are in others too; groups = \"all\" keeps them";
 }
 
 /// Entities of an MSH file keep their tags, as far as these are one's own.
@@ -158,22 +195,7 @@ std::shared_ptr<const Content> content_of(const Deck& deck, const BulkReader& bu
     auto content = std::make_shared<Content>();
     content->entities = entities_of(deck, bulk);
     content->tag = entity_tags(deck, content->entities);
-    GroupTags groups;
-    const bool same = deck.format == DeckFormat::msh;
-    if (same) keep_tags(deck, bulk, groups);
-    for (const DeckEntity& entity : content->entities.all)
-        content->physical.push_back(groups.tags_of(entity.dimension, entity.groups, same ? "" : "elements"));
-    content->names = groups.take();
-    std::map<std::pair<int, int>, std::size_t> size; // of each group, by dimension and tag
-    const auto dimension = [&](std::size_t n) { return content->entities.all[n].dimension; };
-    for (std::size_t n = 0; n < content->physical.size(); ++n)
-        for (const int tag : content->physical[n])
-            size[{dimension(n), tag}] += content->entities.all[n].count;
-    for (std::size_t n = 0; n < content->physical.size(); ++n) {
-        const auto least = std::ranges::min_element(
-            content->physical[n], {}, [&](int tag) { return size[std::pair(dimension(n), tag)]; });
-        content->smallest.push_back(least == content->physical[n].end() ? 0 : *least);
-    }
+    file.changed = name_groups(deck, bulk, options.all_groups, *content);
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         if (std::ranges::find(block.nodes, -1) != block.nodes.end())
@@ -358,13 +380,11 @@ void add_22(const Deck& deck, const BulkReader& bulk, const std::shared_ptr<cons
                                  return out;
                              }});
     std::string head = gap + "$EndNodes\n$Elements\n" + std::to_string(content->elements) + "\n";
-    std::size_t lost = 0;
     for (std::size_t p = 0; p < content->parts.size(); ++p) {
         const Part& part = content->parts[p];
         const DeckBlock& block = deck.blocks[part.block];
         const std::size_t each = static_cast<std::size_t>(shape_info(block.shape).nodes) + 5;
         const int type = gmsh_type(block.shape);
-        if (content->physical[part.entity].size() > 1) ++lost;
         if (numbers.binary) head += numbers.line(type, static_cast<int>(part.count()), 2);
         file.sections.push_back(
             {head, part.count(), numbers.room(each, 4 * (each - 2)),
@@ -373,7 +393,8 @@ void add_22(const Deck& deck, const BulkReader& bulk, const std::shared_ptr<cons
                  const auto put = [&](DeckTag tag, Index, std::span<const Index> nodes) {
                      out = numbers.add(out, static_cast<int>(tag));
                      if (!numbers.binary) out = numbers.add(numbers.add(out, type), 2);
-                     out = numbers.add(out, content->smallest[of.entity]);
+                     const std::vector<int>& physical = content->physical[of.entity];
+                     out = numbers.add(out, physical.empty() ? 0 : physical.front());
                      out = numbers.add(out, content->tag[of.entity]);
                      out = put_nodes<int>(bulk, block.shape, nodes, numbers, out);
                  };
@@ -383,8 +404,6 @@ void add_22(const Deck& deck, const BulkReader& bulk, const std::shared_ptr<cons
         head.clear();
     }
     file.sections.push_back({head + gap + "$EndElements\n", 0, 0, {}});
-    if (lost > 0)
-        file.notes.push_back("MSH 2.2 holds one group an element: elements in several keep the smallest");
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_formats.h>
 #include <lacuna/io/detail/mesh_deck.h>
+#include <lacuna/io/detail/msh_content.h>
 #include <lacuna/io/detail/unv.h>
 
 #include <algorithm>
@@ -431,10 +432,19 @@ DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& opt
 
 namespace {
 
+/// The options, with all groups only where the format holds them.
+DeckFileOptions options_for(DeckFormat format, DeckFileOptions options, const OutputPath& path,
+                            const RunContext& context)
+{
+    options.all_groups = format == DeckFormat::msh &&
+                         holds_all_groups(options.all_groups, options.msh_version, path, context);
+    return options;
+}
+
 void write_bulk(const Deck& deck, const LayeredBulk& bulk, DeckFormat format, const DeckFileOptions& options,
                 const OutputPath& path, const RunContext& context, const Team* team)
 {
-    const DeckFile file = file_of(deck, format, options, &bulk);
+    const DeckFile file = file_of(deck, format, options_for(format, options, path, context), &bulk);
     if (team == nullptr || team->rank == 0)
         for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
     write_file(path, file.sections, file.sizes, context, team);
@@ -530,12 +540,13 @@ void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, con
         log_line(context, path.text() + ": " + std::to_string(lines) + " lines are not written");
         return write_deck(without_lines(deck), format, path, context, options);
     }
-    DeckFile file = file_of(deck, format, options);
+    DeckFile file = file_of(deck, format, options_for(format, options, path, context));
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format != deck.format && texts)
         file.notes.push_back("materials, loads and other cards of " + deck.path +
                              " are of another format and not carried over");
+    if (!file.changed.empty()) file.notes.push_back(file.changed);
     for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
     write_file(path, file.sections, file.sizes, context);
 }

@@ -2,8 +2,7 @@
 #include <lacuna/io/facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/deck.h>
-#include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/topology/skin_groups.h>
 
@@ -27,7 +26,6 @@ struct Skin {
     std::vector<Triangle> triangles;
     std::vector<std::size_t> start; ///< first facet of each face, and the end
     std::vector<Vec3> points;
-    std::vector<std::size_t> first_point; ///< first point each face brings in, and the end
 };
 
 [[noreturn]] void throw_not_sealed(const OpenVolume& volume)
@@ -71,7 +69,6 @@ Skin skin_of(const OpenVolume& volume)
     std::vector<Index> number(model.points.size(), -1);
     for (const Face& face : model.faces) {
         skin.start.push_back(skin.triangles.size());
-        skin.first_point.push_back(skin.points.size());
         for (Triangle t : face.triangles) {
             if (inward) std::swap(t[1], t[2]);
             for (Index& p : t) {
@@ -86,7 +83,6 @@ Skin skin_of(const OpenVolume& volume)
         }
     }
     skin.start.push_back(skin.triangles.size());
-    skin.first_point.push_back(skin.points.size());
     return skin;
 }
 
@@ -160,6 +156,7 @@ std::vector<Section> stl_text(const Skin& skin)
 std::string obj_groups(const OpenVolume& volume, std::vector<std::string> groups, std::size_t f)
 {
     const Face& face = volume.model.faces[f];
+    std::ranges::stable_partition(groups, is_role_group);
     if (volume.role[f] != Role::wall)
         groups.front() += (face.origin == Origin::made_void ? ":void:" : ":") + std::to_string(face.tag);
     std::string line;
@@ -206,16 +203,7 @@ std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
     return sections;
 }
 
-// ---- MSH 4.1. https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
-
-constexpr int kTriangleType = 2;
-
-/// What an MSH file says of each face, before its points and facets.
-struct Surface {
-    int tag = 0;
-    std::vector<int> physical;
-    Eigen::AlignedBox3d box;
-};
+// ---- MSH
 
 std::vector<int> surface_tags(const Model& model)
 {
@@ -231,156 +219,34 @@ std::vector<int> surface_tags(const Model& model)
     return tags;
 }
 
-std::vector<Surface> surfaces_of(const OpenVolume& volume, const Skin& skin, GroupTags& groups)
+/// A surface of each face, which is in the sets of its groups.
+Deck deck_of(const OpenVolume& volume, const Skin& skin)
 {
-    std::vector<Surface> surfaces;
-    const std::vector<std::vector<std::string>> named = skin_groups(volume);
+    const std::vector<std::vector<std::string>> groups = skin_groups(volume);
     const std::vector<int> tags = surface_tags(volume.model);
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-        Surface surface{tags[f], groups.tags_of(2, named[f], "surface"), {}};
-        for (std::size_t i = skin.start[f]; i < skin.start[f + 1]; ++i)
-            for (const Index p : skin.triangles[i])
-                surface.box.extend(skin.points[static_cast<std::size_t>(p)]);
-        surfaces.push_back(std::move(surface));
-    }
-    return surfaces;
-}
-
-/// Numbers in either form: bytes, or text with a blank between and a line's end after.
-class Numbers {
-public:
-    explicit Numbers(bool binary) : binary_(binary) {}
-
-    Numbers& whole(int value) { return number(value, static_cast<long long>(value)); }
-    Numbers& count(std::size_t value)
-    {
-        return number(static_cast<std::uint64_t>(value), static_cast<long long>(value));
-    }
-    Numbers& real(double value) { return number(value, value); }
-    Numbers& end_line()
-    {
-        if (!binary_) text_.back() = '\n';
-        return *this;
-    }
-    [[nodiscard]] std::string take() { return std::move(text_); }
-
-private:
-    template <class Bytes, class Text>
-    Numbers& number(const Bytes& bytes, const Text& text)
-    {
-        if (binary_) {
-            put(text_, bytes);
-        } else {
-            char word[kNumberBytes];
-            text_.append(word, put_text(word, text)).append(1, ' ');
+    Deck deck;
+    deck.format = DeckFormat::msh;
+    deck.points = skin.points;
+    for (std::size_t p = 0; p < skin.points.size(); ++p)
+        deck.point_tags.push_back(static_cast<DeckTag>(p) + 1);
+    DeckBlock& block = deck.blocks.emplace_back();
+    block.shape = DeckShape::tri3;
+    for (std::size_t f = 0; f < groups.size(); ++f) {
+        deck.regions.push_back({tags[f], groups[f].front(), {}});
+        const std::size_t first = block.count();
+        for (std::size_t i = skin.start[f]; i < skin.start[f + 1]; ++i) {
+            block.nodes.insert(block.nodes.end(), skin.triangles[i].begin(), skin.triangles[i].end());
+            block.tags.push_back(static_cast<DeckTag>(i) + 1);
+            block.regions.push_back(static_cast<Index>(f));
         }
-        return *this;
+        for (const std::string& group : groups[f]) {
+            auto set = std::ranges::find(deck.sets, group, &DeckSet::name);
+            if (set == deck.sets.end()) set = deck.sets.insert(set, {.name = group});
+            set->members.insert(set->members.end(), block.tags.begin() + static_cast<std::ptrdiff_t>(first),
+                                block.tags.end());
+        }
     }
-
-    bool binary_;
-    std::string text_;
-};
-
-std::string msh_head(const std::vector<Surface>& surfaces, const std::vector<PhysicalName>& names,
-                     bool binary)
-{
-    std::string text = msh_opening(names, "4.1", binary) + "$Entities\n";
-    Numbers numbers(binary);
-    numbers.count(0).count(0).count(surfaces.size()).count(0).end_line();
-    for (const Surface& surface : surfaces) {
-        numbers.whole(surface.tag);
-        for (const double value : surface.box.min()) numbers.real(value);
-        for (const double value : surface.box.max()) numbers.real(value);
-        numbers.count(surface.physical.size());
-        for (const int tag : surface.physical) numbers.whole(tag);
-        numbers.count(0).end_line();
-    }
-    return text + numbers.take() + (binary ? "\n" : "") + "$EndEntities\n";
-}
-
-/// `$Nodes` or `$Elements`: how many blocks, and how many things numbered from 1.
-std::string msh_counts(std::size_t blocks, std::size_t count, bool binary)
-{
-    return Numbers(binary).count(blocks).count(count).count(1).count(count).end_line().take();
-}
-
-Section numbered(std::string text, std::size_t first, std::size_t count, bool binary)
-{
-    return {std::move(text), count, binary ? sizeof(std::uint64_t) : kNumberBytes,
-            [first, binary](std::size_t begin, std::size_t end, char* out) {
-                for (std::size_t i = first + begin; i < first + end; ++i) {
-                    if (binary) {
-                        out = put(out, static_cast<std::uint64_t>(i + 1));
-                        continue;
-                    }
-                    out = put_text(out, static_cast<long long>(i) + 1);
-                    *out++ = '\n';
-                }
-                return out;
-            }};
-}
-
-Section coordinates(const Skin& skin, std::size_t first, std::size_t count, bool binary)
-{
-    return {{},
-            count,
-            binary ? sizeof(Vec3) : 3 * kNumberBytes + 1,
-            [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
-                for (std::size_t i = first + begin; i < first + end; ++i) {
-                    for (int d = 0; d < 3; ++d) {
-                        out = binary ? put(out, skin.points[i][d]) : put_text(out, skin.points[i][d]);
-                        if (!binary) *out++ = d < 2 ? ' ' : '\n';
-                    }
-                }
-                return out;
-            }};
-}
-
-Section facets_of(const Skin& skin, std::string text, std::size_t f, bool binary)
-{
-    const std::size_t first = skin.start[f];
-    return {std::move(text), skin.start[f + 1] - first,
-            binary ? 4 * sizeof(std::uint64_t) : 4 * kNumberBytes + 1,
-            [&skin, first, binary](std::size_t begin, std::size_t end, char* out) {
-                for (std::size_t i = first + begin; i < first + end; ++i) {
-                    std::array<std::size_t, 4> record{i + 1};
-                    for (std::size_t k = 0; k < 3; ++k)
-                        record[k + 1] = static_cast<std::size_t>(skin.triangles[i][k]) + 1;
-                    for (std::size_t k = 0; k < 4; ++k) {
-                        out = binary ? put(out, static_cast<std::uint64_t>(record[k]))
-                                     : put_text(out, static_cast<long long>(record[k]));
-                        if (!binary) *out++ = k < 3 ? ' ' : '\n';
-                    }
-                }
-                return out;
-            }};
-}
-
-std::vector<Section> msh_sections(const OpenVolume& volume, const Skin& skin, bool binary)
-{
-    GroupTags groups;
-    const std::vector<Surface> surfaces = surfaces_of(volume, skin, groups);
-    const auto block = [&](std::size_t f, int third, std::size_t count) {
-        return Numbers(binary).whole(2).whole(surfaces[f].tag).whole(third).count(count).end_line().take();
-    };
-    const std::string line = binary ? "\n" : "";
-    std::string text = msh_head(surfaces, groups.take(), binary) + "$Nodes\n" +
-                       msh_counts(surfaces.size(), skin.points.size(), binary);
-    std::vector<Section> sections;
-    for (std::size_t f = 0; f < surfaces.size(); ++f) {
-        const std::size_t first = skin.first_point[f], count = skin.first_point[f + 1] - first;
-        sections.push_back(numbered(text + block(f, 0, count), first, count, binary));
-        sections.push_back(coordinates(skin, first, count, binary));
-        text.clear();
-    }
-    text = line + "$EndNodes\n$Elements\n" + msh_counts(surfaces.size(), skin.triangles.size(), binary);
-    for (std::size_t f = 0; f < surfaces.size(); ++f) {
-        const std::size_t count = skin.start[f + 1] - skin.start[f];
-        sections.push_back(facets_of(skin, text + block(f, kTriangleType, count), f, binary));
-        text.clear();
-    }
-    sections.push_back({line + "$EndElements\n", 0, 0, {}});
-    return sections;
+    return deck;
 }
 
 } // namespace
@@ -396,8 +262,8 @@ void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetF
     check_sealed(volume);
     const Skin skin = skin_of(volume);
     if (ending == ".msh")
-        write_file(path, msh_sections(volume, skin, options.binary),
-                   options.binary ? Sizes::exact : Sizes::varying, context);
+        write_deck(deck_of(volume, skin), DeckFormat::msh, path, context,
+                   {.binary = options.binary, .all_groups = options.all_groups});
     else if (ending == ".obj")
         write_file(path, obj_text(volume, skin), Sizes::varying, context);
     else if (options.binary)

@@ -10,7 +10,8 @@
 namespace lacuna::io {
 
 struct FacetFileOptions {
-    bool binary = true; ///< of .stl and .msh; .obj is always text
+    bool binary = true;      ///< of .stl and .msh; .obj is always text
+    bool all_groups = false; ///< of .msh: as `MshOptions::all_groups`
 };
 
 /// Write the facets of a sealed volume, oriented outward, whole or not at all. The ending says the format:
@@ -19,8 +20,8 @@ struct FacetFileOptions {
 ///   facets.
 /// - `.obj`: the points once, a line of groups a face: one of its own (`wall:12`, `source:3`,
 ///   `target:void:1`), then its names.
-/// - `.msh`: 4.1, a surface entity a face, with the physical groups its quads have in a mesh: `source`,
-///   `target`, `wall:<tag>`, `void:<n>`, and the name it was given. Given faces keep their tags, void faces
+/// - `.msh`: 4.1, a surface entity a face, with the physical group its quads have in a mesh: the name it
+///   was given, else `source`, `target`, `wall:<tag>` or `void:<n>`. Given faces keep their tags, void faces
 ///   count on from the highest.
 ///
 /// @throw InvalidInput  the volume is not sealed (names free edges), an unknown ending, a missing folder.

@@ -263,21 +263,29 @@ private:
 } // namespace
 
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context, const Deck* gone)
+               const MeshDeckOptions& options, const RunContext& context, const Deck* gone,
+               JoinedBefore* before)
 {
     std::vector<bool> was_there(mesh.skin_count(), false);
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
     Joiner joiner(deck, model, scale, mesh);
     const std::vector<Index> points = joiner.points(was_there);
     using enum DeckFormat;
-    AddedMesh added{.points = points, .scale = scale};
+    AddedMesh added{.points = points, .scale = scale, .joins = true};
     added.skin_cells = options.format == msh || options.format == vtk || options.format == vtu;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;
     }
+    const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
+    if (before != nullptr) {
+        added.groups = &before->sets;
+        if (const auto known = before->regions.find(region); known != before->regions.end())
+            added.region = known->second;
+    }
     Deck joined = deck;
-    add_mesh(joined, mesh, added, options, context);
+    const Index place = add_mesh(joined, mesh, added, options, context);
+    if (before != nullptr) before->regions.try_emplace(region, place);
     return joined;
 }
 

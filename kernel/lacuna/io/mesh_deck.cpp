@@ -72,7 +72,7 @@ public:
     {
     }
 
-    void add()
+    Index add()
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
@@ -84,11 +84,10 @@ public:
         texts_ = numbers_in_text(deck_);
         find_place();
         choose_material();
-        const bool joins = added_.bulk == nullptr && added_.groups == nullptr && !deck_.points.empty();
-        const std::vector<std::size_t> of_all = joins ? sets_of_all(deck_) : std::vector<std::size_t>();
+        const std::vector<std::size_t> of_all = added_.joins ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
-        if (joins) update_sets(of_all);
+        if (added_.joins) update_sets(of_all);
         if (abaqus) add_groups(); // surfaces keep their names, sets of elements make room
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
@@ -96,6 +95,7 @@ public:
         if (!abaqus) add_groups();
         add_region_card();
         tell_names();
+        return region_;
     }
 
 private:
@@ -332,9 +332,18 @@ private:
 
     void add_skin_cells()
     {
-        // A UNV needs a property of each; elsewhere the skin is in its groups alone.
-        const Index region = unv() ? region_ : -1;
+        // A UNV needs a property of each, an MSH file one group; elsewhere the skin is in its groups alone.
         const mesh::CellKinds kinds(mesh_);
+        std::map<std::string, Index> regions;
+        const auto region_of = [&](std::size_t i) {
+            if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
+            const auto& groups = mesh_.patches[index(skin_quad(mesh_, i).patch)].groups;
+            if (groups.empty()) return Index(-1);
+            const auto [found, fresh] = regions.try_emplace(groups.front(),
+                                                            static_cast<Index>(deck_.regions.size()));
+            if (fresh) deck_.regions.push_back({0, groups.front(), {}});
+            return found->second;
+        };
         const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
             if (begin == end) return;
             DeckBlock& block = block_of(shape, unv() ? type : "");
@@ -343,7 +352,7 @@ private:
                 if (is_inner(i) || is_there(i)) continue;
                 for (const Index node : skin_nodes(mesh_, i).all()) block.nodes.push_back(point(node));
                 block.tags.push_back(skin_tag(i));
-                block.regions.push_back(region);
+                block.regions.push_back(region_of(i));
             }
         };
         add(skin_shape(mesh_), mesh_.order() == 2 ? "95" : "94", 0, kinds.skin_quads());
@@ -457,6 +466,7 @@ private:
         };
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
+            if (added_.region >= 0) return; // it is more of a mesh added before
             log_line(context_, volume() + " takes the place of the region of that name, whose cards stay" +
                                    (options_.material.empty() ? "" : "; material is not looked at"));
             return;
@@ -491,7 +501,7 @@ private:
     void add_region_card()
     {
         if (options_.format != deck_.format || takes_place()) return;
-        const DeckRegion& region = deck_.regions.back();
+        const DeckRegion& region = deck_.regions[index(region_)];
         if (deck_.format == DeckFormat::nastran) {
             // A name is of another format: then the number is left for the person to set.
             const std::string number = parse_integer<int>(material_) ? material_ : "1";
@@ -525,10 +535,10 @@ private:
 
 } // namespace
 
-void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
-              const RunContext& context)
+Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+               const RunContext& context)
 {
-    MeshAdder(deck, mesh, added, options, context).add();
+    return MeshAdder(deck, mesh, added, options, context).add();
 }
 
 namespace {
@@ -624,8 +634,8 @@ Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill
         fill(m, added);
         const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
         if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
-        add_mesh(deck, mesh, added, options, context);
-        if (!region.empty()) regions.try_emplace(region, static_cast<Index>(deck.regions.size()) - 1);
+        const Index place = add_mesh(deck, mesh, added, options, context);
+        if (!region.empty()) regions.try_emplace(region, place);
         was_added(m, deck);
         options.first_node = options.first_cell = 0;
     }

@@ -378,23 +378,13 @@ void add_field(std::vector<Section>& sections, const MshContent& content, const 
     sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});
 }
 
-void tell_lost_groups(const MshContent& content, const RunContext& context)
-{
-    for (const MshSurface& surface : content.surfaces)
-        if (surface.physical.size() > 1)
-            log_line(context, "MSH 2.2 holds one group an element: surface " + std::to_string(surface.tag) +
-                                  " keeps the first of its " + std::to_string(surface.physical.size()));
-    if (content.volume_physical.size() > 1)
-        log_line(context, "MSH 2.2 holds one group an element: the volume keeps the first of its groups");
-}
-
 void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& fields,
            const OutputPath& path, const MshOptions& options, const RunContext& context,
            const Team* team = nullptr)
 {
     const bool old = options.version == 2.2;
-    const MshContent content = msh_content(mesh, nodes);
-    if (old) tell_lost_groups(content, context);
+    const MshContent content = msh_content(
+        mesh, nodes, holds_all_groups(options.all_groups, options.version, path, context));
     std::vector<Section> sections =
         options.partition.parts > 0 ? partitioned_msh(mesh, nodes, content, options.partition, options.binary)
         : options.binary ? (old ? binary_22(mesh, nodes, content) : binary_41(mesh, nodes, content))

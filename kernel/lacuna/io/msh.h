@@ -20,6 +20,9 @@ struct MshOptions {
     /// Ranges of layers as $PartitionedEntities, and $GhostElements, in the same file; of version 4.1 alone.
     /// Nodes and elements have the numbers that they have without.
     PartitionOptions partition{};
+    /// Surfaces and cells are in all their groups, which overlap; else in one each, as solvers want it that
+    /// know one mark a cell. Version 2.2 holds no more than one.
+    bool all_groups = false;
 };
 
 /// Write hexahedra and skin with a named physical group for every entity, whole or not at all: the file is

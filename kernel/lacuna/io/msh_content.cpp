@@ -55,12 +55,10 @@ void GroupTags::keep(int dimension, const std::string& group, int tag)
     if (group != unnamed_group(tag)) names_.push_back({dimension, tag, unique_name(dimension, group)});
 }
 
-std::vector<int> GroupTags::tags_of(int dimension, const std::vector<std::string>& groups,
-                                    const std::string& otherwise)
+std::vector<int> GroupTags::tags_of(int dimension, const std::vector<std::string>& groups)
 {
     std::set<int> tags;
     for (const std::string& group : groups) tags.insert(tag_of(dimension, group));
-    if (tags.empty() && !otherwise.empty()) tags.insert(tag_of(dimension, otherwise));
     return {tags.begin(), tags.end()};
 }
 
@@ -110,7 +108,16 @@ std::string msh_opening(const std::vector<PhysicalName>& names, const char* vers
     return text + "$EndPhysicalNames\n";
 }
 
-MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
+bool holds_all_groups(bool asked, double version, const OutputPath& path, const RunContext& context)
+{
+    if (!asked || version != 2.2) return asked;
+    log_line(context, "note: " + path.text() +
+                          ": MSH 2.2 holds one group an element, so groups = \"all\" is "
+                          "not followed; version = 4.1 holds all");
+    return false;
+}
+
+MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes, bool all_groups)
 {
     check_skin(mesh);
     MshContent content;
@@ -135,12 +142,16 @@ MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
     }
 
     GroupTags groups;
+    const auto tags_of = [&](int dimension, std::vector<std::string> own, const std::string& otherwise) {
+        if (own.empty()) own.push_back(otherwise);
+        if (!all_groups) own.resize(1);
+        return groups.tags_of(dimension, own);
+    };
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
         if (start[p] == start[p + 1]) continue; // nothing to see of it
         MshSurface surface;
         surface.tag = mesh.patches[p].tag;
-        surface.physical = groups.tags_of(2, mesh.patches[p].groups,
-                                          "surface:" + std::to_string(surface.tag));
+        surface.physical = tags_of(2, mesh.patches[p].groups, "surface:" + std::to_string(surface.tag));
         surface.box = boxes[p];
         surface.begin = start[p];
         surface.end = start[p + 1];
@@ -155,7 +166,7 @@ MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes)
         content.box.extend(surface.box); // the inside of a valid mesh reaches no further than its skin
         content.surfaces.push_back(std::move(surface));
     }
-    content.volume_physical = groups.tags_of(3, mesh.volume_groups, "volume");
+    content.volume_physical = tags_of(3, mesh.volume_groups, "volume");
     content.names = groups.take();
     return content;
 }

@@ -2,10 +2,10 @@
 #include <lacuna/io/msh_reader.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
-#include <lacuna/core/large_pages.h>
 #include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>
@@ -572,8 +572,6 @@ private:
         Deck& deck = into_.deck();
         std::vector<bool> held(deck.regions.size(), false);
         for (std::size_t r = 0; r < held.size(); ++r) held[r] = holds(group, r);
-        for (std::size_t r = 0; r < held.size(); ++r)
-            if (held[r] && deck.regions[r].name.empty()) deck.regions[r].name = name;
         DeckSet set{DeckSet::Kind::elements,
                     group.tag,
                     name.empty() ? unnamed_group(group.tag) : std::string(name),
@@ -584,6 +582,15 @@ private:
                 if (held[index(block.regions[e])]) set.members.push_back(block.tags[e]);
         if (!std::ranges::is_sorted(set.members)) std::sort(set.members.begin(), set.members.end());
         set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+        // Of several groups the one with the fewest cells names a region, of these one that has a name.
+        const std::pair<std::size_t, bool> rank(set.members.size(), name.empty());
+        for (std::size_t r = 0; r < held.size(); ++r) {
+            if (!held[r]) continue;
+            const auto [before, fresh] = named_by_.try_emplace(r, rank);
+            if (!fresh && before->second <= rank) continue;
+            before->second = rank;
+            deck.regions[r].name = set.name;
+        }
         deck.sets.push_back(std::move(set));
     }
 
@@ -668,6 +675,7 @@ private:
     std::map<Place, std::size_t> regions_;
     std::vector<Place> place_of_;                ///< of each region
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
+    std::map<std::size_t, std::pair<std::size_t, bool>> named_by_; ///< of regions: cells, whether by number
     std::map<Key, std::string> names_;
     std::map<Key, std::set<int>> members_;
     std::map<Key, int> whole_of_; ///< of entities that are parts

@@ -57,7 +57,8 @@ constexpr Hex hex_of(const Wedge& wedge)
 /// A part of the skin with names: what Gmsh calls a surface entity.
 struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
-    /// Physical groups it belongs to: "source", "wall:12", a name of the input…
+    /// Physical groups it belongs to: "source", "wall:12", a name of the input… The first is the one in files
+    /// where a quad is in one alone.
     std::vector<std::string> groups;
     int face = 0; ///< tag of the given face it lies on; 0: it is a void one, or no face is known
 };
@@ -78,8 +79,8 @@ struct HexMesh {
     std::vector<Index> source_patch; ///< patch of each quad on the source
     std::vector<Index> target_patch; ///< patch of each quad on the target
     std::vector<Index> wall_patch;   ///< patch of (rim side r, layer l) at l · rim.size() + r
-    std::vector<std::string> volume_groups{"volume"};
-    MiddleNodes middles; ///< of order 2; empty: the cells are of order 1
+    std::vector<std::string> volume_groups{"volume"}; ///< the first is that of the region
+    MiddleNodes middles;                              ///< of order 2; empty: the cells are of order 1
 
     [[nodiscard]] int order() const { return middles.empty() ? 1 : 2; }
     /// Corners and middle nodes together; the middle nodes have the numbers behind the corners.

@@ -13,6 +13,7 @@
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/skin_groups.h>
 
 #include <algorithm>
 #include <array>
@@ -520,18 +521,52 @@ private:
         return largest;
     }
 
-    /// Groups of each part's own, told apart by its region's name, beside those that all parts have.
+    /// Cells have their member's name; so have the roles of faces, unless it is alone. What lies between two
+    /// pieces of one volume is in no group.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
+            const AssemblyMember& member = members_[m];
+            const std::string& name = member.whole.empty() ? member.region : member.whole;
             mesh::HexMesh& mesh = result_.parts[m].mesh;
-            mesh.volume_groups.insert(mesh.volume_groups.begin(), members_[m].region);
-            for (mesh::SkinPatch& patch : mesh.patches) {
-                const std::vector<std::string> groups = patch.groups;
-                for (const std::string& group : groups)
-                    patch.groups.push_back(members_[m].region + ":" + group);
-            }
+            mesh.volume_groups = {name};
+            if (name != "volume") mesh.volume_groups.emplace_back("volume");
+            if (member.piece_of != nullptr) take_roles(*member.piece_of, mesh.patches);
+            if (member.alone) continue;
+            for (mesh::SkinPatch& patch : mesh.patches) add_member_name(name, patch);
         }
+        for (const SharedFace& face : result_.shared) {
+            const std::string& whole = members_[face.a].whole;
+            if (whole.empty() || whole != members_[face.b].whole) continue;
+            for (const auto& [p, id] : {std::pair(face.a, face.face_a), std::pair(face.b, face.face_b)})
+                for (std::size_t patch = 0; patch < result_.parts[p].faces.size(); ++patch)
+                    if (result_.parts[p].faces[patch] == id)
+                        result_.parts[p].mesh.patches[patch].groups.clear();
+        }
+    }
+
+    /// Give patches of a piece the groups that the faces have in the whole.
+    static void take_roles(const OpenVolume& whole, std::vector<mesh::SkinPatch>& patches)
+    {
+        std::map<int, std::vector<std::string>> of_tag;
+        std::vector<std::vector<std::string>> groups = skin_groups(whole);
+        for (std::size_t f = 0; f < groups.size(); ++f)
+            if (whole.model.faces[f].origin == Origin::given)
+                of_tag.try_emplace(whole.model.faces[f].tag, std::move(groups[f]));
+        for (mesh::SkinPatch& patch : patches)
+            if (const auto found = of_tag.find(patch.face); patch.face != 0 && found != of_tag.end())
+                patch.groups = found->second;
+    }
+
+    /// Tell roles apart by the member's name.
+    static void add_member_name(const std::string& name, mesh::SkinPatch& patch)
+    {
+        std::vector<std::string> groups;
+        for (const std::string& group : patch.groups) {
+            if (!is_role_group(group)) groups.push_back(group);
+            groups.push_back(name + ":" + group);
+        }
+        patch.groups = std::move(groups);
     }
 
     [[nodiscard]] std::string named(std::size_t member, FaceId face) const

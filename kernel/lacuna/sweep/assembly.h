@@ -29,6 +29,12 @@ struct AssemblyMember {
     /// Of a piece of a full turn, the region that the whole is: their volumes are judged together. Empty: it
     /// is no such piece.
     std::string turn_of = {};
+    /// Of a piece of a volume, the volume's name: its cells are in the group of that name, and faces between
+    /// two pieces of one volume are in no group. Empty: it is no piece.
+    std::string whole = {};
+    /// That volume, whose faces have the roles that the piece's have in groups. Null: it is not known.
+    const topology::OpenVolume* piece_of = nullptr;
+    bool alone = false; ///< it, or the volume it is a piece of, is all there is
 };
 
 /// A face that two members have in common, each on its own side of it.
@@ -91,6 +97,9 @@ struct SweptAssembly {
 /// other, each keeping, node for node, what its neighbours' meshes are on the faces they share. Where a
 /// volume cannot keep what its neighbours have made, the order is changed so that it goes before them. A void
 /// face with the rim of a neighbour's given one is that face.
+/// Cells of a member are in a group of its name, of all members in `volume`. Groups of roles begin with its
+/// name, `fluid:source`; those of a face's name are there with and without it. Of a volume that is all there
+/// is groups are as `sweep()` names them.
 /// Members whose options say `layered` may come out as parts that do not hold their nodes; then `number` is
 /// empty.
 /// A fixed member is a part as it came, before all others: they keep its quads where they share its faces.

@@ -32,16 +32,19 @@ void put_file(Writer& writer, const LayeredFile& file)
     for (const quality::Metric metric : file.quality) metrics.push_back(static_cast<int>(metric));
     writer(static_cast<std::int8_t>(file.binary)), writer(file.version), writer(metrics);
     writer(file.material), writer(file.partition.parts), writer(file.partition.ghosts);
+    writer(static_cast<std::int8_t>(file.all_groups));
 }
 
 LayeredFile read_file(Reader& reader)
 {
     LayeredFile file;
-    std::int8_t binary = 0;
+    std::int8_t binary = 0, all_groups = 0;
     std::vector<int> metrics;
     reader(binary), reader(file.version), reader(metrics);
     reader(file.material), reader(file.partition.parts), reader(file.partition.ghosts);
+    reader(all_groups);
     file.binary = binary != 0;
+    file.all_groups = all_groups != 0;
     for (const int metric : metrics) file.quality.push_back(static_cast<quality::Metric>(metric));
     return file;
 }
@@ -106,7 +109,8 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
         fields.push_back(field_of(layered, metric, average, context));
     const std::string ending = io::ending_of(path.text());
     if (ending == ".msh")
-        io::write_msh(layered, path, {file.binary, file.version, {}, file.partition}, fields, context, team);
+        io::write_msh(layered, path, {file.binary, file.version, {}, file.partition, file.all_groups}, fields,
+                      context, team);
     else if (ending == ".vtu")
         io::write_vtu(layered, path, fields, context, team);
     else if (ending == ".pvtu")
@@ -124,7 +128,9 @@ void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath&
 {
     io::DeckFormat format{};
     io::find_deck_format(io::ending_of(path.text()), format);
-    io::write_parts(parts, format, {file.binary, file.version}, path, context, team);
+    const io::DeckFileOptions options{
+        .binary = file.binary, .msh_version = file.version, .all_groups = file.all_groups};
+    io::write_parts(parts, format, options, path, context, team);
 }
 
 void help_write_parts(const std::string& bytes, const Team& team, const RunContext& context)

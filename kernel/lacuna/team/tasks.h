@@ -24,6 +24,7 @@ struct LayeredFile {
     std::vector<quality::Metric> quality{}; ///< fields of cells; decks have none
     std::string material{};                 ///< of decks
     io::PartitionOptions partition{};       ///< of .msh and .pvtu
+    bool all_groups = false;                ///< of .msh: as `io::MshOptions::all_groups`
 };
 
 /// Whether files of an ending (".msh") are written a layer at a time.

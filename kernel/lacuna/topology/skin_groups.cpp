@@ -22,6 +22,27 @@ std::string free_name(const std::string& name, const std::set<std::string>& take
     return name + "_" + std::to_string(number);
 }
 
+/// Whether a name is the face's own: not of the solids it bounds, and not a number in words.
+bool is_own_name(const Face& face)
+{
+    const auto begins = [&](const char* word) { return face.name.starts_with(word); };
+    return face.origin == Origin::given && (!face.groups.empty() || face.regions.empty()) &&
+           !begins("pid:") && !begins("region:") && !begins("physical_");
+}
+
+/// The name that all given faces have, where these have several roles; else none.
+std::string name_of_all(const OpenVolume& volume)
+{
+    std::set<std::string> names;
+    std::set<Role> roles;
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+        if (volume.model.faces[f].origin != Origin::given) continue;
+        names.insert(volume.model.faces[f].name);
+        roles.insert(volume.role[f]);
+    }
+    return names.size() == 1 && roles.size() > 1 ? *names.begin() : std::string();
+}
+
 } // namespace
 
 std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
@@ -41,6 +62,7 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
         }
         generated.insert(of.begin(), of.end());
     }
+    const std::string of_all = name_of_all(volume);
     std::set<std::string> taken = generated;
     for (const Face& face : volume.model.faces) taken.insert(lower(face.name));
     for (std::size_t f = 0; f < groups.size(); ++f) {
@@ -48,9 +70,19 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
         std::vector<std::string>& of = groups[f];
         if (name.empty() || std::ranges::find(of, name) != of.end()) continue;
         const bool its_own = std::ranges::find(of, lower(name)) != of.end();
-        of.push_back(!its_own && generated.contains(lower(name)) ? free_name(name, taken) : name);
+        const bool first = name != of_all && is_own_name(volume.model.faces[f]);
+        of.insert(first ? of.begin() : of.end(),
+                  !its_own && generated.contains(lower(name)) ? free_name(name, taken) : name);
     }
     return groups;
+}
+
+bool is_role_group(std::string_view group)
+{
+    const std::string word = lower(std::string(group));
+    if (word == "source" || word == "target") return true;
+    return (word.starts_with("wall:") || word.starts_with("void:")) && word.size() > 5 &&
+           word.find_first_not_of("0123456789", 5) == std::string::npos;
 }
 
 } // namespace lacuna::topology

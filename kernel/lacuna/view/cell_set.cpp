@@ -13,12 +13,21 @@
 
 namespace lacuna::view {
 
+namespace {
+
+/// Whether a group is that of a void face: `void:3`, of a member of an assembly `fluid:void:3`.
+bool is_of_void(const std::string& group)
+{
+    return group.starts_with("void:") || group.find(":void:") != std::string::npos;
+}
+
+} // namespace
+
 std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 {
     std::vector<ShownPatch> shown;
     for (const mesh::SkinPatch& patch : mesh.patches) {
-        const bool named_void = std::any_of(patch.groups.begin(), patch.groups.end(),
-                                            [](const auto& name) { return name.starts_with("void:"); });
+        const bool named_void = std::ranges::any_of(patch.groups, is_of_void);
         shown.push_back({patch.tag, patch.groups, patch.face == 0 && named_void, 0});
     }
     for (const std::vector<Index>* list : {&mesh.source_patch, &mesh.target_patch, &mesh.wall_patch})
@@ -123,6 +132,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
 {
     DeckCells found;
     std::map<Index, std::size_t> of_region;
+    std::map<std::string, std::size_t> of_name; // regions of one name are shown as one
     std::vector<Numbering> numbering;
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
@@ -131,11 +141,15 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
         if (info.nodes > info.corners) (curved ? found.second_order : found.straightened) = true;
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index region = block.regions.empty() ? -1 : block.regions[e];
-            const auto [at, fresh] = of_region.try_emplace(region, found.regions.size());
-            if (fresh) {
-                std::string& name = found.regions.emplace_back().name;
+            const auto [at, first] = of_region.try_emplace(region, found.regions.size());
+            std::string name;
+            if (first) {
                 if (region >= 0) name = deck.regions[index(region)].name;
-                if (name.empty()) name = "region " + std::to_string(found.regions.size());
+                if (name.empty()) name = "region " + std::to_string(found.regions.size() + 1);
+                at->second = of_name.try_emplace(name, found.regions.size()).first->second;
+            }
+            if (at->second == found.regions.size()) {
+                found.regions.emplace_back().name = name;
                 numbering.emplace_back(deck.points.size());
             }
             ListedCells& cells = found.regions[at->second];
@@ -172,8 +186,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             const auto groups = sets.of(block.tags[e], region < 0 ? "" : deck.regions[index(region)].name);
             const auto [at, fresh] = of_groups.try_emplace(groups, static_cast<Index>(found.patches.size()));
             if (fresh) {
-                const bool made_void = std::any_of(
-                    groups.begin(), groups.end(), [](const auto& name) { return name.starts_with("void:"); });
+                const bool made_void = std::ranges::any_of(groups, is_of_void);
                 found.patches.push_back({static_cast<int>(found.patches.size()) + 1, groups, made_void, 0});
             }
             ++found.patches[index(at->second)].quads;

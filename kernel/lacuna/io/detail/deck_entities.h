@@ -29,7 +29,6 @@ struct DeckEntity {
     int dimension = 0;
     Index region = -1;               ///< place in `Deck::regions`; -1: none
     std::vector<std::string> groups; ///< the sets it is of, and its region; each once
-    std::size_t count = 0;           ///< elements
 };
 
 struct DeckEntities {

@@ -205,6 +205,7 @@ private:
 struct DeckFile {
     std::vector<Section> sections;
     std::vector<std::string> notes; ///< what the format cannot hold, a sentence each
+    std::string changed{};          ///< sets of the deck that are other ones in the file; empty: none is
     Sizes sizes = Sizes::varying;
 };
 

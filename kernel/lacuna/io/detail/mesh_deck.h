@@ -22,12 +22,10 @@ struct BulkPlace {
     DeckTag highest = 0;             ///< number of a cell of the meshes before it
 };
 
-/// Places of sets in a deck, by their kind and the group that they hold.
-using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
-
 struct AddedMesh {
     std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
     double scale = 1;              ///< of the mesh's coordinates to the deck's
+    bool joins = false;            ///< the deck is one that was read, whose sets get what belongs to them
     bool skin_cells = false;       ///< sets of the skin are quads that become elements
     /// Quads of the skin that the deck has already as elements, by their nodes rising; those added join them.
     /// Null: none are to be shared.
@@ -47,8 +45,9 @@ struct AddedMesh {
     std::string neighbour_material{}, neighbour{};
 };
 /// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `join_deck()`.
-void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
-              const RunContext& context = {});
+/// @return  place of the region in the deck.
+Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+               const RunContext& context = {});
 
 /// `deck_of()` without nodes and cells; see `AddedMesh::bulk`.
 Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/io/detail/node_reader.h>
+#include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <Eigen/Geometry>
@@ -29,9 +31,8 @@ public:
     /// two groups that want the same tag in one dimension the first has it. Before any other is asked for.
     void keep(int dimension, const std::string& group, int tag);
     int tag_of(int dimension, const std::string& group);
-    /// Of several groups, rising; of `otherwise` where there is none, and none where that is empty.
-    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups,
-                             const std::string& otherwise);
+    /// Of several groups, rising.
+    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups);
     std::vector<PhysicalName> take() { return std::move(names_); }
 
 private:
@@ -66,10 +67,14 @@ inline constexpr int kVolumeTag = 1;
 /// Header and names, which are text in every version.
 std::string msh_opening(const std::vector<PhysicalName>& names, const char* version, bool binary);
 
+/// Whether a file is to hold all groups: not of version 2.2, and the log says so where they were asked for.
+bool holds_all_groups(bool asked, double version, const OutputPath& path, const RunContext& context);
+
 /// @throw InvalidInput  a skin quad belongs to no patch, or two patches share a tag.
 void check_skin(const mesh::HexMesh& mesh);
 
+/// @param all_groups  entities are in all their groups, else in one each.
 /// @throw InvalidInput  as `check_skin()`.
-MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes);
+MshContent msh_content(const mesh::HexMesh& mesh, const NodeReader& nodes, bool all_groups);
 
 } // namespace lacuna::io
