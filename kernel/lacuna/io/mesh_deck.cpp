@@ -229,6 +229,7 @@ private:
     {
         DeckSet& set = set_of(DeckSet::Kind::elements, group);
         if (group == volume_) set.name = name_of_region();
+        if (added_.region >= 0) set.listed = true; // of several pieces
         if (added_.bulk != nullptr)
             added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
         for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
@@ -258,9 +259,13 @@ private:
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
             const auto& groups = mesh_.patches[index(skin_quad(mesh_, i).patch)].groups;
             if (groups.empty()) return Index(-1);
-            const auto [found, fresh] = regions.try_emplace(groups.front(),
-                                                            static_cast<Index>(deck_.regions.size()));
-            if (fresh) deck_.regions.push_back({0, groups.front(), {}});
+            const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
+            if (!fresh) return found->second;
+            const auto same = std::ranges::find_if(deck_.regions, [&](const DeckRegion& of) {
+                return of.tag == 0 && of.name == groups.front(); // of a mesh added before
+            });
+            found->second = static_cast<Index>(same - deck_.regions.begin());
+            if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
             return found->second;
         };
         const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
@@ -290,7 +295,13 @@ private:
         return !fresh;
     }
 
-    [[nodiscard]] bool is_inner(std::size_t i) const { return !added_.inner.empty() && added_.inner[i] != 0; }
+    /// Between two pieces of a volume, which is in no group; or between meshes, where that is no element.
+    [[nodiscard]] bool is_inner(std::size_t i) const
+    {
+        const bool several = added_.own_sets != std::numeric_limits<std::size_t>::max();
+        if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
+        return !added_.inner.empty() && added_.inner[i] != 0;
+    }
 
     [[nodiscard]] DeckTag skin_tag(std::size_t i) const
     {
