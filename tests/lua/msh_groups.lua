@@ -331,7 +331,7 @@ end
 
 -- Cells of the sets of elements of an Abaqus deck, and the kinds of its elements.
 local function sets_of(name)
-  local sets, kinds, set, elements = {}, {}, nil, false
+  local sets, kinds, set, elements, goes_on = {}, {}, nil, false, false
   for line in io.lines(name) do
     if line:find "^%*" then
       set = (line:lower():match "elset=([^,]+)")
@@ -341,7 +341,8 @@ local function sets_of(name)
       if set then sets[set] = sets[set] or {} end
     elseif set then
       if elements then
-        sets[set][tonumber(line:match "%d+")] = true
+        if not goes_on then sets[set][tonumber(line:match "%d+")] = true end
+        goes_on = line:find ",$" ~= nil
       else
         for number in line:gmatch "%d+" do sets[set][tonumber(number)] = true end
       end

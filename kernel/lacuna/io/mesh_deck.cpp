@@ -234,7 +234,7 @@ private:
     {
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
-        DeckSet cells;
+        DeckSet cells{.listed = added_.region >= 0}; // of several pieces
         for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -283,6 +283,7 @@ private:
             into.sides.insert(into.sides.end(), set.sides.begin(), set.sides.end());
             tidy(into.members);
             tidy(into.sides);
+            into.listed |= set.listed;
             return into;
         };
         GroupSets own;
@@ -339,9 +340,13 @@ private:
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
             const auto& groups = mesh_.patches[index(skin_quad(mesh_, i).patch)].groups;
             if (groups.empty()) return Index(-1);
-            const auto [found, fresh] = regions.try_emplace(groups.front(),
-                                                            static_cast<Index>(deck_.regions.size()));
-            if (fresh) deck_.regions.push_back({0, groups.front(), {}});
+            const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
+            if (!fresh) return found->second;
+            const auto same = std::ranges::find_if(deck_.regions, [&](const DeckRegion& of) {
+                return of.tag == 0 && of.name == groups.front(); // of a mesh added before
+            });
+            found->second = static_cast<Index>(same - deck_.regions.begin());
+            if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
             return found->second;
         };
         const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
@@ -371,7 +376,13 @@ private:
         return !fresh;
     }
 
-    [[nodiscard]] bool is_inner(std::size_t i) const { return !added_.inner.empty() && added_.inner[i] != 0; }
+    /// Between two pieces of a volume, which is in no group; or between meshes, where that is no element.
+    [[nodiscard]] bool is_inner(std::size_t i) const
+    {
+        const bool several = added_.own_sets != std::numeric_limits<std::size_t>::max();
+        if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
+        return !added_.inner.empty() && added_.inner[i] != 0;
+    }
 
     [[nodiscard]] DeckTag skin_tag(std::size_t i) const
     {
