@@ -234,7 +234,8 @@ private:
     {
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
-        DeckSet cells{.listed = added_.region >= 0}; // of several pieces
+        DeckSet cells;
+        cells.listed = added_.region >= 0; // of several pieces
         for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -379,7 +380,7 @@ private:
     /// Between two pieces of a volume, which is in no group; or between meshes, where that is no element.
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
-        const bool several = added_.own_sets != std::numeric_limits<std::size_t>::max();
+        const bool several = added_.groups != nullptr;
         if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
         return !added_.inner.empty() && added_.inner[i] != 0;
     }
