@@ -274,7 +274,7 @@ void view_file(const std::string& file, const io::OutputPath& path, ViewFile& op
 {
     if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
-        const io::Deck deck = io::read_deck(file);
+        const io::Deck deck = io::read_deck(file, context);
         if (options.show == Show::cells || shows_cells(deck))
             return view::write_page(deck, path, options.page, context);
     }
