@@ -427,7 +427,7 @@ private:
             else
                 ++further;
         }
-        // Nodes too many do not tell whether the next line goes on with them: it must be an element like this.
+        // Nodes too many do not tell whether the next line goes on: it must be an element like this.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
             fail("expected " + std::to_string(wanted - 1) + " nodes of " + type_ +

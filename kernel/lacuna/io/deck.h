@@ -150,8 +150,9 @@ struct Deck {
     std::vector<DeckSet> sets;
     std::vector<DeckInstance> instances;
     std::vector<DeckText> texts;
-    std::vector<std::string> notes;      ///< what was passed over, counted; a sentence each
-    std::vector<std::string> warnings{}; ///< what was read otherwise than it stands; a sentence each
+    std::vector<std::string> notes; ///< what was passed over, counted; a sentence each
+    /// What was read otherwise than it stands; a sentence each.
+    std::vector<std::string> warnings{};
     DeckGap gap{};
 
     [[nodiscard]] std::size_t element_count() const;

@@ -53,7 +53,7 @@ public:
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
             if (line != kMark) {
-                // Text that somebody put between them; numbers alone are what a dataset lacks or has too many.
+                // Text between them; numbers alone are what a dataset lacks or has too many.
                 split(line);
                 if (std::ranges::all_of(numbers_, [](auto word) { return parse_real(word).has_value(); }))
                     cursor_.fail("expected -1, which begins a dataset, found " + shown(line));
