@@ -183,7 +183,8 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
 /// @param context  its log is told the deck's warnings, each behind "note: ".
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path, const RunContext& context = {});
-/// The same of bytes in memory, without that. @param name  stands for the path: its ending, its folder, in messages.
+/// The same of bytes in memory, without that. @param name  stands for the path: its ending, its folder, in
+/// messages.
 Deck read_deck(const std::string& name, std::string_view bytes);
 
 /// The part of a path from its last dot on, in lower case; empty where there is none.
