@@ -47,7 +47,7 @@ int convert(lua_State* L)
                 "convert: the ending of " + to.text() +
                     " says no format that meshes are written in; those are .msh .vtu .vtk .inp "
                     ".bdf .nas .dat .unv .exo .e");
-        const io::Deck deck = io::skin_as_sets(io::read_deck(from), format);
+        const io::Deck deck = io::skin_as_sets(io::read_deck(from, context), format);
         nodes = deck.points.size();
         for (const io::DeckBlock& block : deck.blocks) elements += block.count();
         io::write_deck(deck, format, to, context, options);

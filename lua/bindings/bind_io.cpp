@@ -628,7 +628,7 @@ int check_file(lua_State* L)
     const int at = lua_gettop(L);
     guard(L, [&] {
         check_input_path(lent, path);
-        io::Deck deck = io::read_deck(path);
+        io::Deck deck = io::read_deck(path, context);
         const std::vector<mesh::CellNodes> cells = hexes_of(deck);
         source.nodes = std::move(deck.points);
         source.quality = quality::measure_cells(source.nodes, cells, context);

@@ -261,7 +261,7 @@ bool view_file(const std::string& file, const io::OutputPath& path, ViewFile& op
 {
     if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
-        const io::Deck deck = io::read_deck(file);
+        const io::Deck deck = io::read_deck(file, context);
         // A mesh is shown as one, whatever format it has.
         if (options.show == Show::cells || deck.element_count(3) > 0) {
             view::write_page(deck, path, options.page, context);

@@ -9,10 +9,38 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <random>
 #include <utility>
 
 using namespace lacuna;
 namespace occ = gmsh::model::occ;
+
+namespace {
+
+/// The six faces of a box, each by itself: its edges are arcs of its own, up to half of `share` of their
+/// length beside the straight line.
+void add_bent_faces(const Vec3& size, double share, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> part(-1, 1);
+    const auto corner = [&](int c) { return Vec3(c & 1, c >> 1 & 1, c >> 2 & 1).cwiseProduct(size).eval(); };
+    for (const std::array<int, 4>& face :
+         {std::array{0, 1, 3, 2}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4}, std::array{2, 3, 7, 6},
+          std::array{0, 2, 6, 4}, std::array{1, 3, 7, 5}}) {
+        std::vector<int> points, curves;
+        for (const int c : face) points.push_back(occ::addPoint(corner(c).x(), corner(c).y(), corner(c).z()));
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Vec3 a = corner(face[k]), b = corner(face[(k + 1) % 4]);
+            const Vec3 across = (b - a).unitOrthogonal() * (b - a).norm() * share / 2 * part(random);
+            const Vec3 middle = (a + b) / 2 + across;
+            curves.push_back(occ::addSpline(
+                {points[k], occ::addPoint(middle.x(), middle.y(), middle.z()), points[(k + 1) % 4]}));
+        }
+        occ::addSurfaceFilling(occ::addWire(curves));
+    }
+}
+
+} // namespace
 
 TEST_CASE("loose faces of a solid are sewn into the solid's skin, their tags kept")
 {
@@ -65,6 +93,79 @@ TEST_CASE("faces a gap apart are sewn where the tolerance is wider than the gap,
         const std::vector<int> uses = test::uses_of_edges(sewn);
         CHECK(std::count(uses.begin(), uses.end(), 2) == 1);
     }
+}
+
+TEST_CASE(
+    "faces whose edges part by less than a hundredth between their ends are sewn where no tolerance is given")
+{
+    const test::TempFolder folder;
+    std::mt19937 random(9);
+    for (unsigned trial = 0; trial < 22; ++trial) {
+        CAPTURE(trial);
+        const auto length = [&] { return 1 + static_cast<double>(random() % 8) / 2; };
+        const Vec3 size(length(), length(), length());
+        const double share = 0.001 + 0.0085 * trial / 21;
+        const std::string path = folder.gmsh("bent.brep", [&] { add_bent_faces(size, share, trial); });
+        std::vector<std::string> told;
+        RunContext context;
+        context.log = [&](std::string_view line) { told.emplace_back(line); };
+        const topology::Model model = cad::load({path}, {}, context);
+        test::check_model(model);
+        CHECK(model.faces.size() == 6);
+        CHECK(model.vertices.size() == 8);
+        CHECK(model.edges.size() == 12);
+        for (const int uses : test::uses_of_edges(model)) CHECK(uses == 2);
+        topology::Model skin = model;
+        topology::orient_consistently(skin);
+        CHECK(test::enclosed_volume(skin) == doctest::Approx(size.prod()).epsilon(4 * share));
+        const auto sewn = [](const std::string& line) {
+            return line.find("were sewn along the first") != line.npos;
+        };
+        const auto notes = std::ranges::count_if(model.notes, sewn);
+        CHECK(notes > 6);
+        CHECK(std::ranges::count_if(told, sewn) == notes);
+        for (const std::string& line : told) CHECK((!sewn(line) || line.starts_with("note: edge ")));
+        // Points of an edge that is exact lie on its curve.
+        for (const topology::Edge& edge : model.edges) {
+            std::vector<Vec3> at(edge.points.size());
+            edge.curve->evaluate(edge.params, at, {});
+            for (std::size_t i = 0; i < at.size(); ++i)
+                CHECK((at[i] - model.at(edge.points[i])).norm() < 1e-6 * model.diagonal);
+        }
+        // A tolerance is the user's own word.
+        const topology::Model apart = cad::load({path}, {.tolerance = 1e-5 * size.norm()});
+        CHECK(apart.edges.size() > 18);
+    }
+    // Further apart they are a gap, which is told.
+    const std::string path = folder.gmsh("wide.brep", [&] { add_bent_faces({2, 3, 4}, 0.2, 3); });
+    const topology::Model wide = cad::load({path});
+    CHECK(wide.edges.size() > 18);
+    CHECK(std::ranges::any_of(
+        wide.notes, [](const std::string& note) { return note.find("a gap stays there") != note.npos; }));
+}
+
+TEST_CASE("two edges of one thin face, and three edges between the same ends, are not sewn by their vertices")
+{
+    const test::TempFolder folder;
+    const auto arc = [](double x, double height) {
+        const int a = occ::addPoint(0, 0, 0), m = occ::addPoint(1, x, height), b = occ::addPoint(2, 0, 0);
+        return occ::addSpline({a, m, b});
+    };
+    // A lens of one hundredth and a half.
+    const topology::Model lens = cad::load({folder.gmsh("lens.brep", [&] {
+        occ::addPlaneSurface({occ::addCurveLoop({arc(-0.008, 0), arc(0.008, 0)})});
+    })});
+    CHECK(lens.faces.size() == 1);
+    CHECK(lens.edges.size() == 2);
+    // Three flaps from nearly the same line: which two meet is ambiguous.
+    const topology::Model flaps = cad::load({folder.gmsh("flaps.brep", [&] {
+        for (int k = 0; k < 3; ++k) {
+            gmsh::vectorpair out;
+            occ::extrude({{1, arc(0.004 * (k - 1), 0)}}, 0, k - 1, 1 - std::abs(k - 1), out);
+        }
+    })});
+    CHECK(flaps.faces.size() == 3);
+    for (const int uses : test::uses_of_edges(flaps)) CHECK(uses == 1);
 }
 
 TEST_CASE("a vertex of one loose face on the edge of another splits it")

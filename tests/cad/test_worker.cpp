@@ -246,11 +246,9 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     folder.write("other/two.geo", "Point(8) = {0, 0, 0};\n");
     for (const std::string& line :
          {"SystemCall \"touch " + made + "\";", "NonBlockingSystemCall \"touch " + made + "\";",
-          std::string("Exit;"), "Printf(\"x\") > \"" + made + "\";",
-          "Printf(\"%g\", (1 + 2)) >> \"" + made + "\";", "Save \"" + made + "\";", "Print \"" + made + "\";",
-          std::string("Include \"other/two.geo\";"), std::string("Merge \"/etc/passwd\";"),
-          std::string("Merge \"../x.step\";"), std::string("Merge Str(\"a\", \"b\");"),
-          std::string("Include \"absent.geo\";"), std::string("Plugin(Warp).Run;")}) {
+          std::string("Exit;"), "Save \"" + made + "\"", std::string("Include \"other/two.geo\";"),
+          std::string("Merge \"/etc/passwd\";"), std::string("Merge \"../x.step\";"),
+          std::string("Merge Str(\"a\", \"b\");"), std::string("Include \"absent.geo\";")}) {
         CAPTURE(line);
         const std::string path = folder.write("asks.geo", "Point(1) = {0, 0, 0}; /* Save\n*/ " + line + "\n");
         const std::string words = failure([&] { (void)cad::load({path}); });
@@ -263,6 +261,67 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     const std::string words = failure(
         [&] { (void)cad::load({folder.write("in.geo", "Include \"asking.geo\";\n")}); });
     CHECK(has(words, folder.path("asking.geo") + ", line 3"));
+}
+
+TEST_CASE("commands of a script that write files, run plugins or mesh are skipped with a note, not run")
+{
+    const test::TempFolder folder;
+    const std::string made = folder.path("made");
+    const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 2, 3};\n";
+    const double area = test::total_area(cad::load({folder.write("plain.geo", box)}));
+    for (const std::string& line :
+         {"Save \"" + made + "\";",
+          "Save Sprintf(\"" + made + "%g\", 1);",
+          "Print \"" + made + "\";",
+          "Print Str(\"" + made + "\");",
+          "Printf(\"x\") > \"" + made + "\";",
+          "Printf(\"%g > 1; x\", (1 > 2)) >> \"" + made + "\";",
+          "CreateFile \"" + made + "\";",
+          std::string("Plugin(Warp).Run;"),
+          std::string("Plugin(Triangulate).View = 0;"),
+          std::string("Mesh 3;"),
+          std::string("Mesh(2);"),
+          std::string("Mesh\n2\n;"),
+          std::string("dim = 3; Mesh dim;"),
+          std::string("RefineMesh;"),
+          std::string("OptimizeMesh \"Netgen\";"),
+          std::string("SetOrder 2;"),
+          std::string("PartitionMesh 4;"),
+          std::string("RenumberMeshNodes;"),
+          std::string("RecombineMesh;"),
+          std::string("AdaptMesh { 1 } { 2 } { { 3 } };"),
+          std::string("RelocateMesh Surface { 1 };"),
+          std::string("If (1 > 0) Save \"x;y\"; EndIf"),
+          std::string("For i In {1 : 3}\n  Mesh i; // first\n  Save /* where; */ \"a.msh\";\nEndFor")}) {
+        CAPTURE(line);
+        const std::string path = folder.write("skips.geo",
+                                              box + line + "\nPhysical Surface(\"all\") = {1 : 6};\n");
+        std::vector<std::string> told;
+        RunContext context;
+        context.log = [&](std::string_view text) { told.emplace_back(text); };
+        const topology::Model model = cad::load({path}, {}, context);
+        CHECK(test::total_area(model) == doctest::Approx(area));
+        CHECK(model.faces[0].name == "all"); // what follows is read
+        const std::string begin = "note: " + path + ": of this script only the geometry is read; skipped: ";
+        CHECK(std::ranges::count_if(told, [&](const std::string& text) { return text.starts_with(begin); }) ==
+              1);
+        CHECK(!fs::exists(made));
+        CHECK(!fs::exists(made + "1"));
+        // An included script is looked through as well.
+        folder.write("inner.geo", line + "\n");
+        const topology::Model outer = cad::load(
+            {folder.write("outer.geo", box + "Include \"inner.geo\";\n")});
+        CHECK(test::total_area(outer) == doctest::Approx(area));
+        REQUIRE(outer.notes.size() == 1);
+        CHECK(has(outer.notes[0], folder.path("inner.geo")));
+    }
+    // Words that are no commands there stay: options, variables, texts, groups.
+    const std::string words = "Mesh.MshFileVersion = 2.2;\nPrint.Background = 1;\nSave = 2;\n" + box +
+                              "Box(2) = {5, 0, 0, Save, 1, 1};\nPhysical Volume(\"Mesh\") = {1};\n"
+                              "Printf(\"Mesh 3; Save\");\n";
+    const topology::Model model = cad::load({folder.write("words.geo", words)});
+    CHECK(test::total_area(model) == doctest::Approx(area + 10));
+    CHECK(model.notes.empty());
 }
 
 TEST_CASE("a script may include and merge what lies beside it")

@@ -334,7 +334,7 @@ def no_room():
         mount = ["mount", "-t", "tmpfs", "-o", f"size={2 * SMALL}", "tmpfs", str(path)]
         mounted = os.geteuid() == 0 and subprocess.run(mount, stderr=subprocess.DEVNULL).returncode == 0
         if not mounted:
-            print("no_room: a full disk is left out, no file system may be mounted here", flush=True)
+            print("left out: no_room: a full disk, as no file system may be mounted here", flush=True)
             return
         try:
             old = b"what was there before\n"
@@ -370,7 +370,7 @@ def unwritable():
         subprocess.run([LACUNA, "--version"], stdout=subprocess.DEVNULL, check=True, cwd="/", **rights)
         subprocess.run(["test", "-r", str(SCRATCH)], check=True, cwd="/", **rights)
     except (OSError, subprocess.CalledProcessError):
-        print("unwritable: left out, nobody may not run the program or reach the folder", flush=True)
+        print("left out: unwritable: nobody may not run the program or reach the folder", flush=True)
         return
     for name, line in OUTPUTS.items():
         with folder("unwritable", MESH + line) as path:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every metric of every cell against VTK's vtkMeshQuality, to 1e-9.
+"""Every metric of every cell against VTK's vtkMeshQuality, to 1e-9; the scaled Jacobian, which meshes keep and files
+hold in single precision, to half a unit of that.
 
 usage: against_vtk.py METRIC_VALUES [--lacuna LACUNA] [MESH.msh ...]
 Cells: random ones, from nearly cubes to inside out, at several sizes; flat, folded and collapsed ones; the meshes
@@ -21,6 +22,7 @@ except ImportError as missing:
     sys.exit(77)
 
 TOLERANCE = 1e-9
+SINGLE = {"scaled_jacobian"}  # values of at most 1, rounded
 WORST = 1e30  # what Verdict says where there is nothing to measure
 
 VTK_NAMES = {
@@ -96,7 +98,8 @@ def compare(program, nodes, hexes, what):
         difference = disagreement(ours[name], expected, name in larger, unit)
         at = int(np.argmax(difference))
         worst = max(worst, float(difference[at]))
-        if not difference[at] <= TOLERANCE:
+        allowed = TOLERANCE + (np.finfo(np.float32).epsneg / 2 if name in SINGLE else 0)
+        if not difference[at] <= allowed:
             faults.append(f"{what}: {name} of cell {at} is {ours[name][at]:.17g}, VTK says {expected[at]:.17g}")
     print(f"{what}: {len(hexes)} cells, {len(theirs)} metrics, largest difference {worst:.2g}")
     return faults

@@ -3,6 +3,8 @@
 
 #include <lacuna/cad/detail/input_file.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lacuna::cad {
@@ -25,6 +27,7 @@ CadFiles open_cad_files(const CadOrder& order, const RunContext& context)
         InputFile input = open_input(path, context);
         files.bytes += input.bytes;
         for (const std::uint64_t digest : input.digests) files.digest = digest_of(digest, files.digest);
+        std::ranges::move(input.notes, std::back_inserter(files.notes));
         files.request.files.push_back(std::move(input.file));
         for (Descriptor& file : input.descriptors) files.descriptors.push_back(std::move(file));
     }

@@ -103,8 +103,8 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 
 } // namespace
 
-ImportedCad import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
-                       const RunContext& context, const Limits& limits)
+io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
+                           const RunContext& context, const Limits& limits)
 {
     const CadOrder order{paths, options.tolerance, options.scale, limits};
     const CadFiles files = open_cad_files(order, context);
@@ -114,12 +114,14 @@ ImportedCad import_cad(const std::vector<std::string>& paths, const LoadOptions&
 
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
-    const std::vector<std::string> left_out(
+    std::vector<std::string> warnings(
         reply.notes.begin(), reply.notes.begin() + static_cast<std::ptrdiff_t>(reply.left_out.size()));
     topology::Model model = build_model(std::move(reply), options.scale, source);
+    warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
+    model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
     model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
     healing::orient_groups(model, solids);
-    return {std::move(model), left_out};
+    return {.model = std::move(model), .scale = options.scale, .warnings = std::move(warnings)};
 }
 
 } // namespace lacuna::cad

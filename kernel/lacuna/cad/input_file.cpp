@@ -68,8 +68,8 @@ bool runs_as_script(const std::string& name, const std::string& head)
     return !is_step(head) && !is_brep(head);
 }
 
-/// Copy a regular file to memory that no one can change any more, to the end of an input. A script gets a
-/// last newline: where it has none, Gmsh's parser drops a last command that is not whole without a word.
+/// Copy a regular file to memory, to the end of an input. A script gets a last newline: where it has none,
+/// Gmsh's parser drops a last command that is not whole without a word.
 void add_copy(InputFile& input, const std::string& name, const std::string& path, int flags,
               const RunContext& context)
 {
@@ -103,7 +103,6 @@ void add_copy(InputFile& input, const std::string& name, const std::string& path
             if (errno != EINTR) fail(path, errno);
         }
     }
-    ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
     input.descriptors.push_back(std::move(copy));
     input.digests.push_back(digest);
     input.file.contents.push_back({name});
@@ -148,6 +147,26 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     return LoadFile::script;
 }
 
+/// Write blanks over the commands of a copied script that are skipped, and note them.
+void skip_commands(InputFile& input, const Descriptor& script, const std::string& path, std::string text,
+                   const std::vector<SkippedCommand>& commands)
+{
+    std::string named;
+    for (const SkippedCommand& command : commands) {
+        for (std::size_t k = command.begin; k < command.end; ++k)
+            if (text[k] != '\n') text[k] = ' ';
+        named += (named.empty() ? "" : ", ") + command.word + " (line " + std::to_string(command.line) + ")";
+    }
+    if (named.empty()) return;
+    input.notes.push_back(path + ": of this script only the geometry is read; skipped: " + named);
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t now = ::pwrite(script.get(), text.data() + done, text.size() - done,
+                                     static_cast<off_t>(done));
+        if (now < 0 && errno != EINTR) fail(path, errno);
+        if (now > 0) done += static_cast<std::size_t>(now);
+    }
+}
+
 /// Look through a script and bring along what it merges, and what that merges in turn.
 void add_merged(InputFile& input, const std::string& path, const RunContext& context)
 {
@@ -157,7 +176,9 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
         const std::string own = i == 0 ? path : path.substr(0, path.size() - name_of(path).size()) + name;
         std::string text = text_of(input.descriptors[i], kLongestScript + 1);
         if (text.size() > kLongestScript) throw InvalidInput("cad.script", own + " is too long for a script");
-        for (const ScriptFile& wanted : files_of_script(own, text)) {
+        const ScriptContent found = look_through_script(own, text);
+        skip_commands(input, input.descriptors[i], own, std::move(text), found.skipped);
+        for (const ScriptFile& wanted : found.files) {
             const auto known = std::find_if(input.file.contents.begin(), input.file.contents.end(),
                                             [&](const auto& sent) { return sent.name == wanted.name; });
             if (known != input.file.contents.end()) continue;
@@ -199,6 +220,9 @@ InputFile open_input(const std::string& path, const RunContext& context)
     input.file.path = path;
     input.file.format = format_of(path, text_of(input.descriptors.front(), kHead));
     if (input.file.format == LoadFile::script) add_merged(input, path, context);
+    // From here on no one can change the copies any more.
+    for (const Descriptor& copy : input.descriptors)
+        ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
     return input;
 }
 

@@ -21,12 +21,13 @@ constexpr std::array kRefused{
     Word{"System", "runs a command"},
     Word{"OnelabRun", "runs a program"},
     Word{"OnelabAction", "runs a program"},
-    Word{"Save", "writes a file"},
-    Word{"Print", "writes a file"},
     Word{"CreateOverlay", "writes files"},
-    Word{"Plugin", "runs a plugin, which may read and write files"},
     Word{"Exit", "ends Gmsh"},
 };
+/// Commands that make no geometry, but a file or a mesh; a blank on either side.
+constexpr std::string_view kSkipped =
+    " Save Print CreateFile Plugin Mesh Remesh RefineMesh OptimizeMesh AdaptMesh RelocateMesh RecombineMesh "
+    "TransformMesh SetOrder PartitionMesh UnpartitionMesh RenumberMeshNodes RenumberMeshElements ";
 /// Words a file name follows.
 constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile",
                                                  "ListFromFile"};
@@ -35,7 +36,7 @@ class Scanner {
 public:
     Scanner(const std::string& path, std::string_view text) : path_(path), text_(text) {}
 
-    std::vector<ScriptFile> run()
+    ScriptContent run()
     {
         while (skip_to_code(), at_ < text_.size()) {
             const char c = text_[at_];
@@ -50,7 +51,7 @@ public:
                 ++at_;
             }
         }
-        return std::move(files_);
+        return std::move(content_);
     }
 
 private:
@@ -105,23 +106,39 @@ private:
         if (at_ < text_.size() && text_[at_] == '.') return;
         for (const Word& refused : kRefused)
             if (found == refused.word) refuse(std::string(found) + " " + std::string(refused.does));
-        if (found == "Printf") redirected();
+        const bool skipped = kSkipped.find(" " + std::string(found) + " ") != std::string_view::npos;
+        if (found == "Printf" || (skipped && begins_command(found))) command(found, from);
         if (std::find(kFiles.begin(), kFiles.end(), found) != kFiles.end()) file(found);
     }
-    /// Printf ("…") > "file" writes.
-    void redirected()
+    /// Whether the word is a command here and no variable of that name.
+    bool begins_command(std::string_view found)
     {
-        int depth = 0;
-        while (skip_to_code(), at_ < text_.size() && (depth > 0 || text_[at_] != ';')) {
+        skip_to_code();
+        const char next = at_ < text_.size() ? text_[at_] : '\0';
+        return next == '"' || next == '\'' || next == '(' || is_letter(next) ||
+               (found != "Mesh" && (next == ';' || next == '{'));
+    }
+    /// Leave out the command that began at `from`; of Printf only one that writes to a file:
+    /// Printf ("…") > "file".
+    void command(std::string_view found, std::size_t from)
+    {
+        const std::string word(found);
+        const int line = line_;
+        bool leaves = word != "Printf";
+        for (int depth = 0; skip_to_code(), at_ < text_.size() && (depth > 0 || text_[at_] != ';');) {
             const char c = text_[at_];
             if (c == '"' || c == '\'') {
                 (void)quoted();
                 continue;
             }
-            if (c == '>' && depth == 0) refuse("Printf writes a file");
+            leaves = leaves || (c == '>' && depth == 0);
             depth += c == '(' ? 1 : c == ')' ? -1 : 0;
             ++at_;
         }
+        if (!leaves) return;
+        if (at_ < text_.size()) return content_.skipped.push_back({word, line, from, ++at_});
+        line_ = line;
+        refuse(word + " has no ; at its end");
     }
     void file(std::string_view found)
     {
@@ -137,19 +154,19 @@ private:
         if (name.empty()) refuse(std::string(found) + " needs the name of a file in quotes");
         if (name.find_first_of("/\\") != std::string::npos || name == "..")
             refuse(std::string(found) + " names " + name + ", which is in another folder");
-        files_.push_back({name, line});
+        content_.files.push_back({name, line});
     }
 
     const std::string& path_;
     std::string_view text_;
     std::size_t at_ = 0;
     int line_ = 1;
-    std::vector<ScriptFile> files_;
+    ScriptContent content_;
 };
 
 } // namespace
 
-std::vector<ScriptFile> files_of_script(const std::string& path, std::string_view text)
+ScriptContent look_through_script(const std::string& path, std::string_view text)
 {
     return Scanner(path, text).run();
 }

@@ -43,7 +43,8 @@ EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) cons
     EdgePosition place;
     place.s = (static_cast<double>(i) + f) / per_side_;
     if (curve_) place.param = params_[i] + f * (params_[i + 1] - params_[i]);
-    place.distance = (points_[i] + f * (points_[i + 1] - points_[i]) - p).norm();
+    place.at = points_[i] + f * (points_[i + 1] - points_[i]);
+    place.distance = (place.at - p).norm();
     return place;
 }
 
@@ -85,6 +86,7 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
             const double width = asked[3 * k + 2] - asked[3 * k + 1];
             const Vec3 tangent = width != 0 ? Vec3((at[3 * k + 2] - at[3 * k + 1]) / width) : Vec3::Zero();
             places[active[k]].param = t[k];
+            places[active[k]].at = at[3 * k];
             places[active[k]].distance = (at[3 * k] - p).norm();
             if (!(tangent.squaredNorm() > 0)) continue;
             const double next = t[k] + (p - at[3 * k]).dot(tangent) / tangent.squaredNorm();

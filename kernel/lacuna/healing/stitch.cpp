@@ -27,8 +27,8 @@ constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
 public:
-    Stitcher(topology::Model model, double tolerance, const RunContext& context)
-        : loose_(std::move(model)), tolerance_(tolerance), context_(context)
+    Stitcher(topology::Model model, double tolerance, const RunContext& context, double share)
+        : loose_(std::move(model)), tolerance_(tolerance), share_(share), context_(context)
     {
     }
 
@@ -81,7 +81,8 @@ private:
     void insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin);
     void merge_edges();
     std::vector<Bundle> bundles_of(std::vector<EdgeId> group);
-    bool try_add(Bundle& bundle, EdgeId e);
+    bool try_add(Bundle& bundle, EdgeId e, double tolerance);
+    void sew_by_vertices(std::vector<Bundle>& bundles);
     bool add_nodes(Bundle& bundle, EdgeId e, bool reversed,
                    const std::vector<EdgeTrack::EdgePosition>& places);
 
@@ -98,7 +99,7 @@ private:
     }
 
     LooseModel loose_;
-    double tolerance_;
+    double tolerance_, share_;
     const RunContext& context_;
     StitchReport report_;
     std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< of edges as they are now
@@ -447,7 +448,8 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
                      [&](EdgeId a, EdgeId b) { return track(a).exact() && !track(b).exact(); });
     std::vector<Bundle> bundles;
     for (const EdgeId e : group) {
-        if (std::any_of(bundles.begin(), bundles.end(), [&](Bundle& bundle) { return try_add(bundle, e); }))
+        if (std::any_of(bundles.begin(), bundles.end(),
+                        [&](Bundle& bundle) { return try_add(bundle, e, tolerance_); }))
             continue;
         Bundle& own = bundles.emplace_back();
         own.first = e;
@@ -459,10 +461,34 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
             own.order.push_back(i);
         }
     }
+    if (share_ > 0) sew_by_vertices(bundles);
     return bundles;
 }
 
-bool Stitcher::try_add(Bundle& bundle, EdgeId e)
+/// Two free edges further apart than the tolerance are one where they are near each other for their length.
+void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
+{
+    std::vector<Bundle*> free;
+    for (Bundle& bundle : bundles)
+        if (bundle.merged.empty() && loose_.is_free(bundle.first) && track(bundle.first).exact())
+            free.push_back(&bundle);
+    if (free.size() != 2) return;
+    const EdgeId a = free[0]->first, b = free[1]->first;
+    const FaceId face_a = loose_.users(a)[0], face_b = loose_.users(b)[0];
+    if (face_a == face_b || model()[a].from == model()[a].to) return;
+    const double reach = share_ * std::min(track(a).length(), track(b).length());
+    if (!try_add(*free[0], b, reach)) return;
+    report_.notes.push_back(edge_name(a) + " of " + name_of(model(), face_a) + " and " + edge_name(b) +
+                            " of " + name_of(model(), face_b) + " have the same ends and are up to " +
+                            in_words(greatest_gap(track(a), track(b), tolerance_, context_)) +
+                            " apart between them; they were sewn along the first; give a tolerance to decide "
+                            "it yourself");
+    report_.sewn.push_back(report_.notes.back());
+    std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
+}
+
+/// @param tolerance  how far apart edges may be that become one.
+bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
 {
     const topology::Edge& first = model()[bundle.first];
     const topology::Edge& edge = model()[e];
@@ -477,8 +503,8 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e)
             std::reverse(samples.begin(), samples.end());
             std::reverse(samples_along.begin(), samples_along.end());
         }
-        const auto places = along.follow(samples, tolerance_, context_);
-        if (!places || !own.follow(samples_along, tolerance_, context_)) continue;
+        const auto places = along.follow(samples, tolerance, context_);
+        if (!places || !own.follow(samples_along, tolerance, context_)) continue;
         std::vector<EdgeTrack::EdgePosition> at_nodes;
         const std::size_t stride = own.exact() ? 2 : 1;
         for (std::size_t i = 0; i < places->size(); i += stride) at_nodes.push_back((*places)[i]);
@@ -535,7 +561,11 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
             "apart; load with keep_mesh = false, or mesh them alike");
         return false;
     }
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) loose_.join(points[i], nodes[become[i]].point);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        loose_.join(points[i], nodes[become[i]].point);
+        if (nodes[become[i]].point == points[i] && places[i].distance > tolerance_)
+            loose_.move(points[i], places[i].at);
+    }
     bundle.nodes = std::move(nodes);
     bundle.order = std::move(order);
     bundle.keeps_mesh = bundle.keeps_mesh || keeps_mesh;
@@ -560,7 +590,7 @@ std::string StitchReport::summary() const
     return text.empty() ? text : "stitched: " + text;
 }
 
-StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context)
+StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context, double share)
 {
     if (!(tolerance > 0)) {
         throw InvalidInput("topology.bad_tolerance",
@@ -570,7 +600,7 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
                                        [](const topology::Face& face) { return !face.loops.empty(); });
     if (!has_loops && !model.edges.empty()) topology::build_loops(model);
     check_cancelled(context);
-    Stitcher stitcher(model, tolerance, context);
+    Stitcher stitcher(model, tolerance, context, share);
     StitchReport report = stitcher.run();
     if (!report.changed()) return report;
     try {

@@ -17,6 +17,7 @@ struct StitchReport {
     int edges_collapsed = 0;        ///< no longer than the tolerance
     int faces_left_out = 0;         ///< listed twice, or no wider than the tolerance
     std::vector<std::string> notes; ///< what was left out or left apart: sentences, entities by their tags
+    std::vector<std::string> sewn; ///< of the notes those of edges that were further apart than the tolerance
 
     [[nodiscard]] bool changed() const
     {
@@ -25,6 +26,10 @@ struct StitchReport {
     /// One line of the counts; empty where nothing changed.
     [[nodiscard]] std::string summary() const;
 };
+
+/// The share of `stitch()` that a user need not ask for. A choice, not a measurement: surfaces that were
+/// exported one by one part by less, and slits that are drawn by more.
+inline constexpr double kSewnShare = 0.01;
 
 /// Join faces that meet without sharing edges.
 ///
@@ -37,6 +42,8 @@ struct StitchReport {
 ///   have them, become one. It has the points of all, and so have the facets on all its sides; points a
 ///   quarter of a side apart on an exact curve become one. Edges further apart stay, with a note where
 ///   they look like a gap.
+/// - Two free edges with exact curves that alone have the same two ends become one, with a note, where they
+///   are no further apart than `share` of the shorter one's length.
 /// - Of faces that lie on each other everywhere one stays, with a note; two stay where other faces go on from
 ///   both, as where two solids touch.
 ///
@@ -45,11 +52,13 @@ struct StitchReport {
 /// stays as it was, with a note.
 ///
 /// @param tolerance  [model length], > 0.
+/// @param share      [-], >= 0.
 /// @pre   build_loops() has run, or can.
 /// @post  loops are those of build_loops(); where gaps are well below the tolerance, a second call changes
 ///         nothing.
 /// @throw Cancelled  the model is then as it was.
 /// @note  O(n log n) in points; deterministic.
-StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context = {});
+StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context = {},
+                    double share = 0);
 
 } // namespace lacuna::healing

@@ -249,6 +249,7 @@ private:
             return;
         }
         mode_ = Mode::element;
+        further_ = -1;
         block_ = scope_->builder.block_of(shape_, type_);
         const std::string key = upper(set);
         const auto [found, fresh] = regions_.try_emplace({scope_, key}, -1);
@@ -415,13 +416,23 @@ private:
     {
         if (given_ == 0) element_place_ = place_;
         const auto wanted = static_cast<std::size_t>(shape_info(shape_).nodes) + 1;
+        const bool from_start = given_ == 0;
+        std::size_t further = 0;
         while (!line.empty()) {
             const std::string_view field = next_field(line);
             if (field.empty() && line.empty()) break; // a comma at the end says that the next line goes on
-            if (given_ >= wanted)
-                fail("expected " + std::to_string(wanted - 1) + " nodes of " + type_ + ", found more");
-            element_[given_++] = whole(field);
+            const Index number = whole(field);
+            if (given_ < wanted)
+                element_[given_++] = number;
+            else
+                ++further;
         }
+        // Nodes too many do not tell whether the next line goes on: it must be an element like this.
+        if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
+        if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
+            fail("expected " + std::to_string(wanted - 1) + " nodes of " + type_ +
+                 ", or in every line as many more as in the first; found another count");
+        if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
     }
 
@@ -669,6 +680,7 @@ private:
     std::string type_, instance_name_;
     DeckShape shape_ = DeckShape::hex8;
     std::size_t block_ = 0, given_ = 0;
+    std::ptrdiff_t further_ = -1; ///< nodes that each line of the keyword lists too many; -1: not known yet
     Index region_ = 0;
     std::array<Index, 28> element_{}; ///< tag and nodes of the element that is read
     Scope* instance_part_ = nullptr;

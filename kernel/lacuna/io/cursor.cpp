@@ -146,8 +146,8 @@ void Cursor::expect(std::string_view wanted)
 
 void Cursor::expect_last(std::string_view wanted) const
 {
-    const std::string_view found = data_.substr(last_, at_ - last_);
-    if (!same_word(found, wanted)) fail("expected " + std::string(wanted) + ", found " + shown(found));
+    if (!same_word(last_word(), wanted))
+        fail("expected " + std::string(wanted) + ", found " + shown(last_word()));
 }
 
 bool Cursor::skip_past(std::string_view text)

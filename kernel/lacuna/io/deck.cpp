@@ -40,13 +40,47 @@ constexpr Quad kHexFaces[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
 struct Beginning {
     std::string_view text, ending;
 };
-constexpr Beginning kBeginnings[] = {
-    {"# vtk datafile", ".vtk"},  {"<?xml", ".vtu"},         {"<vtkfile", ".vtu"},
-    {"$meshformat", ".msh"},     {"$comments", ".msh"},     {"solid ", ".stl"},
-    {"meshversion", ".mesh"},    {"iso-10303-21", ".step"}, {"cascade topology", ".brep"},
-    {"dbrep_drawable", ".brep"}, {"*heading", ".inp"},      {"*node", ".inp"},
-    {"*part", ".inp"},           {"cdf\x01", ".exo"},       {"cdf\x02", ".exo"},
-    {"cdf\x05", ".exo"}};
+constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},  {"<?xml", ".vtu"},
+                                     {"<vtkfile", ".vtu"},        {"$meshformat", ".msh"},
+                                     {"$comments", ".msh"},       {"$nod", ".msh"},
+                                     {"solid ", ".stl"},          {"meshversion", ".mesh"},
+                                     {"iso-10303-21", ".step"},   {"cascade topology", ".brep"},
+                                     {"dbrep_drawable", ".brep"}, {"*heading", ".inp"},
+                                     {"*node", ".inp"},           {"*part", ".inp"},
+                                     {"cdf\x01", ".exo"},         {"cdf\x02", ".exo"},
+                                     {"cdf\x05", ".exo"}};
+
+/// Words of the next line that is no comment.
+std::vector<std::string_view> words_of_line(Cursor& cursor)
+{
+    std::vector<std::string_view> words;
+    while (words.empty() && cursor.more()) {
+        for (auto word = cursor.word_in_line(); !word.empty(); word = cursor.word_in_line())
+            words.push_back(word);
+        if (words[0][0] == '#' || words[0].starts_with("!!")) words.clear();
+    }
+    return words;
+}
+
+/// What a file is that nobody here reads, though its ending is one of theirs; empty where it is none.
+///
+/// HEC-MW: a keyword behind an exclamation mark. AVS UCD: five counts, then a node's number and coordinates.
+std::string_view unread_by_content(std::string_view bytes)
+{
+    constexpr std::size_t kHead = 8192; // bytes, comments among them: a choice
+    Cursor cursor({}, bytes.substr(0, kHead));
+    const auto first = words_of_line(cursor), second = words_of_line(cursor);
+    if (!first.empty() && first[0].size() > 1 && first[0][0] == '!' &&
+        std::isalpha(static_cast<unsigned char>(first[0][1])) != 0)
+        return "a HEC-MW mesh";
+    const auto is_count = [](std::string_view word) {
+        return parse_integer<std::uint32_t>(word).has_value();
+    };
+    const auto is_real = [](std::string_view word) { return parse_real(word).has_value(); };
+    const bool counts = first.size() == 5 && std::ranges::all_of(first, is_count);
+    const bool node = second.size() == 4 && std::ranges::all_of(second, is_real);
+    return counts && node ? "an AVS UCD file" : std::string_view();
+}
 
 /// The ending of what a file begins like; empty where its beginning says nothing.
 std::string_view ending_by_content(std::string_view bytes)
@@ -66,6 +100,10 @@ std::string_view ending_by_content(std::string_view bytes)
 void check_content(const std::string& name, const DeckFileFormat& format, std::string_view bytes)
 {
     if (format.read == read_stl && is_binary_stl(bytes)) return;
+    if (const std::string_view unread = unread_by_content(bytes); !unread.empty())
+        throw InvalidInput("io.unreadable", "cannot read " + name + ", line 1: expected " +
+                                                std::string(format.name) + ", found " + std::string(unread) +
+                                                ", which is not read; export it as .vtu, .unv or .msh");
     const std::string_view found = ending_by_content(bytes);
     if (found.empty() || found == format.ending) return;
     const DeckFileFormat* other = deck_file_format(found);
@@ -225,13 +263,15 @@ Deck read_deck(const std::string& name, std::string_view bytes)
     return deck;
 }
 
-Deck read_deck(const std::string& path)
+Deck read_deck(const std::string& path, const RunContext& context)
 {
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
         if (ending_of(path) == cad)
             throw InvalidInput("io.no_mesh", path + " is CAD, which has no mesh; `lacuna info` lists faces");
     needed_deck_format(path, {});
-    return read_deck(path, read_file(path));
+    Deck deck = read_deck(path, read_file(path));
+    for (const std::string& warning : deck.warnings) log_line(context, "note: " + warning);
+    return deck;
 }
 
 std::string ending_of(const std::string& path)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 
 #include <cstdint>
@@ -159,6 +160,8 @@ struct Deck {
     std::vector<DeckInstance> instances;
     std::vector<DeckText> texts;
     std::vector<std::string> notes; ///< what was passed over, counted; a sentence each
+    /// What was read otherwise than it stands; a sentence each.
+    std::vector<std::string> warnings{};
     DeckGap gap{};
 
     [[nodiscard]] std::size_t element_count() const;
@@ -186,9 +189,11 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
 
 /// Read the mesh of a file: .bdf .nas .dat (Nastran), .inp (Abaqus, CalculiX), .unv, .msh, .vtk, .vtu, .mesh,
 /// .exo, .e, .stl, .obj; the ending says which, in any case, and the content must agree.
+/// @param context  its log is told the deck's warnings, each behind "note: ".
 /// @throw InvalidInput  as read_facets().
-Deck read_deck(const std::string& path);
-/// The same of bytes in memory. @param name  stands for the path: its ending, its folder, in messages.
+Deck read_deck(const std::string& path, const RunContext& context = {});
+/// The same of bytes in memory, without that. @param name  stands for the path: its ending, its folder, in
+/// messages.
 Deck read_deck(const std::string& name, std::string_view bytes);
 
 /// The part of a path from its last dot on, in lower case; empty where there is none.

@@ -2,9 +2,9 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/large_pages.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/triangulate.h>
-#include <lacuna/core/large_pages.h>
 
 #include <algorithm>
 #include <limits>
@@ -157,6 +157,10 @@ Deck DeckBuilder::take(const std::string& path)
     deck_.path = path;
     const std::string passed = counted();
     if (!passed.empty()) deck_.notes.push_back(path + ": passed over " + passed);
+    for (const auto& [type, count] : further_nodes_)
+        warn("elements " + type + " list more nodes than they have; those beyond are left out, up to " +
+             std::to_string(count) + " an element");
+    for (std::string& warning : deck_.warnings) warning.insert(0, path + ": ");
     for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
         deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);
     return std::move(deck_);

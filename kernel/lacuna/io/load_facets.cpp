@@ -212,6 +212,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
         auto deck = std::make_shared<Deck>(read_deck(path));
+        loaded.warnings.insert(loaded.warnings.end(), deck->warnings.begin(), deck->warnings.end());
         if (!options.without.empty()) leaver.leave_out(*deck);
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
@@ -232,12 +233,14 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     name_faces(loaded.model, names, all);
     loaded.model.source = source;
     move_in(loaded.model.notes, all.notes);
+    loaded.model.notes.insert(loaded.model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
     return loaded;
 }
 
 /// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
-void stitch(topology::Model& model, const RunContext& context)
+void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
+    topology::Model& model = loaded.model;
     constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
     if (model.tolerance > kMostTolerance * model.diagonal) {
         throw InvalidInput("io.tolerance", "the tolerance " + std::to_string(model.tolerance) +
@@ -245,10 +248,15 @@ void stitch(topology::Model& model, const RunContext& context)
                                                std::to_string(model.diagonal) +
                                                "), so faces would fall together; give a smaller one");
     }
-    const healing::StitchReport report = healing::stitch(model, model.tolerance, context);
+    const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
+    healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
     if (report.changed()) log_line(context, report.summary());
-    model.notes.insert(model.notes.end(), report.notes.begin(), report.notes.end());
-    for (const std::string& note : model.notes) log_line(context, note);
+    move_in(loaded.warnings, report.sewn);
+    move_in(model.notes, report.notes);
+    for (const std::string& note : model.notes) {
+        const bool told = std::ranges::find(loaded.warnings, note) != loaded.warnings.end();
+        log_line(context, told ? "note: " + note : note);
+    }
 }
 
 } // namespace
@@ -269,17 +277,18 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         throw InvalidInput("io.no_such_part", "without: " + options.without.front() +
                                                   ": parts are of finite element meshes, and none is read");
     LoadedFiles loaded{.scale = options.scale};
-    if (!other.empty()) loaded.model = others.import(other, options, context);
+    if (!other.empty()) loaded = others.import(other, options, context);
     if (!facets.empty()) {
         LoadedFiles more = import_facets(facets, options, context);
         loaded.decks = std::move(more.decks);
+        move_in(loaded.warnings, more.warnings);
         if (other.empty())
             loaded.model = std::move(more.model);
         else
             append(loaded.model, std::move(more.model));
     }
     if (!other.empty()) topology::build_loops(loaded.model, context);
-    stitch(loaded.model, context);
+    stitch(loaded, options, context);
     return loaded;
 }
 

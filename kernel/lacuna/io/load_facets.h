@@ -35,7 +35,7 @@ struct FacetFile {
 /// |---|---|---|
 /// | .stl | text with several solids; binary | a solid, counted |
 /// | .obj | points and polygons; more than four corners are split | an `o` or `g` line, counted |
-/// | .msh | 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
+/// | .msh | 1.0, 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
 /// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a property; a group |
 /// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
 /// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section; a set or surface |
@@ -65,11 +65,21 @@ struct LoadOptions {
     std::vector<std::string> without{};
 };
 
+/// A model and the meshes it was made of.
+struct LoadedFiles {
+    topology::Model model{};
+    /// Of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
+    std::vector<std::shared_ptr<const Deck>> decks{};
+    double scale = 1; ///< of the model's coordinates to the decks' [-]
+    /// Of the model's notes those about what was read otherwise than it stands, which everybody should see.
+    std::vector<std::string> warnings{};
+};
+
 /// Formats that somebody else reads, all files of theirs at once.
 struct OtherFormats {
     std::string_view endings; ///< in lower case, a blank between: ".step .stp"
-    std::function<topology::Model(const std::vector<std::string>& paths, const LoadOptions& options,
-                                  const RunContext& context)>
+    std::function<LoadedFiles(const std::vector<std::string>& paths, const LoadOptions& options,
+                              const RunContext& context)>
         import;
 };
 
@@ -82,13 +92,6 @@ struct OtherFormats {
 topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options = {},
                             const RunContext& context = {}, const OtherFormats& others = {});
 
-/// A model and the meshes it was made of.
-struct LoadedFiles {
-    topology::Model model{};
-    /// Of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
-    std::vector<std::shared_ptr<const Deck>> decks{};
-    double scale = 1; ///< of the model's coordinates to the decks' [-]
-};
 /// load_facets() that hands the meshes over as well.
 LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions& options = {},
                        const RunContext& context = {}, const OtherFormats& others = {});

@@ -90,7 +90,7 @@ public:
         }
         if (version_ == 0) cursor_.fail("this is no MSH file: it has no $MeshFormat");
         if (!nodes_known_) cursor_.fail("the file has no $Nodes");
-        if (version_ == 2) merge_copies();
+        if (version_ != 4) merge_copies();
         take_groups();
     }
 
@@ -102,7 +102,10 @@ public:
 private:
     void read_section(const std::string& name)
     {
-        if (name == "MeshFormat")
+        if (version_ <= 1 && (name == "NOD" || name == "ELM")) {
+            into_.deck().version = version_ = 1;
+            name == "NOD" ? read_nodes_2() : read_elements_1();
+        } else if (name == "MeshFormat")
             read_format();
         else if (version_ == 0 && name != "Comments")
             cursor_.fail("expected $MeshFormat first");
@@ -120,7 +123,7 @@ private:
             cursor_.fail("the file ends within $" + name);
         else
             return void(cursor_.line());
-        if (cursor_.full_line() != "$End" + name)
+        if (!same_word(cursor_.full_line(), "$End" + name))
             cursor_.fail("expected $End" + name + ": $" + name + " holds more than it announces");
     }
 
@@ -130,7 +133,7 @@ private:
         const std::int64_t binary = cursor_.text_integer();
         const std::int64_t bytes = cursor_.text_integer();
         if (version != 4.1 && version != 4 && !(version >= 2 && version < 3))
-            cursor_.fail("expected version 2.2, 4.0 or 4.1; save the mesh anew as one of them");
+            cursor_.fail("expected version 1.0, 2.2, 4.0 or 4.1; save the mesh anew as one of them");
         if (bytes != 8)
             cursor_.fail("numbers of " + std::to_string(bytes) + " bytes are not read; expected 8");
         version_ = version >= 4 ? 4 : 2;
@@ -151,21 +154,25 @@ private:
         const std::int64_t count = cursor_.text_integer();
         cursor_.line();
         for (std::int64_t i = 0; i < count; ++i) {
-            MshGroup group;
-            if (cursor_.at_end()) cursor_.fail("the file ends within $PhysicalNames");
-            group.dimension = text_int();
-            group.tag = text_int();
-            const std::string_view rest = cursor_.line_end();
-            const std::size_t first = rest.find('"');
-            const std::size_t last = rest.rfind('"');
+            if (!cursor_.more()) cursor_.fail("the file ends within $PhysicalNames");
+            const std::string_view line = cursor_.line();
+            const std::size_t first = line.find('"');
+            const std::size_t last = line.rfind('"');
             if (first == std::string_view::npos || last == first) cursor_.fail("expected a name in quotes");
-            names_[{group.dimension, group.tag}] = std::string(rest.substr(first + 1, last - first - 1));
+            Cursor numbers = cursor_.part(line.substr(0, first));
+            const auto next = [&] { return small_int(numbers.more() ? numbers.word() : std::string_view()); };
+            // Version 2.0 does not say the dimension.
+            int dimension = -1, tag = next();
+            if (numbers.more() || into_.deck().version > 2) {
+                dimension = tag;
+                tag = next();
+            }
+            names_[{dimension, tag}] = std::string(line.substr(first + 1, last - first - 1));
         }
     }
 
-    int text_int()
+    int small_int(std::string_view word) const
     {
-        const std::string_view word = cursor_.word("a number");
         const auto value = parse_integer<int>(word);
         if (!value) cursor_.fail("expected a small whole number, found " + shown(word));
         return *value;
@@ -484,6 +491,26 @@ private:
             else
                 cursor_.integer();
         }
+        add_cell(type, tag, physical, entity);
+    }
+
+    void read_elements_1()
+    {
+        const std::uint64_t count = cursor_.plausible(cursor_.size(), 24, 6);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint64_t tag = node_tag();
+            const ElementType type = type_of(cursor_, cursor_.integer());
+            const int physical = group_tag(), entity = cursor_.integer(), nodes = cursor_.integer();
+            if (nodes != type.nodes)
+                cursor_.fail("a cell of type " + std::to_string(type.type) + " has " +
+                             std::to_string(type.nodes) + " nodes, not " + std::to_string(nodes));
+            expect_cells(type, 0);
+            add_cell(type, tag, physical, entity);
+        }
+    }
+
+    void add_cell(const ElementType& type, std::uint64_t tag, int physical, int entity)
+    {
         if (physical != 0) members_[{type.dimension, physical}].insert(entity);
         if (is_kept(type)) enter(type, entity, physical);
         take_cell(type, tag, [&] { return node_tag(); });
@@ -538,6 +565,10 @@ private:
 
     void take_groups()
     {
+        for (const auto& [key, entities] : members_)
+            if (const auto name = names_.find({-1, key.second}); name != names_.end())
+                names_.try_emplace(key, name->second);
+        std::erase_if(names_, [](const auto& name) { return name.first.first < 0; });
         for (const auto& [key, name] : names_) members_[key];
         Deck& deck = into_.deck();
         for (const auto& [key, entities] : members_) {
@@ -676,7 +707,7 @@ private:
     std::vector<Place> place_of_;                ///< of each region
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
     std::map<std::size_t, std::pair<std::size_t, bool>> named_by_; ///< of regions: cells, whether by number
-    std::map<Key, std::string> names_;
+    std::map<Key, std::string> names_;           ///< dimension -1: not said
     std::map<Key, std::set<int>> members_;
     std::map<Key, int> whole_of_; ///< of entities that are parts
     std::map<Key, std::size_t> others_;

@@ -38,7 +38,7 @@ struct MshCells {
     int order = 1;                  ///< highest order among the hexahedra
 };
 
-/// Read an MSH file: 2.x, 4.0 or 4.1, binary or text. Sections it does not know are passed over.
+/// Read an MSH file: 1.0, 2.x, 4.0 or 4.1, binary or text. Sections it does not know are passed over.
 /// @throw InvalidInput  the file is not there, not such a file, cut off or at odds with itself; says where.
 MshCells read_msh(const std::string& path);
 

@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace lacuna::io {
@@ -10,6 +11,9 @@ namespace {
 constexpr std::size_t kField = 8;       // characters of a small field, and of the first and last of each line
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
+/// Cards that replication may make in any deck; larger ones may make one more for each sixteen of their
+/// bytes, so that a count that lies costs no memory. A choice.
+constexpr std::size_t kReplicas = 10'000;
 
 std::string upper(std::string_view text)
 {
@@ -24,9 +28,45 @@ bool begins_with(std::string_view line, std::string_view word)
            (line.size() == word.size() || std::isalnum(static_cast<unsigned char>(line[word.size()])) == 0);
 }
 
-bool begins_bulk(std::string_view line)
+bool is_bulk_line(std::string_view line, std::string_view word)
 {
-    return begins_with(line, "BEGIN") && upper(line).find("BULK") != std::string::npos;
+    if (!begins_with(line, word)) return false;
+    const std::string text = upper(line);
+    return text.find("BULK") != std::string::npos || text.find("SUPER") != std::string::npos;
+}
+
+/// Cards that hold text, equations and labels, where commas part no fields.
+constexpr std::string_view kTextCards[] = {"DEQATN", "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "UDNAME"};
+
+/// Whether commas part the fields: the first one ends a word, as it does not in text that stands in columns.
+bool is_free(std::string_view line)
+{
+    const std::string_view before = line.substr(0, line.find(','));
+    if (before.size() == line.size()) return false;
+    const std::string_view word = trimmed(before);
+    return word.empty() ||
+           (before.find_first_not_of(" \t") < kField && word.find_first_of(" \t") == std::string_view::npos);
+}
+
+/// The n of `*n` and `*(n)`, `=n` and `=(n)`.
+std::string_view replication_value(std::string_view field)
+{
+    field.remove_prefix(1);
+    if (field.starts_with('(') && field.ends_with(')')) field = field.substr(1, field.size() - 2);
+    return trimmed(field);
+}
+
+/// A field that replication makes larger by a step, which is whole where the field is.
+std::string stepped(std::string_view field, std::string_view step, const DeckPlace& place)
+{
+    const auto whole = parse_integer<Index>(field), by = parse_integer<Index>(step);
+    if (whole && by) return std::to_string(std::int64_t(*whole) + *by);
+    const auto real = parse_real(field, Exponents::fortran), more = parse_real(step, Exponents::fortran);
+    if (whole || !real || !more)
+        place.fail("cannot add " + shown(step) + " to " + shown(field) + " of the card that is replicated");
+    std::array<char, 32> text{};
+    std::string sum(text.data(), std::to_chars(text.data(), text.data() + text.size(), *real + *more).ptr);
+    return sum.find_first_of(".e") == std::string::npos ? sum + '.' : sum; // or it would be a whole number
 }
 
 bool is_large(std::string_view first) { return first.find('*') != std::string_view::npos; }
@@ -87,9 +127,10 @@ std::string Card::text(std::size_t first) const
     return all;
 }
 
-BulkData::BulkData(Cursor& cursor) : main_(cursor), start_(cursor), files_(cursor), bulk_(true)
+BulkData::BulkData(Cursor& cursor)
+    : main_(cursor), start_(cursor), files_(cursor), bulk_(true), room_(kReplicas + cursor.rest().size() / 16)
 {
-    for (Cursor scout = cursor; bulk_ && !scout.at_end();) bulk_ = !begins_bulk(scout.line());
+    for (Cursor scout = cursor; bulk_ && !scout.at_end();) bulk_ = !is_bulk_line(scout.line(), "BEGIN");
 }
 
 void BulkData::read(const std::function<CardUse(std::string_view)>& use,
@@ -124,22 +165,29 @@ void BulkData::read_file(Cursor& cursor, std::uint64_t file, int depth)
         const std::string_view raw = cursor.raw_line();
         const std::string_view line = raw.substr(0, raw.find('$'));
         const std::string_view words = trimmed(line);
+        std::string& outside = tail_.empty() ? head_ : tail_;
         if (words.empty()) {
-            keep(bulk_ ? kept_ : head_, raw);
+            keep(bulk_ ? kept_ : outside, raw);
         } else if (begins_with(words, "INCLUDE")) {
             include(cursor, words.substr(7), file, depth);
-        } else if (begins_with(words, "BEGIN") && upper(words).find("SUPER") != std::string::npos) {
-            cursor.fail("superelements are not read; write the deck as one");
-        } else if (begins_bulk(words)) {
+        } else if (is_bulk_line(words, "BEGIN")) {
+            end_card();
             bulk_ = true;
-            keep(head_, raw);
+            if (upper(words).find("SUPER") == std::string::npos)
+                keep(head_, raw);
+            else if (++superelements_ == 1)
+                first_superelement_ = {&cursor, cursor.last(), file};
+        } else if (is_bulk_line(words, "END")) {
+            end_card();
+            bulk_ = false;
+            if (tail_.empty()) tail_ = "ENDDATA\n";
         } else if (begins_with(words, "ENDDATA")) {
             ended_ = true;
             keep(tail_, raw);
         } else if (bulk_) {
             read_line(cursor, file, line, raw);
         } else {
-            keep(head_, raw);
+            keep(outside, raw);
         }
     }
 }
@@ -161,6 +209,16 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
     Cursor& included = files_.include(name, place, depth);
     read_file(included, files_.last(), depth + 1);
     end_card();
+}
+
+/// The fields of a line, as `line_`.
+void BulkData::split(const Cursor& cursor, std::string_view line)
+{
+    line_.clear();
+    if (is_free(line))
+        free_fields(cursor, line);
+    else
+        fixed_fields(line);
 }
 
 void BulkData::free_fields(const Cursor& cursor, std::string_view line)
@@ -207,81 +265,179 @@ void BulkData::fixed_fields(std::string_view line)
 void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_view line,
                          std::string_view raw)
 {
-    line_.clear();
-    if (line.find(',') != std::string_view::npos)
-        free_fields(cursor, line);
-    else
-        fixed_fields(line);
-    const std::string_view first = line_.front();
-    if (first.empty() || first[0] == '+' || first[0] == '*') {
-        const DeckPlace place{&cursor, cursor.last(), file};
-        const bool both_named = first.size() > 1 && marker_.size() > 1;
-        const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
-        // Behind a card that names none, a name is a mark of somebody's, where no line names any.
-        const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && names_continuations();
-        if (first.size() > 1 && (!open_ || another || unsaid)) return take_elsewhere(place, raw);
-        if (!open_) cursor.fail("a continuation " + shown(first) + " of no card");
-        check_half(card_, is_large(first), place);
-    } else {
-        end_card();
-        const std::string_view name = first.substr(0, first.find('*'));
-        const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
-        if (std::isalpha(static_cast<unsigned char>(first[0])) == 0 || name.size() > kField ||
-            !std::ranges::all_of(name, fits))
-            cursor.fail("expected the name of a bulk data card, found " + shown(first));
-        open_ = true;
-        card_.place = {&cursor, cursor.last(), file};
-        card_.name.assign(name);
-        for (char& c : card_.name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        card_use_ = use_(card_.name);
+    const DeckPlace place{&cursor, cursor.last(), file};
+    const auto text_card = std::ranges::find_if(
+        kTextCards, [&](std::string_view name) { return begins_with(line, name); });
+    if (text_card != std::end(kTextCards)) {
+        begin_card(*text_card, place);
+        text_ = true;
+    } else if (!text_ || std::isalnum(static_cast<unsigned char>(line.front())) != 0 || line[0] == '=') {
+        split(cursor, line);
+        if (!take_fields(place)) return take_elsewhere(place, raw);
     }
-    marker_ = line_.back();
     if (card_use_ != CardUse::read) {
         kept_ += raw;
         kept_ += '\n';
     }
-    if (card_use_ != CardUse::keep)
-        card_.fields.insert(card_.fields.end(), line_.begin() + 1, line_.end() - 1);
+}
+
+/// The fields in `line_`. @return false  they are of a card elsewhere.
+bool BulkData::take_fields(const DeckPlace& place)
+{
+    const std::string_view first = line_.front();
+    if (first.starts_with('=') && first.size() > 1) {
+        replicate(replication_value(first), place);
+        return true;
+    }
+    if (first.empty() || first[0] == '+' || first[0] == '*') {
+        const bool both_named = first.size() > 1 && marker_.size() > 1;
+        const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
+        // Behind a card that names none, a name that no line gives is a mark of somebody's.
+        const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
+        if (first.size() > 1 && (!open_ || another || unsaid)) return false;
+        if (!open_) place.fail("a continuation " + shown(first) + " of no card");
+        check_half(card_, is_large(first), place);
+    } else if (const std::string_view name = first.substr(0, first.find('*')); !replicates(name)) {
+        begin_card(name, place);
+    } else {
+        if (!open_ || (card_use_ != CardUse::keep && is_named(marker_)))
+            place.fail("expected the card that = repeats right above it, whole");
+        begin_replica(place);
+        steps_.clear();
+    }
+    marker_ = line_.back();
+    if (card_use_ == CardUse::keep) return true;
+    if (!replica_) card_.fields.insert(card_.fields.end(), line_.begin() + 1, line_.end() - 1);
+    if (!replica_) return true;
+    const auto rest = std::find(line_.begin() + 1, line_.end() - 1, "==");
+    std::for_each(line_.begin() + 1, rest, [&](std::string_view field) { add_replicated(field); });
+    while (rest + 1 != line_.end() && card_.fields.size() < pattern_.size()) add_replicated("=");
+    return true;
+}
+
+/// Whether the card in `line_` says what it repeats of the card before it, of the same name or without one.
+bool BulkData::replicates(std::string_view name) const
+{
+    const bool same = open_ && card_use_ != CardUse::keep && same_word(card_.name, name);
+    const auto is_rule = [](std::string_view field) {
+        return field.starts_with('=') || field.starts_with('*');
+    };
+    return name == "=" || (same && std::any_of(line_.begin() + 1, line_.end() - 1, is_rule));
+}
+
+void BulkData::begin_card(std::string_view name, const DeckPlace& place)
+{
+    const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
+    const bool nameless = parse_integer<Index>(name).has_value();
+    if (!nameless && (std::isalpha(static_cast<unsigned char>(name.empty() ? ' ' : name[0])) == 0 ||
+                      name.size() > kField || !std::ranges::all_of(name, fits)))
+        place.fail("expected the name of a bulk data card, found " + shown(name));
+    end_card();
+    open_ = true;
+    replica_ = text_ = false;
+    kept_begin_ = kept_.size();
+    card_.place = place;
+    card_.name = nameless ? std::string() : upper(name);
+    card_use_ = nameless ? CardUse::read : use_(card_.name);
 }
 
 void BulkData::end_card()
 {
     if (!std::exchange(open_, false)) return;
+    text_ = false;
     if (is_named(marker_)) {
         own_fields(card_);
         go_on({card_, card_use_, owned_.emplace_back(marker_), false, {}});
-    } else {
-        take_(card_);
+    } else if (!hand_over(card_, card_use_)) {
+        kept_.resize(kept_begin_);
     }
     card_.fields.clear();
     marker_ = {};
     while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
 }
 
-/// Whether a line of the deck names its continuation. The deck is looked through the first time it is asked.
-bool BulkData::names_continuations()
+/// Hand over a card, unless it is one of another superelement's once more. @return false  it is.
+bool BulkData::hand_over(const Card& card, CardUse use)
 {
-    if (!names_continuations_) {
-        names_continuations_ = false;
+    if (use == CardUse::both) {
+        const auto [known, fresh] = known_.emplace(card.name + ' ' + std::string(card.field(2)),
+                                                   std::pair(superelements_, card.text(3)));
+        const bool again = !fresh && known->second.first != superelements_;
+        if (again && known->second.second != card.text(3))
+            card.fail("superelements are read as one deck, and another has another " + known->first +
+                      "; renumber one of them");
+        if (again) return false;
+    }
+    take_(card);
+    return true;
+}
+
+// --- replication -------------------------------------------------------------------------------------------
+
+/// A card made of the one before it, which is still open and becomes the pattern.
+void BulkData::begin_replica(const DeckPlace& place)
+{
+    pattern_.assign(card_.fields.begin(), card_.fields.end());
+    end_card();
+    generated_.clear();
+    open_ = replica_ = true;
+    kept_begin_ = kept_.size();
+    card_.place = place;
+}
+
+/// The next field of a replica: `=` is the pattern's, `*(n)` that and n, here and in replicas of this one.
+void BulkData::add_replicated(std::string_view field)
+{
+    const std::size_t at = card_.fields.size();
+    pattern_.resize(std::max(pattern_.size(), at + 1));
+    steps_.resize(std::max(steps_.size(), at + 1));
+    if (field.starts_with('*'))
+        steps_[at] = replication_value(field);
+    else if (field != "=")
+        pattern_[at] = field;
+    card_.fields.push_back(generated_.emplace_back(
+        steps_[at].empty() ? pattern_[at] : stepped(pattern_[at], steps_[at], card_.place)));
+}
+
+/// `=(n)`: n more of the replica above.
+void BulkData::replicate(std::string_view count, const DeckPlace& place)
+{
+    const auto times = parse_integer<Index>(count);
+    if (!times || *times < 1 || !open_ || !replica_ || is_named(marker_))
+        place.fail("expected =n with a count above 0 right below a card that begins with =, found =" +
+                   std::string(count.substr(0, kField)));
+    if (index(*times) > room_)
+        place.fail("=" + std::to_string(*times) +
+                   " makes more cards than a deck of this size may; write them out");
+    room_ -= index(*times);
+    for (Index n = 0; n < *times && card_use_ != CardUse::keep; ++n) {
+        begin_replica(place);
+        for (std::size_t k = pattern_.size(); k > 0; --k) add_replicated("=");
+    }
+}
+
+// --- continuations -----------------------------------------------------------------------------------------
+
+/// Whether a line of the deck names this continuation. The deck is looked through the first time it is asked.
+bool BulkData::is_awaited(std::string_view name)
+{
+    if (!awaited_) {
+        awaited_.emplace();
         const std::vector<std::string_view> line = line_;
         const std::size_t before = expanded_.size();
-        for (Cursor scout = start_; !scout.at_end() && !*names_continuations_;) {
+        for (Cursor scout = start_; !scout.at_end();) {
             const std::string_view raw = scout.raw_line();
             const std::string_view words = raw.substr(0, raw.find('$'));
-            line_.clear();
             // Lines of too many fields are refused when their turn comes.
-            if (words.find(',') == std::string_view::npos)
-                fixed_fields(words);
-            else if (std::ranges::count(words, ',') <= static_cast<std::ptrdiff_t>(kFields) + 1)
-                free_fields(scout, words);
-            else
-                continue;
-            names_continuations_ = is_named(line_.back());
+            if (std::ranges::count(words, ',') > static_cast<std::ptrdiff_t>(kFields) + 1) continue;
+            split(scout, words);
+            if (is_named(line_.back())) awaited_->push_back(upper(line_.back().substr(1)));
             while (expanded_.size() > before) expanded_.pop_back();
         }
+        std::ranges::sort(*awaited_);
         line_ = line;
     }
-    return *names_continuations_;
+    return std::ranges::binary_search(*awaited_, upper(name));
 }
 
 /// Fields that stay when the line they are of has gone.
@@ -330,7 +486,7 @@ void BulkData::go_on(Waiting waiting)
         }
         continuations_.erase(next);
     }
-    take_(waiting.card);
+    hand_over(waiting.card, waiting.use);
 }
 
 void BulkData::finish()
@@ -345,9 +501,9 @@ void BulkData::finish()
                        " is a continuation of no card");
     }
     // What they name never came: a mark of somebody's.
-    std::map<std::uint64_t, const Card*> in_order;
-    for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting.card);
-    for (const auto& [place, card] : in_order) take_(*card);
+    std::map<std::uint64_t, const Waiting*> in_order;
+    for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting);
+    for (const auto& [place, waiting] : in_order) hand_over(waiting->card, waiting->use);
     cards_.clear();
 }
 

@@ -50,6 +50,7 @@ public:
             bulk_.files().place_of(place).fail(what);
         });
         finish_properties();
+        if (bulk_.superelements() > 0) finish_superelements();
         into_.deck().texts = bulk_.texts();
     }
 
@@ -69,7 +70,8 @@ private:
     static CardUse use_of(std::string_view name)
     {
         if (name == "GRID" || name == "GRDSET" || element_card(name) != nullptr) return CardUse::read;
-        const bool both = std::ranges::find(kFrameCards, name) != std::end(kFrameCards) ||
+        const bool both = name.starts_with("MAT") || name == "SELOC" || name == "SEBULK" ||
+                          std::ranges::find(kFrameCards, name) != std::end(kFrameCards) ||
                           std::ranges::find(kPropertyCards, name, &PropertyCard::name) !=
                               std::end(kPropertyCards);
         return both ? CardUse::both : CardUse::keep;
@@ -85,8 +87,17 @@ private:
             take_property(card, property->material);
         else if (std::ranges::find(kFrameCards, card.name) != std::end(kFrameCards))
             take_frame(card);
+        else if (card.name == "SELOC" || (card.name == "SEBULK" && is_copy(card.field(3))))
+            card.fail(
+                "superelements that are moved, repeated or mirrored are not read; write the deck as one");
         else
-            into_.pass_over(card.name);
+            into_.pass_over(card.name.empty() ? "lines without the name of a card" : card.name);
+    }
+
+    /// Whether a superelement of this type is another one put elsewhere.
+    static bool is_copy(std::string_view type)
+    {
+        return same_word(type, "REPEAT") || same_word(type, "MIRROR");
     }
 
     void take_defaults(const Card& card)
@@ -249,6 +260,22 @@ private:
         if (node < 0)
             place.fail("the coordinate system names node " + std::to_string(tag) + ", which is not there");
         return in_basic(index(node));
+    }
+
+    /// What is of one superelement alone must not be of another in the deck they are read as.
+    void finish_superelements()
+    {
+        const DeckPlace& place = bulk_.first_superelement();
+        if (default_frame_ != 0) place.fail("GRDSET of superelements that are read as one deck is ambiguous");
+        std::vector<DeckTag> tags;
+        for (const DeckBlock& block : into_.deck().blocks)
+            tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+        const TagPlaces elements(tags, [&](Index, Index again) {
+            place.fail("superelements are read as one deck, and element " +
+                       std::to_string(tags[index(again)]) + " is there twice; renumber one of them");
+        });
+        into_.warn("read as one deck with its superelements, of which there are " +
+                   std::to_string(bulk_.superelements()));
     }
 
     /// An element without a property has that of its own number. Where no card gives such properties, all

@@ -17,23 +17,27 @@ public:
     void read()
     {
         while (!cursor_.at_end()) {
-            line_ = cursor_.line();
+            line_ = without_comment(cursor_.line());
             const std::size_t begin = cursor_.last();
-            // A line that ends with a backslash goes on with the next.
+            // A line that ends with a backslash goes on with the next; a comment does not.
             std::string joined;
             while (line_.ends_with('\\')) {
                 if (joined.empty()) joined = line_;
                 joined.back() = ' ';
-                joined += cursor_.at_end() ? std::string_view() : cursor_.line();
+                joined += cursor_.at_end() ? std::string_view() : without_comment(cursor_.line());
                 line_ = joined;
             }
-            line_ = line_.substr(0, line_.find('#'));
             begin_ = begin;
             read_line();
         }
     }
 
 private:
+    static std::string_view without_comment(std::string_view line)
+    {
+        return trimmed(line.substr(0, line.find('#')));
+    }
+
     void read_line()
     {
         const std::string_view word = next_word();

@@ -34,7 +34,7 @@ public:
             cursor_.expect("solid");
             begin_solid(cursor_.line_end());
             while (same_word(cursor_.word("facet or endsolid"), "facet")) read_facet();
-            cursor_.expect_last("endsolid");
+            end_of("solid");
             cursor_.line_end();
         } while (cursor_.more());
     }
@@ -91,9 +91,20 @@ private:
             cursor_.expect("vertex");
             p = cursor_.point();
         }
-        cursor_.expect("endloop");
-        cursor_.expect("endfacet");
+        cursor_.word("endloop");
+        end_of("loop");
+        cursor_.word("endfacet");
+        end_of("facet");
         add(corner);
+    }
+
+    /// See that the last word ends a thing, in one word or in two.
+    void end_of(const std::string& thing)
+    {
+        if (same_word(cursor_.last_word(), "end"))
+            cursor_.expect(thing);
+        else
+            cursor_.expect_last("end" + thing);
     }
 
     void read_binary_facets(std::size_t count)

@@ -49,13 +49,23 @@ public:
 
     void read()
     {
+        std::size_t datasets = 0;
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
-            if (line != kMark) cursor_.fail("expected -1, which begins a dataset, found " + shown(line));
+            if (line != kMark) {
+                // Text between them; numbers alone are what a dataset lacks or has too many.
+                split(line);
+                if (std::ranges::all_of(numbers_, [](auto word) { return parse_real(word).has_value(); }))
+                    cursor_.fail("expected -1, which begins a dataset, found " + shown(line));
+                into_.pass_over("lines between datasets");
+                continue;
+            }
+            ++datasets;
             const auto dataset = cursor_.integer_of(cursor_.full_line());
             if (!read_dataset(static_cast<int>(std::clamp<std::int64_t>(dataset, -1, 100000))))
                 text_ += whole_.substr(begin, cursor_.position() - begin);
         }
+        if (datasets == 0) cursor_.fail_at(0, "expected -1, which begins a dataset, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
             cursor_.fail("node " + std::to_string(node + 1) + " of the file has the tag of one before");
         });
@@ -126,14 +136,18 @@ private:
         do {
             if (!more_lines()) return false;
         } while (line_.empty());
+        split(line_);
+        return true;
+    }
+
+    void split(std::string_view rest)
+    {
         numbers_.clear();
-        std::string_view rest = line_;
         while (!(rest = trimmed(rest)).empty()) {
             const std::size_t length = std::min(rest.find_first_of(" \t\r"), rest.size());
             numbers_.push_back(rest.substr(0, length));
             rest.remove_prefix(length);
         }
-        return true;
     }
 
     void expect_line(const char* what)
@@ -213,6 +227,7 @@ private:
         }
         if (tag < 0)
             cursor_.fail_at(position, "expected the tag of an element, found " + std::to_string(tag));
+        if (index(nodes) > wanted) into_.pass_over_nodes(std::to_string(descriptor), index(nodes) - wanted);
         DeckShape shape = kind.corners == 3 ? DeckShape::tri3 : DeckShape::quad4;
         if (kind.solid != nullptr) shape = kind.solid->shape;
         // Cubic faces give their corners.

@@ -16,7 +16,8 @@ struct Hollow {
 };
 
 /// The hollows of closed skins: faces that hang together over edges where the skin bends inward, or smoothly,
-/// and face the space they surround. An outer skin is no hollow, and neither is a skin with free edges.
+/// and face the space they surround. A skin that lies within another one surrounds a void inside the solid,
+/// whichever way its facets are wound. An outer skin is no hollow, and neither is a skin with free edges.
 /// Hollows that share a whole rim, as a bore and what widens it, are told apart.
 /// @return in the order of their first faces; none where the faces cannot be oriented.
 /// @throw Cancelled

@@ -28,7 +28,8 @@ struct CadFiles {
     cad_protocol::LoadRequest request;
     std::vector<cad_protocol::Descriptor> descriptors;
     std::uint64_t bytes = 0;
-    std::uint64_t digest = 0; ///< of all contents and their names
+    std::uint64_t digest = 0;       ///< of all contents and their names
+    std::vector<std::string> notes; ///< commands of scripts that are left out
 };
 
 /// @throw as open_input()

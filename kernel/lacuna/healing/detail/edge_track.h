@@ -20,6 +20,7 @@ public:
         double s = 0;        ///< place on the polyline: 2.25 is a quarter of the way from point 2 to point 3
         double param = 0;    ///< of the curve; 0 without one
         double distance = 0; ///< of the point asked about [model length]
+        Vec3 at = Vec3::Zero();
     };
     /// The place closest to each point, wherever it is.
     [[nodiscard]] std::vector<EdgePosition> locate(std::span<const Vec3> points, double tolerance,

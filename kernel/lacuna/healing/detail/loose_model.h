@@ -39,6 +39,11 @@ public:
     void join(Index gone, Index stays);
     /// Let vertex `gone` be `stays`, and their points join. @pre `stays` is joined to none.
     void join(VertexId gone, VertexId stays);
+    void move(Index p, const Vec3& to)
+    {
+        model_.points[index(p)] = to;
+        touched_[index(p)] = true;
+    }
     struct Shrunk {
         std::vector<FaceId> faces;  ///< went
         std::vector<FaceId> meshes; ///< whose given quads went, since some shrank

@@ -88,6 +88,8 @@ public:
     bool more();
     /// Read the next word, which must be this one but for capitals.
     void expect(std::string_view wanted);
+    /// What was read last.
+    [[nodiscard]] std::string_view last_word() const { return data_.substr(last_, at_ - last_); }
     /// See that the last word was this one.
     void expect_last(std::string_view wanted) const;
     /// Go behind the next place of `text`. @return false  there is none; then nothing moves.

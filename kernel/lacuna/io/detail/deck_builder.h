@@ -72,6 +72,14 @@ public:
     /// Count what is not taken.
     void pass_over(const std::string& what, std::size_t count = 1);
 
+    /// Leave out nodes that an element lists beyond those of its type.
+    void pass_over_nodes(const std::string& type, std::size_t count)
+    {
+        further_nodes_[type] = std::max(further_nodes_[type], count);
+    }
+    /// Say what was read otherwise than it stands: a sentence without the file's name.
+    void warn(const std::string& text) { deck_.warnings.push_back(text); }
+
     /// What was gathered. @throw InvalidInput "io.unreadable" (a point too far away)
     Deck take(const std::string& path);
 
@@ -83,7 +91,8 @@ private:
     std::map<std::pair<int, int>, Index> regions_;
     std::vector<std::vector<std::uint64_t>> places_; ///< of the elements of each block
     std::map<std::string, std::size_t> passed_over_;
-    DeckTag elements_ = 0; ///< counted
+    std::map<std::string, std::size_t> further_nodes_; ///< by the elements' type, at most
+    DeckTag elements_ = 0;                             ///< counted
 };
 
 void read_stl(Cursor& cursor, DeckBuilder& into);

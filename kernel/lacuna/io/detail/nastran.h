@@ -41,9 +41,10 @@ enum class CardUse { read, keep, both };
 
 /// The cards of a deck and of the files it includes, which lie in its folder or below.
 ///
-/// A deck without BEGIN BULK is bulk data from its first line. Free, small and large fields, tabs, capitals
-/// or not, continuations that follow their card or, where they are named (+A1), lie anywhere. A card whose
-/// continuation comes later is handed over when it has come; one that names one that never comes, at the end.
+/// A deck without BEGIN BULK is bulk data from its first line; the parts of superelements are read as one.
+/// Free, small and large fields, tabs, capitals or not, continuations that follow their card or, where they
+/// are named (+A1), lie anywhere. A card whose continuation comes later is handed over when it has come; one
+/// that names one that never comes, at the end. Replicated cards are handed over as if written out.
 class BulkData {
 public:
     explicit BulkData(Cursor& cursor);
@@ -54,14 +55,25 @@ public:
     /// What is kept: before the bulk data, in them, behind them.
     [[nodiscard]] std::vector<DeckText> texts() const;
     [[nodiscard]] const DeckFiles& files() const { return files_; }
+    /// Superelements so far, besides the main bulk data, and where the first of them begins.
+    [[nodiscard]] int superelements() const { return superelements_; }
+    [[nodiscard]] const DeckPlace& first_superelement() const { return first_superelement_; }
 
 private:
     void read_file(Cursor& cursor, std::uint64_t file, int depth);
     void include(Cursor& cursor, std::string_view rest, std::uint64_t file, int depth);
     void read_line(const Cursor& cursor, std::uint64_t file, std::string_view line, std::string_view raw);
+    bool take_fields(const DeckPlace& place);
+    void split(const Cursor& cursor, std::string_view line);
     void fixed_fields(std::string_view line);
     void free_fields(const Cursor& cursor, std::string_view line);
+    void begin_card(std::string_view name, const DeckPlace& place);
     void end_card();
+    bool hand_over(const Card& card, CardUse use);
+    void begin_replica(const DeckPlace& place);
+    bool replicates(std::string_view name) const;
+    void add_replicated(std::string_view field);
+    void replicate(std::string_view count, const DeckPlace& place);
 
     /// A card that waits for its continuation, or a continuation that waits for its card.
     struct Waiting {
@@ -71,7 +83,7 @@ private:
         bool large = false;
         std::string raw; ///< of a continuation alone
     };
-    bool names_continuations();
+    bool is_awaited(std::string_view name);
     void own_fields(Card& card);
     void take_elsewhere(const DeckPlace& place, std::string_view raw);
     void go_on(Waiting card);
@@ -89,9 +101,19 @@ private:
     std::deque<std::string> expanded_;   ///< lines of the card that held tabs
     std::string_view marker_;            ///< last field of the line before, which names its continuation
     bool open_ = false, bulk_ = false, ended_ = false;
+    bool text_ = false;                 ///< the card holds text, no fields
+    std::size_t kept_begin_ = 0;        ///< where the card's lines begin in `kept_`
+    std::vector<std::string> pattern_;  ///< fields of the card that is replicated
+    std::deque<std::string> generated_; ///< fields of the replica
+    std::vector<std::string> steps_;    ///< of fields: what each replica has more than the pattern
+    bool replica_ = false;
+    std::size_t room_; ///< for replicas still
+    int superelements_ = 0;
+    DeckPlace first_superelement_;
+    std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of cards kept
     std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
     std::deque<std::string> owned_;                             ///< fields of these
-    std::optional<bool> names_continuations_;
+    std::optional<std::vector<std::string>> awaited_; ///< names that lines give their continuations, sorted
 };
 
 /// Coordinate frames, each given by three points in another frame or by three nodes.
