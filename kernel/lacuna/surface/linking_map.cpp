@@ -238,7 +238,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     face_of_ = facets.face;
     triangle_of_ = facets.number;
     if (upright.empty()) measure_heights(model);
-    if (upright.size() <= 1 && !runs_straight(model, link)) measure_columns(model, link, context);
+    const bool creased = upright.size() > link.lines.size(); // columns run along the creases
+    if (!creased && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
 }
 
@@ -316,6 +317,10 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         most_turned_ = std::max(most_turned_, std::abs(turn_));
         bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kBends;
     }
+    std::vector<double> knots{0}; // side lines stay upright, each column between two keeps its share
+    for (const LinkingLine& line : link.lines)
+        if (line.source_at > 0) knots.push_back(line.source_at / link.source.length());
+    knots.push_back(1);
     double worst = 0;
     for (std::size_t k = 0; k < round.size(); ++k) {
         const double up = static_cast<double>(k) / rows;
@@ -323,7 +328,13 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         columns_.emplace_back();
         for (std::size_t i = 0; i <= kColumnsRound; ++i) {
             const double s = static_cast<double>(i) / kColumnsRound;
-            const double at = frame + (1 - up) * value_at(round.front(), s) + up * value_at(round.back(), s);
+            const auto to = std::upper_bound(knots.begin() + 1, knots.end() - 1, s), from = to - 1;
+            const auto share = [&](const std::vector<double>& of) {
+                return (value_at(of, s) - value_at(of, *from)) / (value_at(of, *to) - value_at(of, *from));
+            };
+            const double low = value_at(round[k], *from), high = value_at(round[k], *to);
+            const double f = (1 - up) * share(round.front()) + up * share(round.back());
+            const double at = frame + low + f * (high - low);
             const geometry::PolylinePlace place = geometry::place_at(round[k], at - std::floor(at));
             columns_[k].push_back(std::floor(at) +
                                   (static_cast<double>(place.segment) + place.fraction) / kColumnsRound);

@@ -24,10 +24,10 @@ struct WallPosition {
 /// the side lines, which are upright. So the map is one to one (Tutte) whatever faces the walls are made of:
 /// stacked, in rows, with seams that do not line up.
 ///
-/// Lines of one harmonic s crowd on the inner side of a bend. So where there is no side line, or one alone,
-/// and the walls are not straight, s is the share of the length round a section, which is a line of one t.
-/// Sections are turned against each other as frames that are moved from one to the next with the least
-/// rotation. Where the rims tell another turn, the rest is spread evenly over the way.
+/// Lines of one harmonic s crowd on the inner side of a bend. So where the walls are not straight, s is the
+/// share of the length round a section, which is a line of one t, or from one side line to the next. Without
+/// side lines sections are turned against each other as frames that are moved from one to the next with the
+/// least rotation. Where the rims tell another turn, the rest is spread evenly over the way.
 class LinkingMap {
 public:
     /// @param void_edges  edges between void faces are among the rings and uprights.
