@@ -53,7 +53,7 @@
 ---@class lacuna.Roles
 ---@field source? lacuna.FaceRefs
 ---@field target? lacuna.FaceRefs
----@field walls? lacuna.FaceRefs|"auto" "auto": every face reachable from the source's rim that is not the target
+---@field walls? lacuna.FaceRefs|"auto" "auto": the source's cavity in a solid, else all that hangs on its rim
 ---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
 ---@field reading? integer with roles to be found: which of the voids that were found, from 1
 ---@field full_turn? boolean the walls are a ring, swept round its whole turn; no ends; default false

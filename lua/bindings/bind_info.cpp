@@ -136,8 +136,8 @@ std::string in_text(const topology::Model& model, const Info& info)
     }
     for (const closure::Cavity& cavity : info.cavities) {
         out << cavity.kind << ": open_volume{ faces = { " << tags(model, cavity.faces, cavity.faces.size())
-            << " } }, class " << topology::to_string(cavity.value) << ", volume " << number(cavity.volume)
-            << '\n';
+            << " } }, likely class " << topology::to_string(cavity.value) << ", volume "
+            << number(cavity.volume) << '\n';
     }
     return out.str();
 }

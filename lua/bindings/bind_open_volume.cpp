@@ -7,6 +7,7 @@
 #include <lacuna/cad/left_out.h>
 #include <lacuna/closure/branches.h>
 #include <lacuna/closure/readings.h>
+#include <lacuna/closure/walls_alone.h>
 #include <lacuna/core/progress.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/auto_walls.h>
@@ -125,7 +126,11 @@ std::vector<std::string> find_walls(const topology::Model& model, topology::Role
             "name one of them");
     const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
     roles.walls = found.walls;
+    std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;
+    end.insert(end.end(), found.more_of_end.begin(), found.more_of_end.end());
     std::vector<std::string> reasons;
+    if (found.of_cavity)
+        reasons.emplace_back("the given end lies in a cavity of a solid, whose other faces are the walls");
     for (std::size_t i = 0; i < found.left_out.size(); ++i) {
         reasons.push_back("no wall: " + topology::name_of(model, found.left_out[i]) +
                           ", for two faces of the " + "volume have " +
@@ -142,6 +147,22 @@ std::vector<FaceId> all_of(const topology::Roles& roles)
     return all;
 }
 
+/// The roles found for faces, or for walls named alone; nothing where they are as they were named.
+std::optional<closure::Reading> reading_of(const topology::Model& model, const RoleArguments& arguments,
+                                           const RunContext& context)
+{
+    if (!arguments.roles_named) {
+        cad::require_none_left_out(model, arguments.faces, "roles");
+        return closure::find_reading(model, arguments.faces, arguments.reading, context);
+    }
+    const topology::Roles& named = arguments.roles;
+    if (!named.source.empty() || !named.target.empty() || named.walls.empty() || arguments.override_class)
+        return std::nullopt;
+    auto found = closure::read_walls_alone(model, named.walls, arguments.reading == 1, context);
+    if (found) cad::require_none_left_out(model, named.walls, "roles");
+    return found;
+}
+
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
@@ -153,15 +174,14 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         }
         state.volume = topology::open_volume(model, arguments.roles, context);
         state.volume.full_turn = true;
-    } else if (!arguments.roles_named) {
-        cad::require_none_left_out(model, arguments.faces, "roles");
-        closure::Reading found = closure::find_reading(model, arguments.faces, arguments.reading, context);
-        state.volume = std::move(found.volume);
-        state.role_reasons = std::move(found.roles.reasons);
-        state.classification = std::move(found.classification);
-        state.closure = std::move(found.closure);
-        state.as_read = std::move(found.sealed);
-        if (!arguments.override_class) state.others = std::move(found.others);
+    } else if (auto found = reading_of(model, arguments, context)) {
+        state.volume = std::move(found->volume);
+        state.take_guess = true;
+        state.role_reasons = std::move(found->roles.reasons);
+        state.classification = std::move(found->classification);
+        state.closure = std::move(found->closure);
+        state.as_read = std::move(found->sealed);
+        if (!arguments.override_class) state.others = std::move(found->others);
     } else {
         if (arguments.auto_walls) {
             state.role_reasons = find_walls(model, arguments.roles, context);
@@ -179,7 +199,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         if (arguments.override_class) state.as_read.reset();
         state.classification = topology::classify(state.volume);
     }
-    state.take_guess = !arguments.roles_named || arguments.reading == 1;
+    state.take_guess = state.take_guess || !arguments.roles_named || arguments.reading == 1;
     state.name = arguments.name;
     state.material = arguments.material;
     return state;

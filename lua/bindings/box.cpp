@@ -3,6 +3,7 @@
 
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
+#include "bindings/unexpected.h"
 
 #include <algorithm>
 #include <cmath>
@@ -322,11 +323,17 @@ void push_release_table(lua_State* L, bool closes)
     lua_rawsetp(L, LUA_REGISTRYINDEX, key);
 }
 
+std::string unexpected_text(std::string_view what)
+{
+    return "unexpected error inside Lacuna " LACUNA_VERSION " (" + std::string(what) +
+           "): this is a fault of Lacuna, please report it with the recipe and its input";
+}
+
 void Failure::note(const char* its_code, const char* what) noexcept
 {
     try {
-        message = what;
         code = its_code;
+        message = code == "core.unexpected" ? unexpected_text(what) : what;
         entities = named_entities(message);
     } catch (const std::bad_alloc&) {
         message = "out of memory"; // short enough to be kept without memory

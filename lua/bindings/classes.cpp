@@ -222,7 +222,7 @@ std::string describe(const VolumeState& state)
     list_faces(out, "source: ", state.volume, Role::source, Origin::given);
     list_faces(out, "target: ", state.volume, Role::target, Origin::given);
     list_faces(out, "walls:  ", state.volume, Role::wall, Origin::given);
-    if (!state.role_reasons.empty()) out << "roles found:\n";
+    if (!state.role_reasons.empty()) out << "likely roles:\n";
     for (const std::string& reason : state.role_reasons) out << "  " << reason << '\n';
     out << "class:  " << topology::to_string(state.classification.value) << '\n';
     for (const std::string& reason : state.classification.reasons) out << "  " << reason << '\n';

@@ -2,6 +2,8 @@
 // <lacuna.h> over lacuna::Interpreter. Nothing is thrown out of here.
 #include <lacuna.h>
 
+#include "bindings/unexpected.h"
+
 #include <lacuna/interpreter.h>
 
 #include <algorithm>
@@ -62,7 +64,7 @@ lacuna_status guarded(lacuna_interpreter* handle, Body&& body) noexcept
         } catch (const std::bad_alloc&) {
             keep(*handle, plain_error("core.memory", "not enough memory"));
         } catch (const std::exception& error) {
-            keep(*handle, plain_error("core.unexpected", error.what()));
+            keep(*handle, plain_error("core.unexpected", lacuna::lua::unexpected_text(error.what())));
         }
     } catch (...) {
         handle->error.reset();

@@ -57,7 +57,8 @@ function commands.info()
     return print(encode(told))
   end
   print(model:describe())
-  print(found and volume:describe() or "roles: none found: " .. volume)
+  print(found and "likely roles, no sweep was checked:\n" .. volume:describe() or
+    "likely roles: none found: " .. volume)
 end
 
 function commands.view()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "bindings/unexpected.h"
 #include "program/batch.h"
 #include "program/chunks.h"
 #include "program/command_line.h"
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -199,6 +201,9 @@ int main(int argc, char** argv)
     } catch (const BadUsage& error) {
         if (first) std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
         return static_cast<int>(Exit::bad_usage);
+    } catch (const std::logic_error& error) {
+        if (first) std::fprintf(stderr, "lacuna: %s\n", lacuna::lua::unexpected_text(error.what()).c_str());
+        return static_cast<int>(Exit::failed);
     } catch (const std::exception& error) {
         if (first) std::fprintf(stderr, "lacuna: %s\n", error.what());
         return static_cast<int>(Exit::failed);

@@ -211,7 +211,7 @@ local whole = lacuna.synthetic.barrel()
 for _, roles in ipairs { {}, { faces = { 1, 2, 3 } }, { faces = { "source", "target", "wall_1" } } } do
   local guessed = whole:open_volume(roles)
   check.equal(guessed.class, "closed")
-  check.that(guessed:describe():find("roles found:", 1, true))
+  check.that(guessed:describe():find("likely roles:", 1, true))
 end
 check.equal(whole:open_volume().class, "closed")
 check.equal(lacuna.synthetic.barrel({ drop = "target" }):open_volume().class, "IV")

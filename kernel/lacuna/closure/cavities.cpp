@@ -2,13 +2,11 @@
 #include <lacuna/closure/cavities.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/hollows.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 
@@ -48,22 +46,13 @@ std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& face
 /// Hollows that share a whole rim, as one.
 std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Hollow>& hollows)
 {
-    std::map<std::set<EdgeId>, std::size_t> first; // the hollow that has a rim
-    geometry::UnionFind hang(hollows.size());
-    for (std::size_t h = 0; h < hollows.size(); ++h) {
-        for (const Rim& rim : rims(model, hollows[h].faces)) {
-            std::set<EdgeId> edges;
-            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-            const auto [known, fresh] = first.emplace(std::move(edges), h);
-            if (!fresh) hang.unite_least(known->second, h);
-        }
-    }
+    const std::vector<std::size_t> first = joined_hollows(model, hollows);
     std::map<std::size_t, std::vector<FaceId>> by_root;
     std::map<std::size_t, std::size_t> count;
     for (std::size_t h = 0; h < hollows.size(); ++h) {
-        std::vector<FaceId>& faces = by_root[hang.find(h)];
+        std::vector<FaceId>& faces = by_root[first[h]];
         faces.insert(faces.end(), hollows[h].faces.begin(), hollows[h].faces.end());
-        ++count[hang.find(h)];
+        ++count[first[h]];
     }
     std::vector<std::vector<FaceId>> result;
     for (auto& [root, faces] : by_root) {

@@ -142,6 +142,13 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
 
 } // namespace
 
+std::vector<FaceId> no_tube(const OpenVolume& volume)
+{
+    for (std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(Role::wall)))
+        if (rims(volume.model, part).size() != 2) return std::move(part);
+    return {};
+}
+
 EndLoops group_loops(OpenVolume& volume)
 {
     std::vector<Tube> tubes = tubes_of(volume);

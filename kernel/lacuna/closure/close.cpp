@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
+#include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
@@ -403,6 +404,7 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
                            "it, or close its pieces, which volume:cut() gives");
     const VolumeClass whole = classify(volume).value;
     check_options(volume, whole, options);
+    if (whole == VolumeClass::V && options.hints) check_tubes(volume, context);
     // Trials of readings move ends by themselves.
     if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
         if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);

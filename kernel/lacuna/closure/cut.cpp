@@ -2,6 +2,8 @@
 #include <lacuna/closure/cut.h>
 
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
@@ -380,6 +382,11 @@ private:
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
     OpenVolume result = volume;
+    if (classify(volume).value == VolumeClass::V && !no_tube(volume).empty()) {
+        auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
+        if (!filled) return std::nullopt;
+        return std::move(filled->volume);
+    }
     try {
         matching::Match match;
         if (!volume.faces(Role::source).empty() && !volume.faces(Role::target).empty())

@@ -327,6 +327,13 @@ std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
     return changed;
 }
 
+bool walls_run_between_ends(const OpenVolume& volume)
+{
+    return volume.model.faces.size() <= kMostFaces && free_edges(volume).empty() &&
+           Skin(volume.model)
+               .are_ends(set_of(volume.faces(Role::source)), set_of(volume.faces(Role::target)));
+}
+
 void check_ends(const OpenVolume& volume, const std::string& what)
 {
     const Model& model = volume.model;

@@ -25,6 +25,10 @@ namespace lacuna::closure {
 /// @note  O(ends² · faces) a piece, of at most 600 ends; pieces of more than 40 faces are left as they are.
 std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context = {});
 
+/// Whether a closed volume has two ends between which each wall runs, as `read_ends()` wants them; false of
+/// more than 40 faces.
+bool walls_run_between_ends(const topology::OpenVolume& volume);
+
 /// @param what  the volume, for the message: "volume_2".
 /// @throw NotSweepable "closure.no_ends"  a closed volume that lacks a source or a target; names its faces.
 void check_ends(const topology::OpenVolume& volume, const std::string& what);

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/hollow_readings.h>
+#include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
@@ -135,14 +136,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                            "the model has no faces to find a volume in; load a file that "
                            "has some, or add_face{ points =, cells = }");
     std::vector<Reading> readings = find_readings(model, faces, context);
-    if (readings.empty()) {
-        std::string tags;
-        for (const FaceId face : faces) tags += (tags.empty() ? "" : ", ") + std::to_string(model[face].tag);
-        throw InvalidInput("topology.no_roles",
-                           "no reading of the faces " + tags +
-                               " as source, target and walls of one sweep was found; name the roles: "
-                               "open_volume{ source = …, target = …, walls = … }");
-    }
+    if (readings.empty()) refuse_without_roles(model, faces, context);
     if (number == 0 && readings.size() == 1) {
         if (readings.front().guess.empty()) return std::move(readings.front());
         throw InvalidInput("topology.shape_open",

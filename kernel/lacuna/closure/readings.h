@@ -83,9 +83,10 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 
 /// The one void that some faces are, or the one that is asked for by its number.
 /// @param number  from 1, as the message counts them; 0: there must be one only, whose shape is no guess.
-/// @throw InvalidInput "topology.no_roles", "topology.roles_ambiguous" (lists what each would enclose),
-///        "topology.shape_open" (names the faces round what is missing), "topology.no_such_reading".
-///        Cancelled.
+/// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
+///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists what each would
+///        enclose), "topology.shape_open" (names the faces round what is missing),
+///        "topology.no_such_reading". Cancelled.
 Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
                      const RunContext& context = {});
 

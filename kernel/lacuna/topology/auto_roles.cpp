@@ -370,6 +370,14 @@ private:
             const bool first = source == same.front() && same.front() < ahead.front();
             if (source != same.front() || (same.size() > 1 && (ahead.size() == 1 || !first)))
                 continue; // once an axis
+            vertex_seen_.clear();
+            for (const std::size_t p : same)
+                for (const VertexId v : map_.patches[p].vertices) vertex_seen_.add(v.index());
+            const auto touches = [&](std::size_t p) {
+                return std::ranges::any_of(map_.patches[p].vertices,
+                                           [&](VertexId v) { return vertex_seen_.has(v.index()); });
+            };
+            if (std::ranges::any_of(ahead, touches)) continue; // layers would have no height there
             const double leaning = std::max(0.0, way.dot(whole * way) - ends) / std::max(area - ends, 1e-300);
             if (!(leaning < kStraight)) continue;
             with_steps_.push_back({largest(same), largest(ahead), std::sqrt(leaning), stepped_.size()});

@@ -3,10 +3,12 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/union_find.h>
+#include <lacuna/topology/hollows.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +24,8 @@ constexpr double kSameLength = 1e-6;
 /// And voids whose volumes differ by less than this share of the larger are as large. A choice, not a
 /// measurement.
 constexpr double kSameVolume = 0.01;
+/// Faces face one way where their normals are within a degree, as those of ends by role_candidates().
+constexpr double kFacesAsEnd = 2e-4;
 
 /// Every face that can be reached from the rim of some over shared edges, without crossing others.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
@@ -232,6 +236,37 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
+/// The walls round an end in a cavity; nothing where an end on the same skin lies outside of it, as those of
+/// the solid itself do.
+std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                          const std::vector<FaceId>& source,
+                                          const std::vector<FaceId>& target, const RunContext& context)
+{
+    const std::vector<FaceId>& end = source.empty() ? target : source;
+    WallChoice result{cavity_round(model, end, context), {}, {}, true, {}};
+    const std::vector<FaceId> skin = reachable_from(model, uses, result.walls, {}); // outside of it
+    for (const std::vector<FaceId>* list : {&source, &target}) {
+        for (const FaceId face : *list) {
+            if (std::ranges::binary_search(skin, face)) return std::nullopt;
+            std::erase(result.walls, face);
+        }
+    }
+    if (result.walls.empty()) return std::nullopt;
+    Model oriented = model;
+    orient_consistently(oriented);
+    const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
+    const auto faces_as_end = [&](FaceId face) { // and is flat
+        return face_area_vector(oriented, face).dot(way) > (1 - kFacesAsEnd) * face_area(oriented, face);
+    };
+    if (!std::ranges::all_of(end, faces_as_end)) return result;
+    std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), faces_as_end);
+    std::erase_if(result.walls, faces_as_end);
+    for (const FaceId face : result.more_of_end)
+        log_line(context, "note: " + name_of(model, face) + " of the same cavity is taken as part of " +
+                              name_of(model, end.front()) + "'s end, as it faces the same way");
+    return result;
+}
+
 std::string tags_of(const Model& model, const std::vector<FaceId>& faces)
 {
     std::string text;
@@ -244,18 +279,19 @@ std::string tags_of(const Model& model, const std::vector<FaceId>& faces)
 WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
                       const std::vector<FaceId>& target, const RunContext& context)
 {
-    const auto uses = edge_uses(model);
     std::vector<FaceId> ends = source;
     ends.insert(ends.end(), target.begin(), target.end());
+    const auto uses = edge_uses(model);
     const std::vector<FaceId> reached = source.empty() ? reachable_from(model, uses, target, source)
                                                        : reachable_from(model, uses, source, target);
+    if (auto cavity = walls_of_cavity(model, uses, source, target, context)) return std::move(*cavity);
     Sheets sheets(model, uses, ends, reached, context);
-    if (!sheets.crowded()) return {reached, {}, {}};
+    if (!sheets.crowded()) return {reached, {}, {}, false, {}};
     std::optional<std::vector<Choice>> choices = sheets.choices();
-    if (!choices) return {reached, {}, {}};
+    if (!choices) return {reached, {}, {}, false, {}};
     if (source.empty() || target.empty())
         std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
-    if (choices->empty()) return {reached, {}, {}};
+    if (choices->empty()) return {reached, {}, {}, false, {}};
     const double same = kSameLength * model.diagonal;
     const auto least =
         std::min_element(choices->begin(), choices->end(), [](const Choice& a, const Choice& b) {

@@ -14,10 +14,15 @@ struct WallChoice {
     std::vector<FaceId> left_out; ///< reachable from the ends, but bounding another void or none; rising
     /// Of each face left out an edge that two faces of the volume use already.
     std::vector<EdgeId> taken;
+    bool of_cavity = false; ///< the walls are what else bounds the cavity of a solid that the end lies in
+    std::vector<FaceId> more_of_end; ///< of that cavity the flat faces that face as the end does
 };
 
 /// The walls of a void, found from its ends: the faces that can be reached from the rim of `source`, or where
 /// it is empty of `target`, over shared edges and not over the other end.
+///
+/// An end in a cavity of a closed skin, by cavity_round(), has the other faces of that cavity. Those that
+/// face as a flat end does are no walls but parts of it, as a ledge and the top of a post; a note says so.
 ///
 /// No edge bounds one void with more than two faces. Where more than two of the faces reached share an edge,
 /// those that hang together by other edges are taken or left together. Of all choices to which nothing can be

@@ -3,12 +3,16 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/detail/patches.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/use_places.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <set>
 
 namespace lacuna::topology {
 
@@ -84,6 +88,60 @@ double capped_volume(const Model& model, const std::vector<FaceId>& faces)
     return volume_integral(model, faces) - middle.dot(area) / 3;
 }
 
+std::set<EdgeId> edges_of(const Rim& rim)
+{
+    std::set<EdgeId> edges;
+    for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+    return edges;
+}
+
+/// How far faces reach along a way.
+double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
+{
+    double most = -std::numeric_limits<double>::infinity();
+    for (const FaceId face : faces)
+        for (const Triangle& t : model[face].triangles)
+            for (const Index p : t) most = std::max(most, way.dot(model.at(p)));
+    return most;
+}
+
+/// What stands in a cavity: parts of its skin that its rims cut off, except the largest, which is the
+/// outside, and those that reach up to a mouth, a rim that the outside has too. @pre oriented
+std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity)
+{
+    std::vector<FaceId> rest, result;
+    for (const FaceId face : all_faces(model))
+        if (std::ranges::find(cavity, face) == cavity.end()) rest.push_back(face);
+    std::set<EdgeId> brims;
+    for (const Rim& rim : rims(model, cavity)) brims.merge(edges_of(rim));
+    std::vector<std::vector<FaceId>> parts;
+    for (std::vector<FaceId>& part : connected_parts(model, rest)) {
+        const std::vector<Rim> own = rims(model, part);
+        if (std::ranges::any_of(own, [&](const Rim& r) { return brims.contains(r.uses.front().edge); }))
+            parts.push_back(std::move(part));
+    }
+    if (parts.size() < 2) return {};
+    const auto outside = std::ranges::max_element(parts, {}, [&](const std::vector<FaceId>& part) {
+        double area = 0;
+        for (const FaceId face : part) area += face_area(model, face);
+        return area;
+    });
+    std::set<EdgeId> of_outside;
+    for (const Rim& rim : rims(model, *outside)) of_outside.merge(edges_of(rim));
+    parts.erase(outside);
+    for (const Rim& rim : rims(model, cavity)) {
+        if (!of_outside.contains(rim.uses.front().edge)) continue;
+        const std::vector<Vec3> mouth = loop_places(model, rim.uses);
+        const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
+        double brim = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : mouth) brim = std::min(brim, out.dot(p));
+        std::erase_if(parts,
+                      [&](const auto& part) { return !(reach(model, part, out) < brim - model.tolerance); });
+    }
+    for (const std::vector<FaceId>& part : parts) result.insert(result.end(), part.begin(), part.end());
+    return result;
+}
+
 } // namespace
 
 std::vector<Hollow> hollows(const Model& given, const RunContext& context)
@@ -121,6 +179,50 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         found.push_back({faces, rims(model, faces).size()});
     }
     return found;
+}
+
+std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows)
+{
+    std::map<std::set<EdgeId>, std::size_t> first; // the hollow that has a rim
+    geometry::UnionFind hang(hollows.size());
+    for (std::size_t h = 0; h < hollows.size(); ++h) {
+        for (const Rim& rim : rims(model, hollows[h].faces)) {
+            const auto [known, fresh] = first.emplace(edges_of(rim), h);
+            if (!fresh) hang.unite_least(known->second, h);
+        }
+    }
+    std::vector<std::size_t> joined;
+    for (std::size_t h = 0; h < hollows.size(); ++h) joined.push_back(hang.find(h));
+    return joined;
+}
+
+std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& faces,
+                                 const RunContext& context)
+{
+    const auto uses = edge_uses(given);
+    const bool open = std::ranges::any_of(faces, [&](FaceId face) {
+        return uses[given[face].loops.front().uses.front().edge.index()].size() != 2;
+    });
+    const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(given, context);
+    if (found.empty()) return {};
+    Model model = given;
+    orient_consistently(model);
+    const std::vector<std::size_t> first = joined_hollows(model, found);
+    std::set<std::size_t> taken;
+    for (std::size_t h = 0; h < found.size(); ++h) {
+        if (std::ranges::any_of(
+                faces, [&](FaceId face) { return std::ranges::binary_search(found[h].faces, face); }))
+            taken.insert(first[h]);
+    }
+    std::vector<FaceId> cavity;
+    for (std::size_t h = 0; h < found.size(); ++h) {
+        if (taken.contains(first[h]))
+            cavity.insert(cavity.end(), found[h].faces.begin(), found[h].faces.end());
+    }
+    if (cavity.empty()) return {};
+    for (const FaceId face : enclosed_by(model, cavity)) cavity.push_back(face);
+    std::sort(cavity.begin(), cavity.end());
+    return cavity;
 }
 
 } // namespace lacuna::topology

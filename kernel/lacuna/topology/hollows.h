@@ -24,4 +24,16 @@ struct Hollow {
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 
+/// Of each hollow the first of those that share whole rims, one with the next, as a bore and what widens it.
+std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
+
+/// The faces of the cavity of a closed skin that some faces lie in: of the hollows of these, of those that
+/// share a whole rim with them, as what widens a bore does, and of what stands in them below their mouths,
+/// as the top of a post.
+/// @return rising; none where the faces lie in no hollow.
+/// @throw Cancelled
+/// @note  Near linear in facets.
+std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
+                                 const RunContext& context = {});
+
 } // namespace lacuna::topology

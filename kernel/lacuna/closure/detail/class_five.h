@@ -12,6 +12,9 @@ struct EndLoops {
     std::vector<topology::Loop> source, target; ///< as the end faces use them; the outermost first
 };
 
+/// The first connected part of the walls that has not two free loops, as a tube has; empty where all have.
+std::vector<FaceId> no_tube(const topology::OpenVolume& volume);
+
 /// Steps 3 to 6 of the paper's Algorithm 11: sort the free loops into two subsets a sweeping distance apart.
 ///
 /// Each connected part of the walls is a tube with a loop at either end. The largest tube says where the

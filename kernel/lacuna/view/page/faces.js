@@ -57,7 +57,7 @@ class FacesPage {
                 className: "quiet",
                 textContent:
                     "A second click takes a face out. Keys 1 to 4 change the role. " +
-                    "Of faces alone the roles are found.",
+                    "Of faces alone likely roles are found.",
             }),
         );
         this.recipe = el("textarea", { readOnly: true, spellcheck: false, id: "recipe" });
@@ -136,7 +136,7 @@ class FacesPage {
             const some = cavity.faces.slice(0, 12).join(", ") + (faces.length > 12 ? ", …" : "");
             return this.offer(
                 `${cavity.kind}, faces ${some}`,
-                `class ${cavity.class}, volume ${digits(cavity.volume)}`,
+                `likely class ${cavity.class}, volume ${digits(cavity.volume)}`,
                 () => faces.flatMap(f => data.faces[f].edges),
                 () => {
                     this.role.fill(null);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/no_roles.h>
+
+#include <lacuna/closure/branches.h>
+#include <lacuna/closure/cut.h>
+#include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/full_turn.h>
+#include <lacuna/closure/piece_ends.h>
+#include <lacuna/closure/readings.h>
+#include <lacuna/closure/walls_alone.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/number_text.h>
+#include <lacuna/topology/cone_shape.h>
+#include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/face_radius.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A cone runs to its tip within this share of its radius: as shapes are fitted.
+constexpr double kTip = 0.01;
+/// Axes are parallel within 5°: the cosine of the angle between them.
+constexpr double kParallel = 0.996;
+/// Edges where the skin turns inward by more than 30° are concave: as sharp as those between patches.
+constexpr double kConcaveEdge = std::numbers::pi / 6;
+/// As many planes are tried for a message. For the time: each is a cut.
+constexpr std::size_t kMostPlanes = 8;
+/// As many readings are offered, the likeliest: more make no sentence.
+constexpr std::size_t kMostOffered = 2;
+/// Digits of what a person types: far below the tolerance, a millionth of the diagonal.
+constexpr int kDigits = 9;
+
+/// Faces as a recipe names them.
+std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::string text;
+    for (const FaceId face : faces) text += (text.empty() ? "{ " : ", ") + std::to_string(model[face].tag);
+    return text + " }";
+}
+
+std::string plane_in_words(const Model& model, const Vec3& point, const Vec3& normal)
+{
+    const Vec3 place = (point.array().abs() < model.tolerance / 1000).select(0.0, point.array());
+    std::string text = "cut{ plane = { " + place_with_digits(place, kDigits) + ", " +
+                       place_with_digits(normal, kDigits) + " } }";
+    std::ranges::replace(text, '(', '{');
+    std::ranges::replace(text, ')', '}');
+    return text;
+}
+
+/// The plane of a flat face beside a concave edge that cuts a volume into pieces with two ends each; empty
+/// where none does.
+std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& context)
+{
+    const Model& model = volume.model;
+    const std::vector<double> turns = concave_turns(volume, context);
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    std::vector<FaceId> tried;
+    for (std::size_t e = 0; e < turns.size(); ++e) {
+        if (!(turns[e] > kConcaveEdge)) continue;
+        for (const FaceUse& use : uses[e]) {
+            const auto plane = plane_of(model, use.face);
+            if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
+                continue;
+            tried.push_back(use.face);
+            try {
+                std::vector<StepPiece> pieces = cut_by_plane(volume, *plane, context);
+                read_ends(pieces, context);
+                if (std::ranges::all_of(pieces, walls_run_between_ends, &StepPiece::volume))
+                    return plane_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
+            } catch (const NotSweepable&) {
+            } catch (const InvalidInput&) { // through quads that a face came with
+            }
+        }
+    }
+    return "";
+}
+
+bool is_cone_to_its_tip(const Model& model, FaceId face)
+{
+    const auto cone = cone_shape(model, face);
+    return cone && cone->least_radius <= kTip * cone->largest_radius;
+}
+
+/// An edge between two parts of cylinders whose axes are not parallel.
+EdgeId crossing_of_bores(const Model& model)
+{
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+        const auto a = round_shape(model, uses[e][0].face), b = round_shape(model, uses[e][1].face);
+        if (a && b && a->axis && b->axis && std::abs(a->axis->dot(*b->axis)) < kParallel) return EdgeId(e);
+    }
+    return {};
+}
+
+/// Whether a skin has one handle, as a torus has, and a plane cuts it across in two places.
+bool is_ring(const OpenVolume& volume, const RunContext& context)
+{
+    const std::vector<FaceId> all = all_faces(volume.model);
+    if (connected_parts(volume.model, all).size() != 1 || euler_number(volume.model, all) != 0) return false;
+    try {
+        return !cut_full_turn(volume, context).empty();
+    } catch (const NotSweepable&) {
+        return false;
+    }
+}
+
+} // namespace
+
+void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, const RunContext& context)
+{
+    const OpenVolume volume = open_volume(given, {{}, {}, faces}, context);
+    const Model& model = volume.model;
+    const std::string tags = in_braces(given, faces), call = "open_volume{ walls = " + tags,
+                      which = "faces " + tags.substr(2, tags.size() - 4);
+    if (free_edges(volume).empty() && is_ring(volume, context))
+        throw InvalidInput("topology.torus", which +
+                                                 " run round like a torus and have no ends; sweep them "
+                                                 "round the whole turn: " +
+                                                 call + ", full_turn = true }");
+    const auto round = round_shape(model, FaceId(0));
+    if (round && round->is_sphere() && model.faces.size() == 1 && free_edges(volume).empty())
+        throw InvalidInput("topology.sphere",
+                           which + " are a whole sphere, which has no ends; cut it in two by " + call +
+                               " }:" + plane_in_words(model, round->centre, Vec3::UnitZ()) +
+                               " and open each piece by piece:model():open_volume()");
+    const std::string cut = cut_at_concave_edge(volume, context);
+    const std::string advice = cut.empty()
+                                   ? "; name the roles: open_volume{ source = …, target = …, walls = … }"
+                                   : "; cut them: " + call + " }:" + cut;
+    for (const FaceId face : all_faces(model))
+        if (is_cone_to_its_tip(model, face))
+            throw InvalidInput("topology.cone", name_of(model, face) +
+                                                    " is a cone that runs to its tip, where "
+                                                    "layers have no width" +
+                                                    advice);
+    if (const EdgeId edge = crossing_of_bores(model); edge.valid())
+        throw InvalidInput("topology.crossing_bores", "bores cross at " + name_of(model, edge) +
+                                                          ", so that no sweep runs along both" + advice);
+    throw InvalidInput("topology.no_roles", "no reading of the " + which +
+                                                " as source, target and walls of one sweep was found" +
+                                                advice);
+}
+
+void check_tubes(const OpenVolume& volume, const RunContext& context)
+{
+    const Model& model = volume.model;
+    const std::vector<FaceId> part = no_tube(volume), all = all_faces(model);
+    if (part.empty()) return;
+    if (crossing_of_bores(model).valid()) refuse_without_roles(model, all, context);
+    const std::vector<Reading> readings = find_readings(model, all, context);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMostOffered, readings.size()); ++i)
+        text += (i == 0 ? "type" : " or") + (" open_volume{ faces = " + in_braces(model, all)) +
+                ", reading = " + std::to_string(i + 1) + " } (class " +
+                std::string(to_string(readings[i].roles.value)) + ", volume " +
+                with_digits(readings[i].enclosed, 4) + ")";
+    if (text.empty()) text = cut_at_concave_edge(volume, context);
+    if (text.starts_with("cut")) text = "cut them by volume:" + text;
+    if (text.empty()) text = "name the source or the target, or the walls that close the others";
+    const std::size_t loops = rims(model, part).size();
+    throw NotClosed("closure.tube_loops", name_of(model, part.front()) + " and the walls joined to it have " +
+                                              std::to_string(loops) +
+                                              (loops == 1 ? " free loop" : " free loops") +
+                                              ", and class V needs two, one at either end: " + text);
+}
+
+std::optional<Reading> read_walls_alone(const Model& model, const std::vector<FaceId>& walls, bool take_guess,
+                                        const RunContext& context)
+{
+    const OpenVolume open = open_volume(model, {{}, {}, walls}, context);
+    if (no_tube(open).empty() || free_edges(open).empty() || crossing_of_bores(open.model).valid() ||
+        has_branches(open, context))
+        return std::nullopt;
+    std::vector<Reading> readings = find_readings(model, walls, context);
+    if (readings.size() != 1 || !(take_guess || readings.front().guess.empty())) return std::nullopt;
+    const RoleCandidate& roles = readings.front().roles;
+    log_line(context,
+             "note: the walls that were named alone are no tube between two missing ends; taken as " +
+                 in_words(model, roles.roles, roles.value));
+    return std::move(readings.front());
+}
+
+} // namespace lacuna::closure
