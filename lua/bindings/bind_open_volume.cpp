@@ -145,6 +145,7 @@ std::vector<FaceId> all_of(const topology::Roles& roles)
 VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, const RunContext& context)
 {
     VolumeState state;
+    bool asks_about_holes = false;
     if (!arguments.roles_named && !arguments.faces_named) arguments.faces = topology::all_faces(model);
     if (arguments.full_turn) {
         if (!arguments.roles_named) {
@@ -157,6 +158,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         cad::require_none_left_out(model, arguments.faces, "roles");
         closure::Reading found = closure::find_reading(model, arguments.faces, arguments.reading, context);
         state.volume = std::move(found.volume);
+        asks_about_holes = found.holed.valid();
         state.role_reasons = std::move(found.roles.reasons);
         state.classification = std::move(found.classification);
         state.closure = std::move(found.closure);
@@ -179,7 +181,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         if (arguments.override_class) state.as_read.reset();
         state.classification = topology::classify(state.volume);
     }
-    state.take_guess = !arguments.roles_named || arguments.reading == 1;
+    state.take_guess = arguments.reading > 0 || !(arguments.roles_named || asks_about_holes);
     state.name = arguments.name;
     state.material = arguments.material;
     return state;

@@ -143,6 +143,9 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                                " as source, target and walls of one sweep was found; name the roles: "
                                "open_volume{ source = …, target = …, walls = … }");
     }
+    if (number == 0) {
+        if (auto open = leave_holes_open(model, readings, faces, context)) return std::move(*open);
+    }
     if (number == 0 && readings.size() == 1) {
         if (readings.front().guess.empty()) return std::move(readings.front());
         throw InvalidInput("topology.shape_open",
