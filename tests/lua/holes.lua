@@ -33,7 +33,7 @@ for _, sides in ipairs { 3, 4, 6 } do
       local why = check.fails(function() open():sweep {} end, "closure.holes_open", 'holes = "cover"',
           'holes = "through"')
       local told = {}
-      for number in why:gmatch("encloses ([%d.]+%d)") do told[#told + 1] = tonumber(number) end
+      for number in why:gmatch("encloses (%d[%d.]*)") do told[#told + 1] = tonumber(number) end
       check.near(told[1], covered, 1e-5 * covered)
       check.near(told[2], through, 1e-5 * through)
       for what, volume in pairs { cover = covered, through = through } do

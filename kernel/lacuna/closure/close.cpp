@@ -9,8 +9,6 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
-#include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/number_text.h>
 
@@ -127,24 +125,20 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// Note what is assumed of walls that are missing beside a missing end: it matters where one face over each of
-/// the free loops, as the given faces alone tell, encloses something else, or where a loop has none.
-void assume_beyond_loops(const OpenVolume& given, const OpenVolume& sealed, const char* code,
-                         std::string text, Closure& closure, const RunContext& context)
+/// Note what is assumed of walls that are missing beside a missing end: it matters where a face that bulges over
+/// their rims by a quarter of their width, which is 4 area / perimeter, encloses something else.
+void assume_walls(const OpenVolume& sealed, const char* code, std::string text, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
-    text += "; this encloses " + with_digits(taken, 4);
-    double share = 1;
-    OpenVolume filled = given;
-    try {
-        for (const Rim& rim : free_loops(given))
-            add_void_face(filled, fill(filled, {reversed(rim)}, nullptr, "a void face", context), Role::wall);
-        const double other = std::abs(enclosed_volume(filled));
-        share = share_between(taken, other);
-        text += ", faces over the free edges alone " + with_digits(other, 4);
-    } catch (const NotClosed&) { // there is nothing to compare with
+    double open = 0;
+    for (const FaceId face : closure.void_faces) {
+        double perimeter = 0;
+        for (const Loop& loop : sealed.model[face].loops)
+            for (const EdgeUse& use : loop.uses) perimeter += edge_length(sealed.model, use.edge);
+        if (sealed.role[face.index()] == Role::wall)
+            open += std::pow(face_area(sealed.model, face), 2) / perimeter;
     }
-    assume(closure, code, std::move(text), share);
+    assume(closure, code, text + "; this encloses " + with_digits(taken, 4), open / taken);
 }
 
 /// The share of each of the source's rims' edges that has no wall.
@@ -277,10 +271,10 @@ private:
     void say_what_is_filled(Closure& closure) const
     {
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
-            assume_beyond_loops(volume_, sealed_, "closure.walls_filled",
-                                "walls beside the missing target end below it, and flat faces that meet in "
-                                "straight edges continue them",
-                                closure, context_);
+            assume_walls(sealed_, "closure.walls_filled",
+                         "walls beside the missing target end below it, and flat faces that meet in "
+                         "straight edges continue them",
+                         closure);
     }
 
     /// Void faces whose inside the rim does not tell, and those that fill what may lie behind them.
@@ -417,12 +411,12 @@ std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptio
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
     const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
     if (without > std::ssize(holes_without_walls(volume)))
-        assume_beyond_loops(volume, moved->volume, "closure.end_moved",
-                            "the target is missing and walls beside it too; it is taken to have the source's "
-                            "shape, which " +
-                                name_of(volume.model, moved->from) +
-                                " tells, where the tops of the walls that stand say",
-                            closure, context);
+        assume_walls(moved->volume, "closure.end_moved",
+                     "the target is missing and walls beside it too; it is taken to have the source's "
+                     "shape, which " +
+                         name_of(volume.model, moved->from) +
+                         " tells, where the tops of the walls that stand say",
+                     closure);
     volume = std::move(moved->volume);
     return std::move(moved->closure);
 }
