@@ -64,8 +64,8 @@ end
 
 -- A recipe that sweeps `void` tells of an assumption once, or of none.
 local function tells(code, recipe)
-  check.write(folder .. "/recipe.lua", 'local lacuna = require "lacuna"\nlocal synthetic = lacuna.synthetic\n' ..
-    recipe .. "\nvoid:close()\nvoid:sweep { layers = 4 }\n")
+  local head = 'local lacuna = require "lacuna"\nlocal synthetic = lacuna.synthetic\n'
+  check.write(folder .. "/recipe.lua", head .. recipe .. "\nvoid:close()\nvoid:sweep { layers = 4 }\n")
   local exit, out, err = check.run(params.lacuna, folder, { folder .. "/recipe.lua" })
   check.equal(exit, 0, err)
   local notes = {}
@@ -113,8 +113,8 @@ tells("closure.bend_assumed", prism('height = 4, bend = 60, drop = "walls"', end
 tells(nil, prism('height = 4, bend = 15, drop = "walls"', ends))
 
 -- A bore without walls bends as the walls round it.
-local elbow = 'local void = synthetic.elbow { inner = 0.5, angle = %d, drop = { "wall_2" } }:open_volume { ' ..
-  ends .. ', walls = { "wall_1" } }'
+local elbow = 'local void = synthetic.elbow { inner = 0.5, angle = %d, drop = { "wall_2" } }' ..
+  ":open_volume { " .. ends .. ', walls = { "wall_1" } }'
 tells("closure.loop_follows", elbow:format(60))
 tells(nil, elbow:format(30))
 
@@ -122,7 +122,7 @@ tells(nil, elbow:format(30))
 tells(nil, prism("sides = 6", ends .. ', walls = "auto"'))
 tells(nil, prism('sides = 6, drop = { "target" }', 'source = "source", walls = "auto"'))
 
--- --- rough rims --------------------------------------------------------------------------------------------
+-- --- rough rims ------------------------------------------------------------------------------------------
 
 -- A tube of facets, as of a bone that was cut: points of its rims are off a plane by a share of its diameter.
 local function bone(seed, sides, height, rough, both)

@@ -125,8 +125,8 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// Note what is assumed of walls that are missing beside a missing end: it matters where a face that bulges over
-/// their rims by a quarter of their width, which is 4 area / perimeter, encloses something else.
+/// Note what is assumed of walls that are missing beside a missing end: it matters where a face that bulges
+/// over their rims by a quarter of their width, which is 4 area / perimeter, encloses something else.
 void assume_walls(const OpenVolume& sealed, const char* code, std::string text, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
