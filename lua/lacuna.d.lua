@@ -71,6 +71,7 @@
 ---@field edge_shape? "auto"|"straight"|"follow"|"smooth" how a void edge runs; default "auto"
 ---@field void_edges? { [1]: integer, [2]: integer, [3]?: lacuna.Vector[] }[] given by hand: vertex tags from and to, points between
 ---@field cap? "auto"|"flat"|"parallel" shape of a missing end; default "auto"
+---@field holes? "cover"|"through" holes of a given end that have no walls; without it an error where the other end is missing
 
 ---@class lacuna.Layers
 ---@field count integer

@@ -14,6 +14,7 @@ namespace {
 using closure::Cap;
 using closure::CloseOptions;
 using closure::EdgeShape;
+using closure::Holes;
 
 const Word<EdgeShape> kEdgeShapes[] = {
     {"straight", EdgeShape::straight},
@@ -24,6 +25,8 @@ const Word<EdgeShape> kEdgeShapes[] = {
 
 const Word<Cap> kCaps[] = {{"flat", Cap::flat}, {"parallel", Cap::parallel}, {"auto", Cap::automatic}};
 
+const Word<Holes> kHoles[] = {{"cover", Holes::cover}, {"through", Holes::through}};
+
 void read_edge_shape(lua_State* L, int index, const Where& where, CloseOptions& options)
 {
     options.edge_shape = read_word(L, index, where, kEdgeShapes);
@@ -32,6 +35,11 @@ void read_edge_shape(lua_State* L, int index, const Where& where, CloseOptions& 
 void read_cap(lua_State* L, int index, const Where& where, CloseOptions& options)
 {
     options.cap = read_word(L, index, where, kCaps);
+}
+
+void read_holes(lua_State* L, int index, const Where& where, CloseOptions& options)
+{
+    options.holes = read_word(L, index, where, kHoles);
 }
 
 std::size_t length_of(lua_State* L, int index)
@@ -66,8 +74,10 @@ void read_void_edges(lua_State* L, int index, const Where& where, CloseOptions& 
         });
 }
 
-const Option<CloseOptions> kCloseOptions[] = {
-    {"edge_shape", read_edge_shape}, {"void_edges", read_void_edges}, {"cap", read_cap}};
+const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", read_edge_shape},
+                                              {"void_edges", read_void_edges},
+                                              {"cap", read_cap},
+                                              {"holes", read_holes}};
 
 /// Tags of entities of the model, as an array in the table on top.
 template <class Id>

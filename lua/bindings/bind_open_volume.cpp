@@ -176,7 +176,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         state.volume.full_turn = true;
     } else if (auto found = reading_of(model, arguments, context)) {
         state.volume = std::move(found->volume);
-        state.take_guess = true;
+        state.take_guess = !found->holed.valid();
         state.role_reasons = std::move(found->roles.reasons);
         state.classification = std::move(found->classification);
         state.closure = std::move(found->closure);
@@ -199,7 +199,7 @@ VolumeState make_volume(const topology::Model& model, RoleArguments& arguments, 
         if (arguments.override_class) state.as_read.reset();
         state.classification = topology::classify(state.volume);
     }
-    state.take_guess = state.take_guess || !arguments.roles_named || arguments.reading == 1;
+    if (arguments.reading > 0 || (arguments.full_turn && !arguments.roles_named)) state.take_guess = true;
     state.name = arguments.name;
     state.material = arguments.material;
     return state;

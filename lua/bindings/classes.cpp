@@ -135,7 +135,8 @@ namespace {
 bool asks_nothing(const closure::CloseOptions& options)
 {
     const closure::CloseOptions none;
-    return options.edge_shape == none.edge_shape && options.void_edges.empty() && options.cap == none.cap;
+    return options.edge_shape == none.edge_shape && options.void_edges.empty() && options.cap == none.cap &&
+           options.holes == none.holes;
 }
 
 } // namespace
@@ -153,18 +154,26 @@ void match_volume(VolumeState& state, const matching::MatchOptions& options, con
 
 void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
 {
-    if (state.closure) return;
+    if (state.closure) { // sealed as it was read: what that assumed was not told yet
+        if (!std::exchange(state.told, true)) closure::log_notes(*state.closure, context);
+        return;
+    }
     const bool whole = topology::free_edges(state.volume).empty();
-    if (has_both_ends(state.volume) && !(whole && closure::has_steps(state.volume, context))) {
+    // The ends match when their holes are covered, and not before.
+    if (options.holes != closure::Holes::cover && has_both_ends(state.volume) &&
+        !(whole && closure::has_steps(state.volume, context))) {
         matching::MatchOptions by_hand;
         by_hand.vertices = closure::pairs_by_hand(state.volume, options);
         match_volume(state, by_hand, context);
     }
     report_progress(context, "closing");
-    if (state.as_read && asks_nothing(options)) {
+    state.told = true;
+    // What a trial with void edges assumed is measured and told where it is closed anew.
+    if (state.as_read && asks_nothing(options) && state.as_read->closure.void_edges.empty()) {
         state.closure = std::move(state.as_read->closure);
         state.volume = std::move(state.as_read->volume);
         state.as_read.reset();
+        closure::log_notes(*state.closure, context);
         return;
     }
     topology::OpenVolume sealed = state.volume;

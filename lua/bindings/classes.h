@@ -72,6 +72,7 @@ struct VolumeState {
     std::shared_ptr<const closure::OtherSweeps> others;
     std::string name;        ///< of the region its cells are; empty: the default
     bool take_guess = false; ///< whether a shape that nothing given tells is taken as it closes
+    bool told = false;       ///< whether the closure's notes were logged
     int level = 0; ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
     double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
     std::string turn_of;               ///< of a piece of a full turn: the region that all of it is

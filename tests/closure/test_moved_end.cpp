@@ -160,7 +160,12 @@ TEST_CASE(
                         through += std::abs(off) < 0.01 ? 1 : 0;
                     }
                     CHECK(through == 1);
-                    CHECK_THROWS_AS((void)closure::find_reading(prism.model, faces), InvalidInput);
+                    closure::Reading asked = closure::find_reading(prism.model, faces);
+                    CHECK(asked.holed.valid());
+                    CHECK(test::refusal([&] { test::seal(asked.volume); }) == "closure.holes_open");
+                    test::seal(asked.volume, {.holes = closure::Holes::through});
+                    CHECK(closure::enclosed_volume(asked.volume) ==
+                          doctest::Approx(prism.facet_volume).epsilon(0.01));
                 }
             }
         }

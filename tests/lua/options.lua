@@ -25,7 +25,7 @@ local calls = {
   picture = { function(o) lacuna.synthetic.barrel():picture("never_written.png", o) end,
       { "width", "height", "view", "facets" } },
   match = { function(o) volume():match(o) end, { "method", "vertices", "loops", "flip" } },
-  close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap" } },
+  close = { function(o) volume():close(o) end, { "edge_shape", "void_edges", "cap", "holes" } },
   sweep = { function(o) volume():sweep(o) end,
             { "layers", "size", "curvature", "gap", "max_deviation", "quads",
                 "order", "serendipity", "min_scaled_jacobian", "improve", "interior",
@@ -108,6 +108,7 @@ wrong("close", "void_edges", { { { 1, 2, 3 } } }, "an array of points {x, y, z}"
 wrong("close", "void_edges", { { { 1, 2, { 3 } } }, { { 1, 2, { { 0, 0 } } } } }, "three numbers")
 wrong("close", "void_edges", { { { 1, 2, { { 0, 0, nan } } } } }, "void_edges[1][3][1]")
 wrong("close", "cap", { "round", 1 }, "flat, parallel")
+wrong("close", "holes", { "covr", "auto", 1 }, "cover, through")
 wrong("sweep", "layers", { 0, -3, 2.5, nan, huge, "8", true }, "a positive whole number")
 wrong("sweep", "layers", { { 0.5, 0.5, 1 }, { 0, 1 }, { 0.5, 1.5 } }, "a height that rises")
 wrong("sweep", "layers", { { 0.2, 0.5 } }, "must end with the height 1")

@@ -7,6 +7,7 @@
 #include <lacuna/closure/full_turn.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/section.h>
@@ -20,7 +21,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <set>
 
@@ -68,12 +68,6 @@ std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
         for (std::size_t i = 0; i + 1 < points.size(); ++i) result.push_back(model.at(points[i]));
     }
     return result;
-}
-
-Vec3 mean(const std::vector<Vec3>& places)
-{
-    return std::accumulate(places.begin(), places.end(), Vec3(Vec3::Zero())) /
-           static_cast<double>(places.size());
 }
 
 class BranchFinder {
@@ -167,7 +161,7 @@ private:
             std::vector<EdgeId> edges;
             for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
             const std::size_t own = result_.region[uses_[edges.front().index()].front().face.index()];
-            result_.ends[own].push_back(mean(places(model_, edges)));
+            result_.ends[own].push_back(geometry::mean_point(places(model_, edges)));
         }
     }
 
@@ -189,7 +183,7 @@ private:
         if (!result_.ends[mouth.branch].empty()) return true;
         // A dimple is a wall like any other.
         const std::vector<Vec3> rim = places(model_, mouth.edges);
-        const Vec3 centre = mean(rim);
+        const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
         double width = 0, depth = 0;
         for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
@@ -308,13 +302,13 @@ private:
         Vec3 far = Vec3::Zero();
         for (const FaceId face : found_.faces[mouth.branch]) far += face_centroid(volume_.model, face);
         far /= static_cast<double>(found_.faces[mouth.branch].size());
-        return (far - mean(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
+        return (far - geometry::mean_point(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
     }
 
     /// The way from end to end of the main body, square to the way the branch leaves it.
     void set_axis(const Mouth& mouth)
     {
-        centre_ = mean(rim_places(mouth));
+        centre_ = geometry::mean_point(rim_places(mouth));
         const Vec3 outward = way_out(mouth);
         const std::vector<Vec3>& ends = found_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
@@ -557,7 +551,7 @@ private:
         check_cancelled(context_);
         Vec3 centre = Vec3::Zero();
         for (const Mouth* mouth : mouths)
-            centre += mean(rim_places(*mouth)) / static_cast<double>(mouths.size());
+            centre += geometry::mean_point(rim_places(*mouth)) / static_cast<double>(mouths.size());
         const geometry::Plane plane = geometry::plane_across(centre, axis_);
         OpenVolume work = volume_;
         Model& model = work.model;

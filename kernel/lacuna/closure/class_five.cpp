@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/class_five.h>
 
+#include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/topology/face_plane.h>
@@ -23,13 +25,6 @@ struct Tube {
     std::array<Rim, 2> rim;
     std::array<std::vector<Vec3>, 2> points;
 };
-
-Vec3 mean(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-}
 
 std::string names(const Model& model, const std::vector<FaceId>& faces)
 {
@@ -71,7 +66,7 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
 double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 {
     const Vec3 normal = geometry::newell_vector(to).stableNormalized();
-    return std::abs((mean(from) - mean(to)).dot(normal));
+    return std::abs((geometry::mean_point(from) - geometry::mean_point(to)).dot(normal));
 }
 
 /// Put each tube's loops in the order of the first tube's.
@@ -84,7 +79,8 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
                              distance(tube.points[1], first.points[1]);
         const double turned = distance(tube.points[1], first.points[0]) +
                               distance(tube.points[0], first.points[1]);
-        const double apart = (mean(first.points[0]) - mean(first.points[1])).norm();
+        const double apart =
+            (geometry::mean_point(first.points[0]) - geometry::mean_point(first.points[1])).norm();
         if (std::abs(as_is - turned) <= 1e-6 * apart) {
             throw NotClosed("closure.ambiguous_loops",
                             "the two free loops of " + names(model, tube.walls) +
@@ -96,14 +92,6 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
             std::swap(tube.points[0], tube.points[1]);
         }
     }
-}
-
-Loop as_end(const Rim& rim)
-{
-    Loop loop;
-    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
-        loop.uses.push_back({use->edge, !use->reversed});
-    return loop;
 }
 
 /// Turn over the tubes inside another, so that all ends agree on which side is the void.
@@ -157,8 +145,8 @@ EndLoops group_loops(OpenVolume& volume)
     face_the_void(volume, tubes);
     EndLoops ends;
     for (const Tube& tube : tubes) {
-        ends.source.push_back(as_end(tube.rim[0]));
-        ends.target.push_back(as_end(tube.rim[1]));
+        ends.source.push_back(reversed(tube.rim[0]));
+        ends.target.push_back(reversed(tube.rim[1]));
     }
     return ends;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/detail/close_class.h>
+#include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
@@ -52,8 +53,15 @@ bool has_two_ends(VolumeClass value)
 }
 
 /// @throw InvalidInput  an option that the class has no use for.
-void check_options(const OpenVolume& volume, VolumeClass value, const CloseOptions& options)
+void check_options(const OpenVolume& volume, VolumeClass value, const std::vector<EndHole>& holes,
+                   const CloseOptions& options)
 {
+    if (options.holes != Holes::automatic && holes.empty()) {
+        throw InvalidInput(
+            "closure.holes_unused",
+            "holes says what becomes of a given end's holes that have no walls, and there is no "
+            "such hole; leave the option out");
+    }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
         throw InvalidInput("closure.void_edges_unused",
                            value == VolumeClass::closed
@@ -105,6 +113,34 @@ constexpr double kLean = 20 * std::numbers::pi / 180;
 
 /// Ways to shape what is missing that differ by more than this share of the volume are both said. A choice.
 constexpr double kToBeSaid = 0.01;
+/// By what share of what is enclosed something else differs; 0 where that cannot be.
+double share_between(double taken, const std::optional<double>& other)
+{
+    return other ? std::abs(*other - taken) / taken : 0;
+}
+
+/// Whether the shape of what is missing was asked for.
+bool asks_for_shape(const CloseOptions& options)
+{
+    return options.edge_shape != EdgeShape::automatic || !options.void_edges.empty() ||
+           options.cap != Cap::automatic;
+}
+
+/// Note what is assumed of walls that are missing beside a missing end: it matters where a face that bulges
+/// over their rims by a quarter of their width, which is 4 area / perimeter, encloses something else.
+void assume_walls(const OpenVolume& sealed, const char* code, std::string text, Closure& closure)
+{
+    const double taken = enclosed_volume(sealed);
+    double open = 0;
+    for (const FaceId face : closure.void_faces) {
+        double perimeter = 0;
+        for (const Loop& loop : sealed.model[face].loops)
+            for (const EdgeUse& use : loop.uses) perimeter += edge_length(sealed.model, use.edge);
+        if (sealed.role[face.index()] == Role::wall)
+            open += std::pow(face_area(sealed.model, face), 2) / perimeter;
+    }
+    assume(closure, code, text + "; this encloses " + with_digits(taken, 4), open / taken);
+}
 
 /// The share of each of the source's rims' edges that has no wall.
 std::vector<double> shares_without_walls(const OpenVolume& volume)
@@ -143,8 +179,8 @@ public:
         for (const Way& way : wanted(match)) {
             try {
                 Closure closure = seal_as(way, match);
-                say_what_else(way, closure);
-                say_what_is_followed(way, match, closure);
+                say_what_else(way, match, closure);
+                say_what_is_filled(closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -185,58 +221,69 @@ private:
         return ways;
     }
 
-    /// Ends that lean against each other with no walls between leave open whether the way is straight or a
-    /// bend.
-    void say_what_else(const Way& way, Closure& closure) const
+    /// What else void edges may be, and what that encloses: straight or a bend between ends that lean against
+    /// each other with no walls between, straight or as the walls bend beside those and along a loop without
+    /// walls.
+    void say_what_else(const Way& way, const matching::Match& match, Closure& closure)
     {
-        if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic || leads()) return;
-        if (closure.void_edges.empty() || !options_.void_edges.empty()) return;
-        const double lean = lean_of(volume_);
-        if (way.edges == EdgeShape::follow || !(lean > kLean)) return;
-        const bool straight = way.edges == EdgeShape::straight;
-        const std::string turned = "the ends are turned by " + with_digits(lean * 180 / std::numbers::pi, 3) +
-                                   "° and no given wall says how the way between them bends: void edges are ";
-        closure.notes.push_back(turned + (straight
-                                              ? "straight; close{ edge_shape = \"smooth\" } makes a bend"
-                                              : "curves that leave both ends square; close{ edge_shape = "
-                                                "\"straight\" } makes them straight"));
-        log_line(context_, closure.notes.back());
+        if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic ||
+            !options_.void_edges.empty())
+            return;
+        const bool straight = way.edges == EdgeShape::straight, follows = way.edges == EdgeShape::follow;
+        const double lean = leads() || closure.void_edges.empty() ? 0 : lean_of(volume_);
+        const auto is_bare = [](double share) { return share == 1; };
+        if (leads() ? !(straight && follower_->bow() > kMatters / 2) &&
+                          !(follows && std::ranges::any_of(shares_without_walls(volume_), is_bare))
+                    : !(lean > kLean))
+            return;
+        const EdgeShape other = !straight ? EdgeShape::straight
+                                : leads() ? EdgeShape::follow
+                                          : EdgeShape::smooth;
+        const double taken = enclosed_volume(sealed_);
+        std::optional<double> instead;
+        if (options_.hints) { // not in trials
+            OpenVolume kept = sealed_;
+            if (would_seal({other}, match)) instead = enclosed_volume(sealed_);
+            sealed_ = std::move(kept);
+        }
+        const double share = share_between(taken, instead);
+        if (leads() && !(share > kToBeSaid)) return; // a bend is told, a widening of the bore alone is not
+        std::string text =
+            follows   ? "a loop of the source has no wall, and void faces follow those of another loop there"
+            : leads() ? "void edges are straight beside given walls that bend"
+                      : "the ends are turned by " + with_digits(lean * 180 / std::numbers::pi, 3) +
+                            "° and no given wall says how the way between them bends: void edges are " +
+                            (straight ? "straight" : "curves that leave both ends square");
+        text += std::string("; close{ edge_shape = \"") +
+                (other == EdgeShape::straight ? "straight"
+                 : leads()                    ? "follow"
+                                              : "smooth") +
+                "\" } " +
+                (instead ? "encloses " + with_digits(*instead, 4) + " instead of " + with_digits(taken, 4)
+                         : "is the other way");
+        assume(closure,
+               follows   ? "closure.loop_follows"
+               : leads() ? "closure.straight_assumed"
+                         : "closure.bend_assumed",
+               std::move(text), share);
     }
 
-    /// A loop without any wall that follows the walls of another one: how much that encloses otherwise. A
-    /// bend is told so, a widening of the bore alone is not.
-    void say_what_is_followed(const Way& way, const matching::Match& match, Closure& closure)
+    /// A missing end with walls missing beside it that was closed by several flat faces.
+    void say_what_is_filled(Closure& closure) const
     {
-        if (way.edges != EdgeShape::follow || options_.edge_shape != EdgeShape::automatic || !options_.hints)
-            return;
-        const auto is_bare = [](double share) { return share == 1; };
-        if (std::ranges::none_of(shares_without_walls(volume_), is_bare)) return;
-        const OpenVolume followed = sealed_;
-        const double encloses = enclosed_volume(followed);
-        const bool seals = would_seal({EdgeShape::straight}, match);
-        const double straight = seals ? enclosed_volume(sealed_) : encloses;
-        sealed_ = followed;
-        if (std::abs(straight - encloses) <= kToBeSaid * encloses) return;
-        closure.notes.push_back("a loop of the source has no wall, and void faces follow those of another "
-                                "loop there, which encloses " +
-                                with_digits(encloses, 4) + "; close{ edge_shape = \"straight\" } encloses " +
-                                with_digits(straight, 4));
-        log_line(context_, closure.notes.back());
+        if (value_ == VolumeClass::IV && !closure.void_edges.empty())
+            assume_walls(sealed_, "closure.walls_filled",
+                         "walls beside the missing target end below it, and flat faces that meet in "
+                         "straight edges continue them",
+                         closure);
     }
 
     /// Void faces whose inside the rim does not tell, and those that fill what may lie behind them.
     void say_what_is_open(Closure& closure) const
     {
-        for (const FaceId face : membranes(sealed_.model, closure.void_faces)) {
-            closure.notes.push_back(name_of(sealed_.model, face) +
-                                    " spans a rim that lies in no plane, as a membrane does: the rim leaves "
-                                    "open how the inside bends; give the face where it bulges");
-            log_line(context_, closure.notes.back());
-        }
-        for (std::string& note : notes_of_holes(volume_.model, all_faces(volume_.model), sealed_, closure)) {
-            closure.notes.push_back(std::move(note));
-            if (options_.hints) log_line(context_, closure.notes.back()); // not of trials
-        }
+        note_open_rims(sealed_, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
+        if (asks_for_shape(options_)) closure.assumptions.clear();
+        note_closed_holes(volume_.model, all_faces(volume_.model), sealed_, closure);
     }
 
     Closure seal_as(const Way& way, const matching::Match& match)
@@ -271,12 +318,13 @@ private:
         if (!has_two_ends(value_)) return otherwise;
         if (options_.edge_shape != EdgeShape::automatic) {
             if (value_ != VolumeClass::I) look_at_walls();
-            if (options_.edge_shape != EdgeShape::straight && would_seal({EdgeShape::straight}, match))
-                return "; close{ edge_shape = \"straight\" } seals it";
-            if (options_.edge_shape != EdgeShape::follow && leads() && would_seal({EdgeShape::follow}, match))
-                return "; close{ edge_shape = \"follow\" } seals it";
-            if (options_.edge_shape != EdgeShape::smooth && would_seal({EdgeShape::smooth}, match))
-                return "; close{ edge_shape = \"smooth\" } seals it";
+            for (const auto& [shape, word] : {std::pair{EdgeShape::straight, "straight"},
+                                              {EdgeShape::follow, "follow"},
+                                              {EdgeShape::smooth, "smooth"}}) {
+                if (shape == options_.edge_shape || (shape == EdgeShape::follow && !leads())) continue;
+                if (would_seal({shape}, match))
+                    return std::string("; close{ edge_shape = \"") + word + "\" } seals it";
+            }
         }
         matching::MatchOptions turned;
         turned.vertices = pairs_by_hand(volume_, options_);
@@ -323,9 +371,7 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 /// @throw NotClosed  the shape that was sealed is a guess which nobody asked for.
 void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseOptions& options)
 {
-    if (options.take_guess || options.edge_shape != EdgeShape::automatic || !options.void_edges.empty() ||
-        options.cap != Cap::automatic)
-        return;
+    if (options.take_guess || asks_for_shape(options)) return;
     const std::string guess = guess_of_bent(sealed, closure, RolesBy::person);
     if (guess.empty()) return;
     throw NotClosed("closure.shape_open",
@@ -364,14 +410,97 @@ std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptio
     Closure& closure = moved->closure;
     closure.value = VolumeClass::IV;
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
-    closure.notes.insert(closure.notes.begin(),
-                         "the target is missing and walls beside it too; it is taken to have the source's "
-                         "shape, which " +
-                             name_of(volume.model, moved->from) +
-                             " tells, where the tops of the walls that stand say");
-    for (const std::string& note : closure.notes) log_line(context, note);
+    const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
+    if (without > std::ssize(holes_without_walls(volume)))
+        assume_walls(moved->volume, "closure.end_moved",
+                     "the target is missing and walls beside it too; it is taken to have the source's "
+                     "shape, which " +
+                         name_of(volume.model, moved->from) +
+                         " tells, where the tops of the walls that stand say",
+                     closure);
     volume = std::move(moved->volume);
     return std::move(moved->closure);
+}
+
+/// The match of the ends that keeps to what is given by hand.
+matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options, const RunContext& context)
+{
+    matching::MatchOptions by_hand;
+    by_hand.vertices = pairs_by_hand(volume, options);
+    return matching::match(volume, by_hand, context);
+}
+
+/// Seal a volume whose holes without walls are covered already, or to be taken as the rest of the ends is.
+/// @param whole  its class
+Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass whole,
+                   const CloseOptions& options, const RunContext& context)
+{
+    // Trials of readings move ends by themselves.
+    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
+        if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
+    }
+    if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
+    OpenVolume lent = volume;
+    const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
+    if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
+
+    // Part of a stack is missing: what is open lies between the stubs, and is matched there.
+    lent.override_class.reset();
+    Closure closure = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
+    closure.value = whole;
+    for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
+    lent.override_class = volume.override_class;
+    volume = std::move(lent);
+    return closure;
+}
+
+/// Seal a volume of which given ends have holes that are to be covered.
+Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
+                      const CloseOptions& options, const RunContext& context)
+{
+    OpenVolume covered = volume;
+    const std::vector<FaceId> covers = cover_holes(covered, holes, context);
+    const matching::Match match = has_two_ends(whole) ? match_ends(covered, options, context)
+                                                      : matching::Match{};
+    Closure closure = close_rest(covered, match, classify(covered).value, options, context);
+    closure.value = whole;
+    closure.void_faces.insert(closure.void_faces.begin(), covers.begin(), covers.end());
+    volume = std::move(covered);
+    return closure;
+}
+
+/// What holes without walls may be, and what is enclosed then.
+std::string in_words(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
+{
+    const auto encloses = [](const std::optional<double>& volume) {
+        return volume ? " encloses " + with_digits(*volume, 7) : std::string(" cannot be sealed");
+    };
+    return name_of(model, holes.front().face) + " has " +
+           (holes.size() == 1 ? "a hole" : std::to_string(holes.size()) + " holes") +
+           " without walls: close{ holes = \"cover\" }, by flat faces," + encloses(volumes.covered) +
+           "; close{ holes = \"through\" }, on to the missing end," + encloses(volumes.through);
+}
+
+/// Seal a volume after holes without walls of its ends.
+Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
+                             const RunContext& context)
+{
+    const VolumeClass whole = classify(volume).value;
+    const std::vector<EndHole> holes = holes_without_walls(volume);
+    check_options(volume, whole, holes, options);
+    if (whole == VolumeClass::V && options.hints) check_tubes(volume, context);
+    if (options.holes == Holes::cover) return close_covered(volume, holes, whole, options, context);
+    std::optional<HoleVolumes> volumes; // where it is open which of them is meant
+    if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && options.hints)
+        volumes = hole_volumes(volume, options, context);
+    if (volumes && !options.take_guess && (volumes->covered || volumes->through))
+        throw NotClosed("closure.holes_open", in_words(volume.model, holes, *volumes));
+    Closure closure = close_rest(volume, match, whole, options, context);
+    if (volumes)
+        assume(closure, "closure.hole_through",
+               in_words(volume.model, holes, *volumes) + "; they are taken through",
+               share_between(enclosed_volume(volume), volumes->covered));
+    return closure;
 }
 
 } // namespace
@@ -402,29 +531,18 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
         throw NotSweepable("closure.full_turn_whole",
                            "the volume runs round its whole turn and has no ends to be closed between; sweep "
                            "it, or close its pieces, which volume:cut() gives");
-    const VolumeClass whole = classify(volume).value;
-    check_options(volume, whole, options);
-    if (whole == VolumeClass::V && options.hints) check_tubes(volume, context);
-    // Trials of readings move ends by themselves.
-    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
-        if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
-    }
-    if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
-    OpenVolume lent = volume;
-    const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
-    if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
-
-    // Part of a stack is missing: what is open lies between the stubs, and is matched there.
-    lent.override_class.reset();
-    matching::MatchOptions by_hand;
-    by_hand.vertices = pairs_by_hand(lent, options);
-    Closure closure = seal(lent, matching::match(lent, by_hand, context), classify(lent).value, options,
-                           context);
-    closure.value = whole;
-    for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
-    lent.override_class = volume.override_class;
-    volume = std::move(lent);
+    Closure closure = close_holes_and_rest(volume, match, options, context);
+    if (options.hints) log_notes(closure, context); // not of trials
     return closure;
+}
+
+void log_notes(const Closure& closure, const RunContext& context)
+{
+    for (const std::string& note : closure.notes) {
+        const auto assumed = std::ranges::find(closure.assumptions, note, &Assumption::text);
+        log_line(context,
+                 assumed == closure.assumptions.end() ? note : "note: " + note + " [" + assumed->code + "]");
+    }
 }
 
 } // namespace lacuna::closure

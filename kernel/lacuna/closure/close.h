@@ -28,6 +28,13 @@ enum class Cap {
     parallel,  ///< the given end's shape, moved to the rim as the walls lead
 };
 
+/// What becomes of holes of a given end that have no walls.
+enum class Holes {
+    automatic, ///< refused where the other end is missing; else closed as the match says
+    cover,     ///< covered in the end's surface
+    through,   ///< taken through to the other end
+};
+
 /// A void edge given by hand.
 struct VoidEdge {
     int from = 0, to = 0;     ///< tags of vertices on the free rims
@@ -38,8 +45,15 @@ struct CloseOptions {
     EdgeShape edge_shape = EdgeShape::automatic;
     std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
     Cap cap = Cap::automatic;
+    Holes holes = Holes::automatic;
     bool hints = true; ///< whether a refusal says what would seal, which takes as long as sealing once more
     bool take_guess = false; ///< take what nothing given tells as it closes; an option above takes it as well
+};
+
+/// Something that closing assumed, without which the volume would differ by more than 2 %.
+struct Assumption {
+    std::string code; ///< stable, for programs: "closure.end_moved"
+    std::string text; ///< one of the closure's notes
 };
 
 /// What was added to seal the volume, and how.
@@ -49,7 +63,8 @@ struct Closure {
     std::vector<FaceId> void_faces;
     std::vector<std::string> algorithms; ///< of the paper, in the order used: "Algorithm 8", "Algorithm 4", …
     bool watertight = false;
-    std::vector<std::string> notes; ///< what was taken though something else may have been meant
+    std::vector<std::string> notes;      ///< what was taken though something else may have been meant
+    std::vector<Assumption> assumptions; ///< those notes that say what matters
 };
 
 /// Seal the volume: add void edges and faces with their geometry, and give every face its role.
@@ -62,11 +77,18 @@ struct Closure {
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why; and another shape or
 ///         direction that was found to seal it. "closure.shape_open": nothing given tells the shape of
 ///         what is missing, and neither a shape nor a guess was asked for; names the faces round it.
-/// @throw InvalidInput  a void edge given by hand that cannot be one; names its vertices.
+///         "closure.holes_open": an end is missing and the given one has holes without walls; says what is
+///         enclosed with these covered and taken through.
+/// @throw InvalidInput  a void edge given by hand that cannot be one; names its vertices. An option that the
+///         volume has no use for.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});
+
+/// Hand a closure's notes to the log, those of assumptions as `note: … [code]`. close() does so unless it is
+/// a trial, without hints.
+void log_notes(const Closure& closure, const RunContext& context);
 
 /// The void edges given by hand that join the rims of source and target, as pairs (source, target) of vertex
 /// tags: what a match has to keep to.

@@ -95,14 +95,6 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-Loop reversed(const Rim& rim)
-{
-    Loop loop;
-    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
-        loop.uses.push_back({use->edge, !use->reversed});
-    return loop;
-}
-
 /// A missing target with the source's shape, moved to the walls' rim by the affine map that the walls'
 /// sections give.
 VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
@@ -196,7 +188,6 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
             closure.notes.push_back(name_of(volume.model, floor) + " lies in the plane of " +
                                     (role == Role::source ? "the source" : "the target") +
                                     " and is taken as a part of it");
-            log_line(tools.context, closure.notes.back());
         }
     }
 }

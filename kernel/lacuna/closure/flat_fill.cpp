@@ -200,7 +200,7 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
 {
     auto filled = fill_loops(model, faces, context);
     if (!filled || !prove(*filled, context)) return std::nullopt;
-    filled->closure.notes = notes_of_holes(model, faces, filled->volume, filled->closure);
+    note_closed_holes(model, faces, filled->volume, filled->closure);
     return filled;
 }
 

@@ -45,6 +45,9 @@ public:
     /// straight edges would enclose another volume. @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
+    /// How far the walls stray from straight lines between the rims, of their radius.
+    [[nodiscard]] double bow() const { return bow_; }
+
     /// Height of a model point on a given wall; NaN elsewhere.
     [[nodiscard]] double height(Index point) const
     {
@@ -69,7 +72,7 @@ private:
     std::vector<double> heights_;
     bool closed_ = false; ///< some walls go all round
     bool tells_ = false;  ///< some reach far enough round to say how the rest of their loop goes
-    double bow_ = 0;      ///< how far the walls stray from straight lines between the rims, of their radius
+    double bow_ = 0;
 };
 
 } // namespace lacuna::closure

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
+#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/face_plane.h>
@@ -33,20 +34,30 @@ constexpr double kDoubt = 0.05;
 /// rims among them, and 762 are not. By closing all, 41 and 12 are off by a volume above 3 %,
 /// 70 and 719 by one below 1 %.
 constexpr double kBendDoubt = 0.03;
+/// A rim is rough where its points are off a plane by up to this share of its diameter. A choice: the cut end
+/// of a bone, of which there are scans.
+constexpr double kRough = 0.05;
 
-/// What lies between a face and heights over a plane [model length³]; nothing where there are none.
+/// What lies between a face and heights over a plane [model length³].
+struct Between {
+    double all = 0, above = 0; ///< on both sides, and above the face less what is below
+};
+
+/// @return  nothing where there are no heights over a part of the face.
 template <class Heights>
-std::optional<double> beside(const Model& model, FaceId face, const geometry::Plane& plane,
-                             const Heights& heights)
+std::optional<Between> between(const Model& model, FaceId face, const geometry::Plane& plane,
+                               const Heights& heights)
 {
-    double sum = 0;
+    Between sum;
     for (const Triangle& t : model[face].triangles) {
         const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
         const Vec3 middle = (a + b + c) / 3;
         const std::optional<double> height = heights(geometry::to_plane(plane, middle));
         if (!height) return std::nullopt;
         const double off = *height - geometry::height(plane, middle);
-        sum += std::abs(off * (b - a).cross(c - a).dot(plane.normal)) / 2;
+        const double part = off * (b - a).cross(c - a).dot(plane.normal) / 2;
+        sum.all += std::abs(part);
+        sum.above += part;
     }
     return sum;
 }
@@ -61,14 +72,16 @@ geometry::Plane middle_plane(const Model& model, FaceId face)
 double beside_plane(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return 0;
-    return *beside(model, face, middle_plane(model, face), [](const Vec2&) { return std::optional(0.0); });
+    return between(model, face, middle_plane(model, face), [](const Vec2&) { return std::optional(0.0); })
+        ->all;
 }
 
-double beside_thin_plate(const Model& model, FaceId face)
+Between beside_thin_plate(const Model& model, FaceId face)
 {
+    if (!(face_area_vector(model, face).norm() > 0)) return {}; // as much of it looks up as down
     const geometry::Plane plane = middle_plane(model, face);
     const ThinPlate plate = plate_over(plane, model, model[face].loops);
-    return *beside(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
+    return *between(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
 }
 
 bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
@@ -170,7 +183,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
             is_rim_far_off_plane(model, enclosed, face, loop))
             return true;
     return model[face].geometry == Geometry::minimal ||
-           beside_thin_plate(model, face) >= kBendDoubt * enclosed;
+           beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
 /// Whether a missing end was made between four sides of which no two that face each other are straight.
@@ -192,8 +205,8 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
     const geometry::Plane plane = middle_plane(model, face);
     const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
     const auto is_far_off = [&](const QuadricSheet& sheet) {
-        const auto off = beside(model, face, plane, [&](const Vec2& p) { return sheet.height(p); });
-        return off && *off >= kBendDoubt * enclosed;
+        const auto off = between(model, face, plane, [&](const Vec2& p) { return sheet.height(p); });
+        return off && off->all >= kBendDoubt * enclosed;
     };
     return std::ranges::any_of(shapes.told.empty() ? shapes.possible : shapes.told, is_far_off);
 }
@@ -212,22 +225,43 @@ bool leaves_plane(const Model& model, FaceId face)
            });
 }
 
+/// Whether a void face closes a rough rim: one that is about flat, over which smooth faces enclose about the
+/// same.
+bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
+{
+    const bool about_flat = std::ranges::all_of(model[face].loops, [&](const Loop& loop) {
+        const std::vector<Vec3> places = loop_places(model, loop.uses);
+        const Vec3 middle = geometry::mean_point(places);
+        double radius = 0;
+        for (const Vec3& p : places) radius = std::max(radius, (p - middle).norm());
+        return off_one_plane(places) <= kRough * 2 * radius;
+    });
+    return about_flat && std::abs(beside_thin_plate(model, face).above) <= kMatters * enclosed;
+}
+
 bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
 {
     return is_far_off_plane(model, enclosed, face) && is_open(model, face);
+}
+
+/// Whether the rim of a void face leaves its shape in doubt, be it rough or not.
+bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
+{
+    const Model& model = sealed.model;
+    if (by == RolesBy::person &&
+        (bends_off_quadratic(model, face) || is_end_between_bent_sides(sealed, face)))
+        return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
+               is_end_in_doubt(model, enclosed, face);
+    return is_open_far_off_plane(model, enclosed, face);
 }
 
 /// Whether a void face leaves the shape of a sealed volume in doubt.
 bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
     const Model& model = sealed.model;
-    if (leaves_plane(model, face) && is_far_off_plane(model, enclosed, face)) return true;
-    if (may_lie_on_other_quadric(sealed, enclosed, face)) return true;
-    if (by == RolesBy::person &&
-        (bends_off_quadratic(model, face) || is_end_between_bent_sides(sealed, face)))
-        return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
-               is_end_in_doubt(model, enclosed, face);
-    return is_open_far_off_plane(model, enclosed, face);
+    return (leaves_plane(model, face) && is_far_off_plane(model, enclosed, face)) ||
+           may_lie_on_other_quadric(sealed, enclosed, face) ||
+           (is_rim_in_doubt(sealed, enclosed, face, by) && !closes_rough_rim(model, enclosed, face));
 }
 
 /// The tags of some faces, the first of many.
@@ -298,29 +332,27 @@ struct ClosedHole {
     FaceId round, filler;
 };
 
-/// The holes that are closed so; none where the given faces look into the void, as those of a counterbore do.
-std::vector<ClosedHole> closed_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
+/// The holes of faces before `given` that are closed so.
+std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
                                      const std::vector<FaceId>& void_faces)
 {
     std::vector<ClosedHole> holes;
     const std::vector<std::vector<FaceUse>> uses = edge_uses(own);
     for (const FaceId face : void_faces) {
         const auto round = face_round_hole(own, uses, face);
-        if (round && round->index() < given.size()) holes.push_back({*round, face});
+        if (round && round->index() < given) holes.push_back({*round, face});
     }
-    if (!holes.empty() && look_inward(model, given, own)) holes.clear();
     return holes;
 }
 
-std::string guess_of_holes(const Model& model, const std::vector<FaceId>& given, const Model& own,
-                           const std::vector<FaceId>& void_faces)
+/// How far off the plane of one void face the others reach [model length].
+double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
-    for (const auto& [round, filler] : closed_holes(model, given, own, void_faces)) {
-        if (!is_end_away_from(own, void_faces, round)) continue;
-        return "nothing given tells what is behind the hole of " + name_of(model, given[round.index()]) +
-               ": its walls are missing, and so is an end to which it may go through";
-    }
-    return {};
+    const geometry::Plane plane = middle_plane(model, face);
+    double reach = 0;
+    for (const FaceId other : void_faces)
+        reach = std::max(reach, std::abs(geometry::height(plane, face_centroid(model, other))));
+    return reach;
 }
 
 } // namespace
@@ -329,7 +361,8 @@ bool bends_untold(const OpenVolume& sealed, const Closure& closure)
 {
     const double enclosed = enclosed_volume(sealed);
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        return leaves_plane(sealed.model, face) || is_open_far_off_plane(sealed.model, enclosed, face);
+        return leaves_plane(sealed.model, face) || (is_open_far_off_plane(sealed.model, enclosed, face) &&
+                                                    !closes_rough_rim(sealed.model, enclosed, face));
     });
 }
 
@@ -348,24 +381,68 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
     return {};
 }
 
-std::string guess_of(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
-                     const Closure& closure)
+FaceId open_hole(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
+                 const Closure& closure)
 {
-    const std::string bent = guess_of_bent(sealed, closure, RolesBy::finding);
-    return bent.empty() ? guess_of_holes(model, given, sealed.model, closure.void_faces) : bent;
+    if (look_inward(model, given, sealed.model)) return {};
+    for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces))
+        if (is_end_away_from(sealed.model, closure.void_faces, round)) return given[round.index()];
+    return {};
 }
 
-std::vector<std::string> notes_of_holes(const Model& model, const std::vector<FaceId>& given,
-                                        const OpenVolume& sealed, const Closure& closure)
+std::string hole_in_words(const Model& model, FaceId face)
 {
-    std::vector<std::string> notes;
-    for (const auto& [round, filler] : closed_holes(model, given, sealed.model, closure.void_faces)) {
-        if (sealed.role[filler.index()] != Role::wall) continue;
-        notes.push_back("a hole of " + name_of(model, given[round.index()]) +
-                        " is closed in its plane: a pocket that begins there is filled; give its faces where "
-                        "there is one");
+    return "nothing given tells what is behind the hole of " + name_of(model, face) +
+           ": its walls are missing, and so is an end to which it may go through";
+}
+
+void assume(Closure& closure, const char* code, std::string text, double share)
+{
+    if (share > kMatters) closure.assumptions.push_back({code, text});
+    closure.notes.push_back(std::move(text));
+}
+
+void note_closed_holes(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
+                       Closure& closure)
+{
+    const bool inward = look_inward(model, given, sealed.model);
+    for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces)) {
+        const bool wall = sealed.role[filler.index()] == Role::wall;
+        if (wall == inward) continue;
+        const double area = face_area(sealed.model, filler);
+        const std::string hole = "a hole of " + name_of(model, given[round.index()]);
+        if (wall)
+            assume(closure, "closure.hole_closed",
+                   hole +
+                       " is closed in its plane: a pocket that begins there is filled; give its faces where "
+                       "there is one",
+                   area * std::sqrt(area) / enclosed_volume(sealed));
+        else
+            assume(closure, "closure.hole_covered",
+                   hole + " is covered, because the faces look into the void; name it the source, and close{ "
+                          "holes = \"through\" } takes the hole through to the missing end",
+                   area * reach_of_others(sealed.model, closure.void_faces, filler) /
+                       enclosed_volume(sealed));
     }
-    return notes;
+}
+
+void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
+{
+    const Model& model = sealed.model;
+    const double enclosed = enclosed_volume(sealed);
+    for (const FaceId face : membranes(model, closure.void_faces))
+        assume(
+            closure, "closure.membrane",
+            name_of(model, face) +
+                " spans a rim that lies in no plane, as a membrane does: the rim leaves open how the inside "
+                "bends; give the face where it bulges",
+            std::abs(beside_thin_plate(model, face).above) / enclosed);
+    for (const FaceId face : closure.void_faces) {
+        if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
+        closure.notes.push_back("the rim of " + name_of(model, face) +
+                                " is rough and is closed by a smooth face; give the face where it bulges");
+        closure.assumptions.push_back({"closure.rough_rim", closure.notes.back()});
+    }
 }
 
 } // namespace lacuna::closure

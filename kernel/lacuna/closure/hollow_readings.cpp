@@ -71,7 +71,8 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.volume = sealed->volume;
     reading.closure = sealed->closure;
     reading.enclosed = sealed->enclosed;
-    reading.guess = guess_of(model, faces, sealed->volume, sealed->closure);
+    reading.guess = guess_of_bent(sealed->volume, sealed->closure, RolesBy::finding);
+    if (reading.guess.empty()) note_hole(model, {}, faces, *sealed, reading);
     if (low.empty()) {
         for (Role& role : reading.volume.role)
             role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;

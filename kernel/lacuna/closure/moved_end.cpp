@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/moved_end.h>
 
 #include <lacuna/closure/detail/climber.h>
+#include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/affine.h>
@@ -10,6 +11,8 @@
 #include <lacuna/geometry/segment.h>
 #include <lacuna/topology/face_plane.h>
 #include <lacuna/topology/use_places.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -235,9 +238,10 @@ private:
         const Vec3 mean_low = geometry::mean_point(geometry::even_places(low, kSamples));
         const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kSamples));
         const double scale = std::sqrt(to.norm() / from.norm());
-        for (const double along : {-1.0, 0.0, 1.0}) {
-            from_.push_back(mean_low + along * std::sqrt(from.norm()) * from.stableNormalized());
-            to_.push_back(mean_high + along * scale * std::sqrt(from.norm()) * to.stableNormalized());
+        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from, to); // without a twist
+        for (const Vec3& p : geometry::even_places(low, kSamples)) {
+            from_.push_back(p);
+            to_.push_back(mean_high + scale * (turn * (p - mean_low)));
         }
         return true;
     }
@@ -432,7 +436,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
     if (stop) return std::nullopt;
     try {
         mover.move(context);
-        MovedEnd result{std::move(mover.volume()), {}, end, 0, false};
+        MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
         const matching::Match match = matching::match(result.volume, {}, context);
         result.closure = close(result.volume, match, {.hints = false, .take_guess = true}, context);
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
@@ -440,11 +444,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
                                          mover.made_edges().end());
         result.enclosed = enclosed_volume(result.volume);
         result.through = mover.has_bare_rim();
-        if (result.through)
-            result.closure.notes.push_back(
-                "a hole of " + name_of(open.model, end) +
-                " has no walls and is taken to go through to the missing end; give "
-                "its bottom where it is blind");
+        result.holes = !holes_without_walls(open).empty();
         return result;
     } catch (const InvalidInput&) {
         return std::nullopt;

@@ -137,6 +137,9 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                            "has some, or add_face{ points =, cells = }");
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) refuse_without_roles(model, faces, context);
+    if (number == 0) {
+        if (auto open = leave_holes_open(model, readings, faces, context)) return std::move(*open);
+    }
     if (number == 0 && readings.size() == 1) {
         if (readings.front().guess.empty()) return std::move(readings.front());
         throw InvalidInput("topology.shape_open",

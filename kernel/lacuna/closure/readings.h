@@ -37,8 +37,11 @@ struct Reading {
     std::optional<Closure> closure;
     /// Set where `volume` is open and was sealed as it is to be read: that need not be done again.
     std::optional<SealedVolume> sealed;
-    double enclosed = 0;  ///< [model length³]
-    std::string guess;    ///< what of its shape nothing given tells, in words; empty where all is told
+    double enclosed = 0; ///< [model length³]
+    std::string guess;   ///< what of its shape nothing given tells, in words; empty where all is told
+    /// A given end with holes that have no walls, and may go through to an end that is missing; not valid
+    /// where there is none. An open volume with this as its source is to be closed by `CloseOptions::holes`.
+    FaceId holed;
     std::size_t ways = 1; ///< how many readings of the faces enclose it
     /// Null where there is no other way, and where the ends were given as such.
     std::shared_ptr<const OtherSweeps> others;
@@ -83,6 +86,8 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 
 /// The one void that some faces are, or the one that is asked for by its number.
 /// @param number  from 1, as the message counts them; 0: there must be one only, whose shape is no guess.
+/// @return  with 0, where all that is left open is whether holes without walls go through: the face that has
+///          them as the source of a volume of class IV, which close() refuses unless it is told.
 /// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
 ///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists what each would
 ///        enclose), "topology.shape_open" (names the faces round what is missing),

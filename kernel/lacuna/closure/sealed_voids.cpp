@@ -80,9 +80,8 @@ bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near
 
 bool enclose_the_same(const Sealed& a, const Sealed& b)
 {
-    const double larger = std::max(a.enclosed, b.enclosed);
-    if (std::abs(a.enclosed - b.enclosed) > kSameVolume * larger) return false;
-    const double near = kSameSkin * std::cbrt(larger);
+    if (!same_volume(a.enclosed, b.enclosed)) return false;
+    const double near = kSameSkin * std::cbrt(std::max(a.enclosed, b.enclosed));
     return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
 }
 
@@ -197,6 +196,8 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
     }
 }
 
+bool same_volume(double a, double b) { return std::abs(a - b) <= kSameVolume * std::max(a, b); }
+
 bool has_membranes(const Sealed& sealed)
 {
     return !membranes(sealed.volume.model, sealed.closure.void_faces).empty();
@@ -286,6 +287,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;
         told = told && !one.through;
+        if (one.holes) now.through = one.from;
         ends.push_back(std::move(now));
     }
     if (ends.empty()) return;

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/cut.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/facet_tree.h>
@@ -482,10 +483,8 @@ void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunC
                                                 " are cut towards the opposite end, which is missing, and " +
                                                 std::to_string(open.size()) +
                                                 " loops are open; give its face, or the other faces");
-    Loop loop;
-    for (auto use = open.front().uses.rbegin(); use != open.front().uses.rend(); ++use)
-        loop.uses.push_back({use->edge, !use->reversed});
-    add_void_face(volume, fill(volume, {loop}, nullptr, "the end opposite " + step, context), other);
+    add_void_face(
+        volume, fill(volume, {reversed(open.front())}, nullptr, "the end opposite " + step, context), other);
     build_loops(volume.model);
 }
 

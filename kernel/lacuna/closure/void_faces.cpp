@@ -120,6 +120,14 @@ constexpr int kLookAhead = 3;
 
 } // namespace
 
+Loop reversed(const Rim& rim)
+{
+    Loop loop;
+    for (auto use = rim.uses.rbegin(); use != rim.uses.rend(); ++use)
+        loop.uses.push_back({use->edge, !use->reversed});
+    return loop;
+}
+
 std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>& void_edges)
 {
     const Model& model = volume.model;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/void_sweeps.h>
 
+#include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -176,12 +178,49 @@ void set_ends(OpenVolume& volume, const Roles& roles)
     volume.turned_round = false;
 }
 
+void note_hole(const Model& model, FaceId through, const std::vector<FaceId>& given, const Sealed& sealed,
+               Reading& reading)
+{
+    reading.holed = through.valid() ? through : open_hole(model, given, sealed.volume, sealed.closure);
+    if (reading.holed.valid()) reading.guess = hole_in_words(model, reading.holed);
+}
+
+std::optional<Reading> leave_holes_open(const Model& model, const std::vector<Reading>& readings,
+                                        const std::vector<FaceId>& faces, const RunContext& context)
+{
+    const auto holed = std::ranges::find_if(readings, [](const Reading& r) { return r.holed.valid(); });
+    if (holed == readings.end()) return std::nullopt;
+    RoleCandidate roles;
+    roles.roles.source = {holed->holed};
+    std::ranges::copy_if(faces, std::back_inserter(roles.roles.walls),
+                         [&](FaceId face) { return face != holed->holed; });
+    roles.value = VolumeClass::IV;
+    roles.reasons.push_back(name_of(model, holed->holed) +
+                            " has holes without walls, and the end across from it is missing; close{ holes = "
+                            "\"cover\" } or close{ holes = \"through\" } says whether they go through");
+    Reading reading;
+    reading.holed = holed->holed;
+    take_open(model, std::move(roles), reading, context);
+    if (reading.classification.value != VolumeClass::IV || holes_without_walls(reading.volume).empty())
+        return std::nullopt;
+    const HoleVolumes volumes = hole_volumes(reading.volume, {}, context);
+    const auto is_one_of_both = [&](const Reading& other) {
+        return same_volume(other.enclosed, volumes.covered.value_or(0)) ||
+               same_volume(other.enclosed, volumes.through.value_or(0));
+    };
+    if (!std::ranges::all_of(readings, is_one_of_both)) return std::nullopt;
+    reading.enclosed = volumes.covered.value_or(volumes.through.value_or(0));
+    return reading;
+}
+
 std::optional<Reading> read(const Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context)
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
-    reading.guess = guess_of(model, as_named(found.first.roles), found.sealed.volume, found.sealed.closure);
+    reading.guess = guess_of_bent(found.sealed.volume, found.sealed.closure, RolesBy::finding);
+    if (reading.guess.empty())
+        note_hole(model, found.through, as_named(found.first.roles), found.sealed, reading);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = as_named(first.roles);

@@ -24,19 +24,33 @@ bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 /// - A bent void face whose rim lies on other quadrics that are far off it.
 /// - A bent void face along whose rim given edges go round corners in one plane: a flat face is missing
 ///   there.
+///
+/// No rough rim is in doubt: one whose points are off a plane by a twentieth of its diameter at most, where
+/// smooth faces over it enclose the same to 2 %.
 std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
-/// What of a volume sealed by roles that were found nothing given tells, in words; empty where all is told:
-/// what `guess_of_bent()` says, or a hole of a given face that is closed in its plane, though an end away
-/// from it is missing as well. The hole may go through. Faces that look into the void, as those of a
+/// A face of `model` with a hole that is closed in its plane, though an end away from it is missing as well:
+/// the hole may go through. Not valid where there is none. Faces that look into the void, as those of a
 /// counterbore do, leave no such doubt.
 /// @param given  the faces of `model` that are the volume's first
-std::string guess_of(const topology::Model& model, const std::vector<FaceId>& given,
-                     const topology::OpenVolume& sealed, const Closure& closure);
+FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
+                 const topology::OpenVolume& sealed, const Closure& closure);
+std::string hole_in_words(const topology::Model& model, FaceId face);
 
-/// What is said of holes of given faces that void walls close in their planes: a pocket that is missing whole
-/// leaves no other trace.
-std::vector<std::string> notes_of_holes(const topology::Model& model, const std::vector<FaceId>& given,
-                                        const topology::OpenVolume& sealed, const Closure& closure);
+/// An assumption matters where the volume would differ otherwise by more than this share: as much as a mesh
+/// may lose of what is sealed.
+constexpr double kMatters = 0.02;
+
+/// Add a note of what is assumed, which is an assumption where it matters.
+/// @param share  of the volume by which it would differ otherwise
+void assume(Closure& closure, const char* code, std::string text, double share);
+
+/// Note the holes of given faces that void walls close in their planes: a pocket that is missing whole leaves
+/// no other trace. It matters where one as deep as its mouth is wide would.
+void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
+                       const topology::OpenVolume& sealed, Closure& closure);
+
+/// Note void faces over rims that leave open how the inside bends, and those over rough rims.
+void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
 } // namespace lacuna::closure

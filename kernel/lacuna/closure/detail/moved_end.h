@@ -16,7 +16,8 @@ struct MovedEnd {
     Closure closure;
     FaceId from;          ///< the end that was moved, of the faces asked for
     double enclosed = 0;  ///< [model length³]
-    bool through = false; ///< whether a hole without walls was taken to go through, which nothing tells
+    bool through = false; ///< whether a rim without walls was taken to go through, which nothing tells
+    bool holes = false;   ///< whether that holds for holes
 };
 
 /// Seal some faces that lack an end and walls beside it as the given end tells.

@@ -24,6 +24,7 @@ struct Void {
     std::vector<topology::RoleCandidate> bent; ///< others, by which it would bend as nothing given tells
     bool untold = false;                       ///< whether a void face bends as nothing given tells
     bool fills_flat_loops = false;             ///< all that is missing
+    FaceId through;                            ///< an end that was moved with its holes without walls
     bool channel = false;                      ///< whether it was sealed by two ends that are alike
     std::string filled;                        ///< how it was sealed where that was by no roles, in words
 };
@@ -32,6 +33,9 @@ struct Void {
 /// @throw Cancelled
 std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
                            const RunContext& context);
+
+/// Whether volumes are about as large: what chords leave out of round faces, and more, is no difference.
+bool same_volume(double a, double b);
 
 /// Whether a void face leaves open how its inside bends.
 bool has_membranes(const Sealed& sealed);

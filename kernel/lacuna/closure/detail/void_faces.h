@@ -7,6 +7,9 @@
 
 namespace lacuna::closure {
 
+/// The loop of a void face within a rim of given ones: it runs against that.
+topology::Loop reversed(const topology::Rim& rim);
+
 /// The paper's Algorithm 3 as a walk along half-edges: a free edge lacks one half, a void edge both; from a
 /// free half on the source rim turn at each vertex to the half that leaves it. One loop a void face, the
 /// face on its left.

@@ -23,4 +23,15 @@ void set_ends(topology::OpenVolume& volume, const topology::Roles& roles);
 std::optional<Reading> read(const topology::Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context);
 
+/// Say in a reading whether the holes of a given face may go through to an end that is missing.
+/// @param through  the end that was moved with its holes, if one was
+/// @param given    the faces of `model` that are the first of what was sealed
+void note_hole(const topology::Model& model, FaceId through, const std::vector<FaceId>& given,
+               const Sealed& sealed, Reading& reading);
+
+/// Where all that readings of some faces leave open is whether holes without walls go through: the face that
+/// has them as the source of a volume of class IV, open.
+std::optional<Reading> leave_holes_open(const topology::Model& model, const std::vector<Reading>& readings,
+                                        const std::vector<FaceId>& faces, const RunContext& context);
+
 } // namespace lacuna::closure

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/end_holes.h>
+
+#include <lacuna/closure/detail/void_faces.h>
+#include <lacuna/closure/void_geometry.h>
+#include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/use_places.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    const auto uses = edge_uses(model);
+    const auto enclosed = [&](const Rim& rim) {
+        return geometry::newell_vector(loop_places(model, rim.uses)).norm();
+    };
+    const auto is_free = [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; };
+    std::vector<EndHole> holes;
+    for (const Role end : {Role::source, Role::target}) {
+        for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(end))) {
+            std::vector<Rim> all = rims(model, part);
+            if (all.size() < 2) continue;
+            all.erase(std::ranges::max_element(all, {}, enclosed));
+            for (Rim& rim : all) {
+                if (!std::ranges::all_of(rim.uses, is_free)) continue;
+                const FaceId beside = uses[rim.uses.front().edge.index()].front().face;
+                holes.push_back({end, beside, std::move(rim)});
+            }
+        }
+    }
+    return holes;
+}
+
+std::vector<FaceId> cover_holes(OpenVolume& volume, const std::vector<EndHole>& holes,
+                                const RunContext& context)
+{
+    std::vector<FaceId> covers;
+    for (const EndHole& hole : holes) {
+        VoidFilling cover = fill(volume, {reversed(hole.rim)}, nullptr,
+                                 "the cover of a hole of " + name_of(volume.model, hole.face), context);
+        covers.push_back(add_void_face(volume, std::move(cover), hole.end));
+    }
+    return covers;
+}
+
+HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, const RunContext& context)
+{
+    RunContext quiet = context;
+    quiet.log = nullptr;
+    const auto encloses = [&](Holes holes) -> std::optional<double> {
+        CloseOptions asked = options;
+        asked.holes = holes;
+        asked.take_guess = true;
+        OpenVolume sealed = volume;
+        try {
+            close(sealed, {}, asked, quiet);
+        } catch (const NotClosed&) { // one that cannot be sealed so is said to be
+            return std::nullopt;
+        } catch (const InvalidInput&) {
+            return std::nullopt;
+        }
+        return enclosed_volume(sealed);
+    };
+    return {encloses(Holes::cover), encloses(Holes::through)};
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,171 @@
+-- SPDX-License-Identifier: MIT
+-- Holes of a given end that have no walls, rough rims, and what closing assumes: what is refused, and what is
+-- told on standard error.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "", scratch = "" }
+local folder = check.empty_folder(params.scratch)
+
+-- --- holes -------------------------------------------------------------------------------------------------
+
+local function polygon(sides, radius)
+  local area = sides * radius ^ 2 * math.sin(2 * math.pi / sides) / 2
+  return area
+end
+
+for _, sides in ipairs { 3, 4, 6 } do
+  for _, radius in ipairs { 0.1, 0.3 } do
+    local drop = { "target" }
+    local walls = {}
+    for w = 1, sides do
+      walls[w] = "wall_" .. w
+      drop[w + 1] = "wall_" .. w + sides
+    end
+    local model = lacuna.synthetic.prism { sides = sides, holes = 1, hole_radius = radius, drop = drop }
+    local covered, through = 2 * polygon(sides, 1), 2 * (polygon(sides, 1) - polygon(sides, radius))
+    for _, roles in ipairs { { source = "source", walls = walls }, {} } do
+      local function open(reading)
+        local asked = { reading = reading }
+        for key, value in pairs(roles) do asked[key] = value end
+        return model:open_volume(asked)
+      end
+      -- Without a word on it, both volumes are told.
+      local why = check.fails(function() open():sweep {} end, "closure.holes_open", 'holes = "cover"',
+          'holes = "through"')
+      local told = {}
+      for number in why:gmatch("encloses (%d[%d.]*)") do told[#told + 1] = tonumber(number) end
+      check.near(told[1], covered, 1e-5 * covered)
+      check.near(told[2], through, 1e-5 * through)
+      for what, volume in pairs { cover = covered, through = through } do
+        local void = open()
+        check.that(void:close { holes = what }.watertight)
+        local mesh = void:sweep { layers = 2 }
+        check.near(mesh.fidelity.sealed_volume, volume, 1e-6 * volume)
+        check.that(mesh:quality().certified)
+      end
+      check.that(open(1):sweep { layers = 2 }.hexes > 0) -- a guess is taken
+    end
+  end
+end
+
+-- Where there is no such hole, nothing is to be said of it.
+for _, drop in ipairs { { "target" }, { "source", "target" }, { "wall_1" } } do
+  for _, what in ipairs { "cover", "through" } do
+    local roles = { walls = { "wall_2", "wall_3", "wall_4" } }
+    if drop[1] ~= "wall_1" then roles.walls[4] = "wall_1" end
+    if #drop == 1 then roles.source = "source" end
+    if drop[1] == "wall_1" then roles.target = "target" end
+    local void = lacuna.synthetic.prism { sides = 4, drop = drop }:open_volume(roles)
+    check.fails(function() void:close { holes = what } end, "closure.holes_unused")
+  end
+end
+
+-- --- what is told on standard error ------------------------------------------------------------------------
+
+-- A recipe that sweeps `void` tells of an assumption once, or of none.
+local function tells(code, recipe)
+  local head = 'local lacuna = require "lacuna"\nlocal synthetic = lacuna.synthetic\n'
+  check.write(folder .. "/recipe.lua", head .. recipe .. "\nvoid:close()\nvoid:sweep { layers = 4 }\n")
+  local exit, out, err = check.run(params.lacuna, folder, { folder .. "/recipe.lua" })
+  check.equal(exit, 0, err)
+  local notes = {}
+  for found in err:gmatch("note: [^\n]-%[(closure%.[%w_]+)%]") do notes[#notes + 1] = found end
+  check.equal(table.concat(notes, " "), code or "", recipe .. "\n" .. err)
+end
+
+local function prism(options, roles)
+  return ("local void = synthetic.prism { %s }:open_volume { %s }"):format(options, roles)
+end
+local ends = 'source = "source", target = "target"'
+
+-- A wall was forgotten beside the missing end. One that takes little away is not worth a note.
+tells("closure.end_moved", prism('sides = 4, drop = { "target", "wall_2" }',
+  'source = "source", walls = { "wall_1", "wall_3", "wall_4" }'))
+tells("closure.end_moved", prism('sides = 6, drop = { "target", "wall_2", "wall_3" }',
+  'source = "source", walls = { "wall_1", "wall_4", "wall_5", "wall_6" }'))
+local chamfered = [[
+local width = %g
+local low = { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 3 - width, 0 }, { 3 - width, 3, 0 }, { 0, 3, 0 } }
+local model = lacuna.model()
+model:add_face { name = "low", points = low, cells = { { 1, 3, 2 }, { 1, 4, 3 }, { 1, 5, 4 } } }
+local walls = {}
+for i, a in ipairs(low) do
+  local b = low[i %% 5 + 1]
+  if i ~= 3 then
+    walls[#walls + 1] = model:add_face { points = { a, b, { b[1], b[2], 2 }, { a[1], a[2], 2 } },
+      cells = { { 1, 2, 3, 4 } } }
+  end
+end
+local void = model:open_volume { source = "low", walls = walls }]]
+tells("closure.end_moved", chamfered:format(1.5))
+tells(nil, chamfered:format(0.1))
+
+-- Holes that are taken through because a guess was asked for.
+local holed = [[
+local drop = { "target", "wall_5", "wall_6", "wall_7", "wall_8" }
+local void = synthetic.prism { sides = 4, holes = 1, hole_radius = %g, drop = drop }:open_volume {
+  source = "source", walls = { "wall_1", "wall_2", "wall_3", "wall_4" }, reading = 1 }]]
+tells("closure.hole_through", holed:format(0.4))
+tells(nil, holed:format(0.1))
+
+-- Ends that are turned against each other: straight or a bend.
+tells("closure.bend_assumed", prism('height = 4, bend = 60, drop = "walls"', ends))
+tells(nil, prism('height = 4, bend = 15, drop = "walls"', ends))
+
+-- A bore without walls bends as the walls round it.
+local elbow = 'local void = synthetic.elbow { inner = 0.5, angle = %d, drop = { "wall_2" } }' ..
+  ":open_volume { " .. ends .. ', walls = { "wall_1" } }'
+tells("closure.loop_follows", elbow:format(60))
+tells(nil, elbow:format(30))
+
+-- Nothing is assumed where all is given.
+tells(nil, prism("sides = 6", ends .. ', walls = "auto"'))
+tells(nil, prism('sides = 6, drop = { "target" }', 'source = "source", walls = "auto"'))
+
+-- --- rough rims ------------------------------------------------------------------------------------------
+
+-- A tube of facets, as of a bone that was cut: points of its rims are off a plane by a share of its diameter.
+local function bone(seed, sides, height, rough, both)
+  local random = check.random(seed)
+  local points, cells = {}, {}
+  local rings = 4
+  for k = 0, rings do
+    for i = 0, sides - 1 do
+      local angle = 2 * math.pi * i / sides
+      local radius = 1 + 0.15 * math.cos(3 * angle) + 0.05 * math.sin(2 * angle)
+      local z = height * k / rings
+      if k == rings or (both and k == 0) then z = z + random(-2, 2) * rough end
+      points[#points + 1] = { radius * math.cos(angle), radius * math.sin(angle), z }
+    end
+  end
+  for k = 0, rings - 1 do
+    for i = 0, sides - 1 do
+      local a, b = k * sides + i + 1, k * sides + (i + 1) % sides + 1
+      cells[#cells + 1] = { a, b, b + sides }
+      cells[#cells + 1] = { a, b + sides, a + sides }
+    end
+  end
+  local model = lacuna.model()
+  model:add_face { name = "wall", points = points, cells = cells }
+  if not both then
+    local floor, fan = { { 0, 0, 0 } }, {}
+    for i = 1, sides do
+      floor[i + 1] = points[i]
+      fan[i] = { 1, i % sides + 2, i + 1 }
+    end
+    model:add_face { name = "floor", points = floor, cells = fan }
+  end
+  return model:open_volume { source = not both and "floor" or nil, walls = "wall" }
+end
+
+for seed = 1, 6 do
+  for _, sides in ipairs { 24, 48, 96 } do
+    for _, both in ipairs { false, true } do
+      check.that(bone(seed, sides, 3, 0.045, both):close().watertight)
+    end
+  end
+end
+-- So rough that it is no rim of a plane, or so low that the rim matters.
+check.fails(function() bone(1, 48, 0.5, 0.12, true):close() end, "closure.shape_open")
+
+check.done()
