@@ -155,7 +155,7 @@ void on_trap(int, siginfo_t* info, void* context)
 
 // --- the filter ---------------------------------------------------------------------------------------
 
-/// What a seccomp filter decides. Calls that no rule names fail with EPERM; another machine's end the process.
+/// A seccomp filter. Calls that no rule names fail with EPERM; those of another architecture end the process.
 class Filter {
 public:
     Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM))}

@@ -22,7 +22,8 @@ void keep_from_writing();
 /// @throw BackendError  the kernel has no seccomp filters, without which nothing is run.
 std::string confine();
 
-/// Write the filter of `confine()` as libseccomp's pseudo filter code, for tests. @return  whether it could be.
+/// Write the filter of `confine()` as libseccomp's pseudo filter code, for tests.
+/// @return  false where that failed.
 bool write_filter(int descriptor);
 
 /// Make a descriptor known under a name; it stays open until `withdraw()`.
