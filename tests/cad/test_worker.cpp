@@ -5,6 +5,7 @@
 
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/write_cad.h>
+#include <lacuna/cad_worker/confine.h>
 
 #include <doctest/doctest.h>
 #include <gmsh.h>
@@ -15,7 +16,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -97,7 +101,107 @@ private:
     std::string program_;
 };
 
+/// Of each system call that the filter names, the verdicts it can get; read from the filter's own text.
+std::map<std::string, std::set<std::string>> filter_rows()
+{
+    const Descriptor file(::memfd_create("filter", MFD_CLOEXEC));
+    REQUIRE(cad_worker::write_filter(file.get()));
+    std::string text(static_cast<std::size_t>(::lseek(file.get(), 0, SEEK_END)), '\0');
+    REQUIRE(::pread(file.get(), text.data(), text.size(), 0) == ssize_t(text.size()));
+    std::map<std::string, std::set<std::string>> rows;
+    std::string line, call;
+    for (std::istringstream lines(text); std::getline(lines, line);) {
+        if (line.find("# default action") != std::string::npos) call = "default";
+        if (line.find("# invalid architecture action") != std::string::npos) call = "machine";
+        if (const std::size_t at = line.find("# filter for syscall \""); at != std::string::npos) {
+            const std::size_t from = line.find('"') + 1;
+            call = line.substr(from, line.find('"', from) - from);
+        }
+        if (const std::size_t at = line.find("action "); at != std::string::npos && line.back() == ';')
+            rows[call].insert(line.substr(at + 7, line.size() - at - 8));
+    }
+    return rows;
+}
+
 } // namespace
+
+TEST_CASE("the filter names every system call that reading and writing CAD needs, and no other")
+{
+    std::map<std::string, std::set<std::string>> wanted{
+        {"default", {"ERRNO(1)"}},        {"machine", {"KILL_PROCESS"}},
+        {"openat", {"ALLOW", "TRAP"}},    {"newfstatat", {"ALLOW", "TRAP"}},
+        {"faccessat", {"ALLOW", "TRAP"}}, {"faccessat2", {"TRAP"}},
+        {"clone3", {"ERRNO(38)"}},        {"rt_sigaction", {"ALLOW", "ERRNO(0)"}},
+    };
+    for (const char* call : {"clone",
+                             "tgkill",
+                             "prlimit64",
+                             "ioctl",
+                             "prctl",
+                             "read",
+                             "write",
+                             "readv",
+                             "writev",
+                             "pread64",
+                             "pwrite64",
+                             "lseek",
+                             "close",
+                             "fstat",
+                             "ftruncate",
+                             "dup",
+                             "fcntl",
+                             "mmap",
+                             "munmap",
+                             "mprotect",
+                             "mremap",
+                             "madvise",
+                             "brk",
+                             "rt_sigprocmask",
+                             "rt_sigreturn",
+                             "sigaltstack",
+                             "futex",
+                             "sched_yield",
+                             "sched_getaffinity",
+                             "getpid",
+                             "gettid",
+                             "getppid",
+                             "getuid",
+                             "geteuid",
+                             "getgid",
+                             "getegid",
+                             "getrusage",
+                             "times",
+                             "clock_gettime",
+                             "clock_getres",
+                             "gettimeofday",
+                             "nanosleep",
+                             "clock_nanosleep",
+                             "ppoll",
+                             "pselect6",
+                             "sendmsg",
+                             "recvmsg",
+                             "exit",
+                             "exit_group",
+                             "set_robust_list",
+                             "getrandom",
+                             "uname",
+                             "sysinfo",
+                             "set_tid_address",
+                             "membarrier",
+                             "getcwd",
+                             "readlinkat",
+                             "getdents64",
+                             "rt_sigtimedwait",
+                             "restart_syscall",
+                             "getcpu",
+                             "rseq"})
+        wanted[call] = {"ALLOW"};
+#if defined(__x86_64__)
+    for (const char* call : {"poll", "select", "time", "arch_prctl"}) wanted[call] = {"ALLOW"};
+    for (const char* call : {"open", "stat", "lstat", "access"}) wanted[call] = {"TRAP"};
+#endif
+    CHECK(filter_rows() == wanted);
+}
 
 TEST_CASE("a CAD process killed between calls costs its models nothing while their files stay as they are")
 {

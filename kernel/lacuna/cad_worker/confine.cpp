@@ -6,17 +6,16 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
 
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
 #include <linux/landlock.h>
-#include <linux/seccomp.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <sys/prctl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
@@ -148,172 +147,153 @@ void on_trap(int, siginfo_t* info, void* context)
     std::array<long, 6> arguments{};
     for (std::size_t i = 0; i < 6; ++i) arguments[i] = static_cast<long>(r[i]);
     r[0] = static_cast<unsigned long long>(answer(info->si_syscall, arguments));
+#else
+#error "the confinement of lacuna-cad knows x86-64 and 64-bit ARM; build with LACUNA_WITH_CAD=OFF elsewhere"
 #endif
     errno = before;
 }
 
 // --- the filter ---------------------------------------------------------------------------------------
 
-#if defined(__x86_64__)
-constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
-#else
-#error "the confinement of lacuna-cad knows x86-64 and 64-bit ARM; build with LACUNA_WITH_CAD=OFF elsewhere"
-#endif
-
-/// A seccomp program, built call by call. What no rule names fails with EPERM.
+/// A seccomp filter. Calls that no rule names fail with EPERM; those of another architecture end the process.
 class Filter {
 public:
-    Filter()
+    Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM))}
     {
-        load(offsetof(seccomp_data, arch));
-        add(BPF_JMP | BPF_JEQ | BPF_K, kMachine, 1, 0);
-        give(SECCOMP_RET_KILL_PROCESS);
-        load(offsetof(seccomp_data, nr));
+        if (rules_ == nullptr ||
+            seccomp_attr_set(rules_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS) != 0 ||
+            seccomp_attr_set(rules_.get(), SCMP_FLTATR_CTL_TSYNC, 1) != 0)
+            fail();
     }
-    void always(long number, std::uint32_t verdict) // the number is loaded before and after
+    /// What happens to a call where all conditions hold.
+    void on(int number, std::uint32_t action, std::initializer_list<scmp_arg_cmp> conditions = {})
     {
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 1);
-        give(verdict);
+        if (seccomp_rule_add_array(rules_.get(), action, number, static_cast<unsigned>(conditions.size()),
+                                   std::data(conditions)) != 0)
+            fail();
     }
-    void allow(std::initializer_list<long> numbers)
+    void allow(std::initializer_list<int> numbers)
     {
-        for (const long number : numbers) always(number, SECCOMP_RET_ALLOW);
+        for (const int number : numbers) on(number, SCMP_ACT_ALLOW);
     }
-    /// One verdict where (argument & mask) == value in its lower half, another elsewhere.
-    void when(long number, int argument, std::uint32_t mask, std::uint32_t value, std::uint32_t then,
-              std::uint32_t otherwise)
+    /// Allow a call where the lower half of an argument, masked, is a value.
+    void allow_where(int number, unsigned argument, std::uint32_t mask, std::uint32_t value)
     {
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 5);
-        load(lower(argument));
-        add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
-        add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-        give(then);
-        give(otherwise);
+        on(number, SCMP_ACT_ALLOW, {masked(argument, mask, value)});
     }
-    /// Trap a call that does not carry the mark; with it, allow it where (argument & mask) == 0.
-    void trap(long number, std::uint64_t mark, int argument = 0, std::uint32_t mask = 0)
+    /// Trap a call that does not carry the mark.
+    void trap_unmarked(int number) { on(number, SCMP_ACT_TRAP, {{5, SCMP_CMP_NE, own_mark, 0}}); }
+    /// Allow it with the mark where the lower half of an argument has no bit of the mask.
+    void allow_marked(int number, unsigned argument = 0, std::uint32_t mask = 0)
     {
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(number), 0, 10);
-        load(lower(5));
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(mark), 0, 7);
-        load(lower(5) + 4);
-        add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(mark >> 32), 0, 5);
-        load(lower(argument));
-        add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
-        add(BPF_JMP | BPF_JEQ | BPF_K, 0, 0, 1);
-        give(SECCOMP_RET_ALLOW);
-        give(SECCOMP_RET_ERRNO | EACCES);
-        give(SECCOMP_RET_TRAP);
+        on(number, SCMP_ACT_ALLOW, {{5, SCMP_CMP_EQ, own_mark, 0}, masked(argument, mask, 0)});
     }
-    bool install()
-    {
-        give(SECCOMP_RET_ERRNO | EPERM);
-        sock_fprog program{static_cast<unsigned short>(code_.size()), code_.data()};
-        return ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &program) == 0;
-    }
+    bool install() { return seccomp_load(rules_.get()) == 0; }
+    bool write_text(int descriptor) { return seccomp_export_pfc(rules_.get(), descriptor) == 0; }
 
 private:
-    static std::uint32_t lower(int argument) // half of an argument, on a little-endian machine
+    static scmp_arg_cmp masked(unsigned argument, std::uint32_t mask, std::uint32_t value)
     {
-        return static_cast<std::uint32_t>(offsetof(seccomp_data, args)) +
-               8 * static_cast<std::uint32_t>(argument);
+        return {argument, SCMP_CMP_MASKED_EQ, mask, value};
     }
-    void add(int code, std::uint32_t value, std::uint8_t if_true, std::uint8_t if_false)
+    [[noreturn]] static void fail()
     {
-        code_.push_back({static_cast<std::uint16_t>(code), if_true, if_false, value});
+        throw BackendError("cad.no_wall",
+                           "the CAD process cannot be confined: no seccomp filter can be made");
     }
-    void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset), 0, 0); }
-    void give(std::uint32_t verdict) { add(BPF_RET | BPF_K, verdict, 0, 0); }
 
-    std::vector<sock_filter> code_;
+    struct Release {
+        void operator()(void* rules) const { seccomp_release(rules); }
+    };
+    std::unique_ptr<void, Release> rules_;
 };
 
-bool install_filter()
+Filter make_filter()
 {
-    constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW, kRefuse = SECCOMP_RET_ERRNO | EPERM;
     Filter filter;
     // Files by name. Creating, removing, renaming, linking and the like are named nowhere, so they fail.
-    filter.trap(SYS_openat, own_mark, 2, kWriting);
-    filter.trap(SYS_newfstatat, own_mark);
-    filter.trap(SYS_faccessat, own_mark);
-    filter.always(SYS_faccessat2, SECCOMP_RET_TRAP);
-#ifdef SYS_open
-    for (const long number : {SYS_open, SYS_stat, SYS_lstat, SYS_access})
-        filter.always(number, SECCOMP_RET_TRAP);
-    filter.allow({SYS_poll, SYS_select, SYS_time, SYS_arch_prctl});
-#endif
+    for (const int number : {SCMP_SYS(openat), SCMP_SYS(newfstatat), SCMP_SYS(faccessat)})
+        filter.trap_unmarked(number);
+    filter.allow_marked(SCMP_SYS(openat), 2, kWriting);
+    filter.allow_marked(SCMP_SYS(newfstatat));
+    filter.allow_marked(SCMP_SYS(faccessat));
+    for (const int number :
+         {SCMP_SYS(faccessat2), SCMP_SYS(open), SCMP_SYS(stat), SCMP_SYS(lstat), SCMP_SYS(access)})
+        filter.on(number, SCMP_ACT_TRAP);
     // Threads, but no processes. clone3 hides its flags in memory; without it, clone is used.
-    filter.when(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD, kAllow, kRefuse);
-    filter.always(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);
+    filter.allow_where(SCMP_SYS(clone), 0, CLONE_THREAD, CLONE_THREAD);
+    filter.on(SCMP_SYS(clone3), SCMP_ACT_ERRNO(ENOSYS));
     // Signals to itself alone; the trap's own handler stays.
-    filter.when(SYS_tgkill, 0, ~0U, static_cast<std::uint32_t>(::getpid()), kAllow, kRefuse);
-    filter.when(SYS_rt_sigaction, 0, ~0U, SIGSYS, SECCOMP_RET_ERRNO | 0, kAllow);
+    filter.allow_where(SCMP_SYS(tgkill), 0, ~0U, static_cast<std::uint32_t>(::getpid()));
+    for (scmp_datum_t signal = 1; signal <= static_cast<scmp_datum_t>(SIGRTMAX); ++signal)
+        filter.on(SCMP_SYS(rt_sigaction), signal == SIGSYS ? SCMP_ACT_ERRNO(0) : SCMP_ACT_ALLOW,
+                  {{0, SCMP_CMP_EQ, signal, 0}});
     // Limits can be read; a terminal asked for.
-    filter.when(SYS_prlimit64, 2, ~0U, 0, kAllow, kRefuse);
-    filter.when(SYS_ioctl, 1, ~0U, 0x5401 /* TCGETS */, kAllow, kRefuse);
-    filter.when(SYS_prctl, 0, ~0U, PR_SET_NAME, kAllow, kRefuse);
-    filter.allow({SYS_read,
-                  SYS_write,
-                  SYS_readv,
-                  SYS_writev,
-                  SYS_pread64,
-                  SYS_pwrite64,
-                  SYS_lseek,
-                  SYS_close,
-                  SYS_fstat,
-                  SYS_ftruncate,
-                  SYS_dup,
-                  SYS_fcntl,
-                  SYS_mmap,
-                  SYS_munmap,
-                  SYS_mprotect,
-                  SYS_mremap,
-                  SYS_madvise,
-                  SYS_brk,
-                  SYS_rt_sigprocmask,
-                  SYS_rt_sigreturn,
-                  SYS_sigaltstack,
-                  SYS_futex,
-                  SYS_sched_yield,
-                  SYS_sched_getaffinity,
-                  SYS_getpid,
-                  SYS_gettid,
-                  SYS_getppid,
-                  SYS_getuid,
-                  SYS_geteuid,
-                  SYS_getgid,
-                  SYS_getegid,
-                  SYS_getrusage,
-                  SYS_times,
-                  SYS_clock_gettime,
-                  SYS_clock_getres,
-                  SYS_gettimeofday,
-                  SYS_nanosleep,
-                  SYS_clock_nanosleep,
-                  SYS_ppoll,
-                  SYS_pselect6,
-                  SYS_sendmsg,
-                  SYS_recvmsg,
-                  SYS_exit,
-                  SYS_exit_group,
-                  SYS_set_robust_list,
-                  SYS_getrandom,
-                  SYS_uname,
-                  SYS_sysinfo,
-                  SYS_set_tid_address,
-                  SYS_membarrier,
-                  SYS_getcwd,
-                  SYS_readlinkat,
-                  SYS_getdents64,
-                  SYS_rt_sigtimedwait,
-                  SYS_restart_syscall,
-                  SYS_getcpu});
-#ifdef SYS_rseq
-    filter.allow({SYS_rseq});
-#endif
-    return filter.install();
+    filter.allow_where(SCMP_SYS(prlimit64), 2, ~0U, 0);
+    filter.allow_where(SCMP_SYS(ioctl), 1, ~0U, 0x5401 /* TCGETS */);
+    filter.allow_where(SCMP_SYS(prctl), 0, ~0U, PR_SET_NAME);
+    filter.allow({SCMP_SYS(poll),
+                  SCMP_SYS(select),
+                  SCMP_SYS(time),
+                  SCMP_SYS(arch_prctl),
+                  SCMP_SYS(read),
+                  SCMP_SYS(write),
+                  SCMP_SYS(readv),
+                  SCMP_SYS(writev),
+                  SCMP_SYS(pread64),
+                  SCMP_SYS(pwrite64),
+                  SCMP_SYS(lseek),
+                  SCMP_SYS(close),
+                  SCMP_SYS(fstat),
+                  SCMP_SYS(ftruncate),
+                  SCMP_SYS(dup),
+                  SCMP_SYS(fcntl),
+                  SCMP_SYS(mmap),
+                  SCMP_SYS(munmap),
+                  SCMP_SYS(mprotect),
+                  SCMP_SYS(mremap),
+                  SCMP_SYS(madvise),
+                  SCMP_SYS(brk),
+                  SCMP_SYS(rt_sigprocmask),
+                  SCMP_SYS(rt_sigreturn),
+                  SCMP_SYS(sigaltstack),
+                  SCMP_SYS(futex),
+                  SCMP_SYS(sched_yield),
+                  SCMP_SYS(sched_getaffinity),
+                  SCMP_SYS(getpid),
+                  SCMP_SYS(gettid),
+                  SCMP_SYS(getppid),
+                  SCMP_SYS(getuid),
+                  SCMP_SYS(geteuid),
+                  SCMP_SYS(getgid),
+                  SCMP_SYS(getegid),
+                  SCMP_SYS(getrusage),
+                  SCMP_SYS(times),
+                  SCMP_SYS(clock_gettime),
+                  SCMP_SYS(clock_getres),
+                  SCMP_SYS(gettimeofday),
+                  SCMP_SYS(nanosleep),
+                  SCMP_SYS(clock_nanosleep),
+                  SCMP_SYS(ppoll),
+                  SCMP_SYS(pselect6),
+                  SCMP_SYS(sendmsg),
+                  SCMP_SYS(recvmsg),
+                  SCMP_SYS(exit),
+                  SCMP_SYS(exit_group),
+                  SCMP_SYS(set_robust_list),
+                  SCMP_SYS(getrandom),
+                  SCMP_SYS(uname),
+                  SCMP_SYS(sysinfo),
+                  SCMP_SYS(set_tid_address),
+                  SCMP_SYS(membarrier),
+                  SCMP_SYS(getcwd),
+                  SCMP_SYS(readlinkat),
+                  SCMP_SYS(getdents64),
+                  SCMP_SYS(rt_sigtimedwait),
+                  SCMP_SYS(restart_syscall),
+                  SCMP_SYS(getcpu),
+                  SCMP_SYS(rseq)});
+    return filter;
 }
 
 // --- Landlock -----------------------------------------------------------------------------------------
@@ -374,11 +354,13 @@ std::string confine()
         ::sigaction(SIGSYS, &action, nullptr) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         throw BackendError("cad.no_wall", "the CAD process cannot be confined");
     const bool landlock = restrict_files();
-    if (!install_filter())
+    if (!make_filter().install())
         throw BackendError("cad.no_wall",
                            "the CAD process cannot be confined: the kernel has no seccomp filters");
     return landlock ? "" : "Landlock, which keeps the CAD process from reading other files";
 }
+
+bool write_filter(int descriptor) { return make_filter().write_text(descriptor); }
 
 std::string offer(const std::string& folder, const std::string& name, int descriptor)
 {

@@ -14,13 +14,17 @@ void keep_from_writing();
 /// reading any file but the system's libraries. Files of a request are opened by the names `offer()` gave
 /// them.
 ///
-/// Every path that is opened or looked at is trapped by a seccomp filter (no library needed for it) and
-/// decided in a SIGSYS handler: names of offered files lead to their descriptors, other files can be opened
+/// Every path that is opened or looked at is trapped by a seccomp filter and decided in a SIGSYS
+/// handler: names of offered files lead to their descriptors, other files can be opened
 /// to read.
 ///
 /// @return  what this kernel lacks, for a person; empty where all is there.
 /// @throw BackendError  the kernel has no seccomp filters, without which nothing is run.
 std::string confine();
+
+/// Write the filter of `confine()` as libseccomp's pseudo filter code, for tests.
+/// @return  false where that failed.
+bool write_filter(int descriptor);
 
 /// Make a descriptor known under a name; it stays open until `withdraw()`.
 /// @return  the path by which this process, and no other, opens it: to read, or to write it anew.

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/inflate.h>
 
-#ifdef LACUNA_WITH_ZLIB
 #include <zlib.h>
-#endif
 
 namespace lacuna::io {
-
-#ifdef LACUNA_WITH_ZLIB
-
-bool can_inflate() { return true; }
 
 std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size)
 {
@@ -22,13 +16,5 @@ std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size)
     if (status != Z_OK || found != size) return {};
     return plain;
 }
-
-#else
-
-bool can_inflate() { return false; }
-
-std::optional<std::string> inflate(std::string_view, std::uint64_t) { return {}; }
-
-#endif
 
 } // namespace lacuna::io

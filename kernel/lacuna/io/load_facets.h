@@ -40,7 +40,7 @@ struct FacetFile {
 /// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
 /// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section; a set or surface |
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
-/// | .vtu | text, base64 and appended, compressed by zlib where Lacuna was built with it | all one |
+/// | .vtu | text, base64 and appended, compressed by zlib | all one |
 /// | .mesh | Medit, text | a reference number |
 /// | .exo .e | Exodus: netCDF's classic formats | a block; a set |
 ///

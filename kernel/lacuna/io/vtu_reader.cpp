@@ -348,10 +348,9 @@ private:
     void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
                          const Fail& fail, const Run& run)
     {
-        if (compressor_ != "vtkZLibDataCompressor" || !can_inflate())
-            fail("data compressed by " + shown(compressor_) + " are not read" +
-                 (compressor_ == "vtkZLibDataCompressor" ? ", since Lacuna was built without zlib" : "") +
-                 "; write the file with another compressor or none");
+        if (compressor_ != "vtkZLibDataCompressor")
+            fail("data compressed by " + shown(compressor_) +
+                 " are not read; write the file with another compressor or none");
         const std::size_t width = header_->bytes;
         const auto decoded = [&](std::uint64_t most) {
             return raw ? std::string(from.substr(0, most)) : from_base64(from, most);

@@ -35,7 +35,7 @@ struct PageOptions {
 /// largest extent; the page computes cells, skin and cuts. Order 2 is drawn with its middle nodes.
 /// @pre    a region at least; those of an assembly in its order.
 /// @throw  InvalidInput, BackendError  as `io::WholeFile`. Cancelled.
-/// @note   A million hexahedra of a twisted block take 2.5 MB with zlib. O(cells).
+/// @note   A million hexahedra of a twisted block take 2.5 MB. O(cells).
 void write_page(std::span<const Region> regions, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 

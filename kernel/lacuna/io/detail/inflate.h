@@ -6,11 +6,9 @@
 #include <string>
 #include <string_view>
 
-/// zlib, where Lacuna was built with it. Internal to this folder.
+/// zlib. Internal to this folder.
 namespace lacuna::io {
 
-/// Whether Lacuna was built with zlib.
-bool can_inflate();
 /// What bytes compressed by zlib were. @param size  bytes of it, which must be right; no more are taken.
 /// @return nothing  the bytes are damaged, or are another number.
 std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size);

@@ -7,7 +7,7 @@
 
 namespace lacuna::view {
 
-/// The bytes as a zlib stream (RFC 1950); without zlib, stored in blocks that are not compressed.
+/// The bytes as a zlib stream (RFC 1950).
 std::string deflated(std::string_view bytes);
 
 /// CRC-32 of PNG (ISO 3309). O(bytes).
