@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: MIT
--- Cavities of facet solids: walls = "auto" from a face in one takes that cavity, walls named alone that are no
--- tube are read as what they are, and what has no roles is refused by its shape.
+-- Cavities of facet solids: walls = "auto" from a face in one takes that cavity, walls named alone that
+-- are no tube are read as what they are, and what has no roles is refused by its shape.
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
 
--- --- plates with a pocket in each square cell ----------------------------------------------------------------
+-- --- plates with a pocket in each square cell --------------------------------------------------------------
 
 local kHeight, kHalf = 10, 5
 
@@ -57,8 +57,8 @@ local function quad(face, a, b, c, d)
   face.cells[#face.cells + 1] = { first + 1, first + 3, first + 4 }
 end
 
---- A plate of cells in a row. A pocket is rings { sides, radius, z } from its mouth on, filled at the last one or
---- `through`. Faces of the first pocket are named "p1_…".
+--- A plate of cells in a row. A pocket is rings { sides, radius, z } from its mouth on, filled at the
+--- last one or `through`. Faces of the first pocket are named "p1_…".
 local function plate(pockets)
   local faces = {}
   local function new(name)
@@ -91,7 +91,8 @@ local function plate(pockets)
     end
     for _, side in ipairs { { front, -kHalf }, { back, kHalf } } do
       local y = side[2]
-      quad(side[1], { x - kHalf, y, 0 }, { x + kHalf, y, 0 }, { x + kHalf, y, kHeight }, { x - kHalf, y, kHeight })
+      quad(side[1], { x - kHalf, y, 0 }, { x + kHalf, y, 0 }, { x + kHalf, y, kHeight },
+           { x - kHalf, y, kHeight })
     end
   end
   for name, x in pairs { left = -kHalf, right = (#pockets - 1) * 2 * kHalf + kHalf } do
@@ -117,17 +118,20 @@ local kinds = {
     return { { n, 4, 10 }, { n, 4, 6 }, { n, 2, 6 }, { n, 2, 2 } }, "p1_end", area(n, 4) * 4 + area(n, 2) * 4
   end,
   post_to_the_brim = function(n)
-    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 10 } }, "p1_flat_2", (area(n, 4) - area(n, 2)) * 6
+    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 10 } }, "p1_flat_2",
+      (area(n, 4) - area(n, 2)) * 6
   end,
   low_post = function(n)
-    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 7 } }, "p1_flat_2", area(n, 4) * 6 - area(n, 2) * 3
+    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 7 } }, "p1_flat_2",
+      area(n, 4) * 6 - area(n, 2) * 3
   end,
   drilled_post = function(n)
     return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 7 }, { n, 1, 7 }, { n, 1, 5 } }, "p1_flat_2",
       area(n, 4) * 6 - area(n, 2) * 3 + area(n, 1) * 2
   end,
   hole_in_the_floor = function(n)
-    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 2 } }, "p1_flat_2", area(n, 4) * 6 + area(n, 2) * 2
+    return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 2 } }, "p1_flat_2",
+      area(n, 4) * 6 + area(n, 2) * 2
   end,
   counterbore = function(n)
     return { { n, 4, 10 }, { n, 4, 4 }, { n, 2, 4 }, { n, 2, 0 }, through = true }, "p1_flat_2",
@@ -161,7 +165,7 @@ local solid = plate { (kinds.counterbore(6)) }
 local whole = solid:open_volume { source = "bottom", target = { "top", "p1_flat_2" }, walls = "auto" }
 check.equal(whole:model():face("left").name, "left")
 
--- --- walls named alone -----------------------------------------------------------------------------------------
+-- --- walls named alone -------------------------------------------------------------------------------------
 
 members = 0
 for _, name in ipairs { "blind", "stepped", "low_post", "drilled_post", "hole_in_the_floor" } do
@@ -179,10 +183,12 @@ check.that(members >= 20)
 local bore, walls = plate { { { 6, 4, 10 }, { 6, 4, 0 }, through = true } }
 check.equal(bore:open_volume({ walls = walls }).class, "V")
 -- A floor and one wall beside it say nothing of where the rest ends.
-check.fails(function() lacuna.synthetic.prism({ sides = 4 }):open_volume({ walls = { "source", "wall_1" } }):close() end,
+check.fails(function()
+  lacuna.synthetic.prism({ sides = 4 }):open_volume({ walls = { "source", "wall_1" } }):close()
+end,
   "1 free loop", "closure.tube_loops")
 
--- --- faces without roles ---------------------------------------------------------------------------------------
+-- --- faces without roles -----------------------------------------------------------------------------------
 
 --- One face of a grid over two parameters in [0, 1); rings run round in the first.
 local function grid(model, name, nu, nv, round_too, at)

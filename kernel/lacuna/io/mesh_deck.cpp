@@ -84,7 +84,8 @@ public:
         texts_ = numbers_in_text(deck_);
         find_place();
         choose_material();
-        const std::vector<std::size_t> of_all = added_.joins ? sets_of_all(deck_) : std::vector<std::size_t>();
+        const std::vector<std::size_t> of_all = added_.joins ? sets_of_all(deck_)
+                                                             : std::vector<std::size_t>();
         add_points();
         add_cells();
         if (added_.joins) update_sets(of_all);

@@ -707,7 +707,7 @@ private:
     std::vector<Place> place_of_;                ///< of each region
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
     std::map<std::size_t, std::pair<std::size_t, bool>> named_by_; ///< of regions: cells, whether by number
-    std::map<Key, std::string> names_;           ///< dimension -1: not said
+    std::map<Key, std::string> names_;                             ///< dimension -1: not said
     std::map<Key, std::set<int>> members_;
     std::map<Key, int> whole_of_; ///< of entities that are parts
     std::map<Key, std::size_t> others_;

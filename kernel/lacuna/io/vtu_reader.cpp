@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/inflate.h>
 #include <lacuna/core/large_pages.h>
+#include <lacuna/io/detail/inflate.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
