@@ -26,7 +26,7 @@ using Powers = Eigen::Vector<double, 10>;
 
 /// Share of a rim's own spread off its plane that its points may be off a quadric. A choice: points of a mesh
 /// lie on it but for rounding.
-constexpr double kOnIt = 1e-4;
+constexpr double kOnQuadric = 1e-4;
 /// How many conditions more than are needed to find what goes through a rim have to be met. A choice.
 constexpr Eigen::Index kSpare = 4;
 /// How far a quadric may be from a special one, as a share of its largest coefficient. A choice: the quadric
@@ -91,7 +91,8 @@ std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const E
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> fit(sum);
     const auto count = static_cast<Eigen::Index>(points.size());
     Eigen::Index forms = 0;
-    while (forms < 10 && fit.eigenvalues()(forms) <= kOnIt * kOnIt * static_cast<double>(count)) ++forms;
+    while (forms < 10 && fit.eigenvalues()(forms) <= kOnQuadric * kOnQuadric * static_cast<double>(count))
+        ++forms;
     if (forms > 2 || forms * (count - 10 + forms) < kSpare) return {};
     Eigen::Matrix4d back = Eigen::Matrix4d::Identity();
     back.topLeftCorner<3, 3>() = frame.unit * frame.stretch;
@@ -256,7 +257,7 @@ bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const 
         for (const EdgeUse& use : loop.uses) rim.insert(use.edge);
     const auto is_on_it = [&](Index point) {
         const Eigen::Vector4d at = in_frame(quadric, model.at(point));
-        return std::abs(at.dot(quadric.form * at)) <= kOnIt * at.squaredNorm();
+        return std::abs(at.dot(quadric.form * at)) <= kOnQuadric * at.squaredNorm();
     };
     return std::ranges::any_of(model.faces, [&](const Face& face) {
         const bool beside = std::ranges::any_of(face.loops, [&](const Loop& loop) {

@@ -166,7 +166,8 @@ private:
         ExpectedCells all;
         for (const AssemblyMember& member : members_) {
             if (member.fixed != nullptr) continue;
-            const ExpectedCells own = source_size(*member.volume, member.options, context_).expected;
+            KnownLinks links(*member.volume);
+            const ExpectedCells own = source_size(*member.volume, member.options, links, context_).expected;
             all.all += own.all;
             all.unasked += own.unasked;
         }

@@ -268,7 +268,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         options.curvature = planned_sides(volume, links.of(volume, context), options, size);
     }
     // Those of an assembly are counted together.
-    if (!asked.beside.settle) check_cells(source_size(volume, options, context).expected, context);
+    if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_for_volume(volume, options, links, context);
     std::string why;
