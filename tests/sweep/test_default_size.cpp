@@ -123,7 +123,9 @@ TEST_CASE("more than 50 million cells are refused unless both the size and the l
                     if (counted) options.layers.count = 1000;
                     if (counted) side = std::sqrt(base * options.layers.count / cells);
                     if (sized) options.size = [side](const Vec3&) { return side; };
-                    const sweep::ExpectedCells found = sweep::source_size(volume, options, {}).expected;
+                    sweep::KnownLinks links(volume);
+                    const sweep::ExpectedCells found =
+                        sweep::source_size(volume, options, links, {}).expected;
                     if (sized && counted) CHECK(found.all == doctest::Approx(cells).epsilon(0.01));
                     CHECK(found.unasked == (sized && counted ? 0 : found.all));
                     std::string line;
