@@ -392,7 +392,7 @@ std::size_t quads_off_their_face(const OpenVolume& volume, const mesh::HexMesh& 
     std::size_t off = 0;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
-        const std::string& name = mesh.patches[static_cast<std::size_t>(quad.patch)].groups.back();
+        const std::string& name = mesh.patches[static_cast<std::size_t>(quad.patch)].groups.front();
         double largest = 0;
         for (const Index node : quad.nodes) {
             const Vec3& p = mesh.nodes[static_cast<std::size_t>(node)];

@@ -296,6 +296,7 @@ bool BulkData::take_fields(const DeckPlace& place)
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
         if (!open_) place.fail("a continuation " + shown(first) + " of no card");
+        if (first.size() > 1 && marker_.size() <= 1 && unasked_.empty()) unasked_ = shown(first);
         check_half(card_, is_large(first), place);
     } else if (const std::string_view name = first.substr(0, first.find('*')); !replicates(name)) {
         begin_card(name, place);
@@ -491,14 +492,19 @@ void BulkData::go_on(Waiting waiting)
 
 void BulkData::finish()
 {
+    const auto place = [](const auto& waiting) { return waiting.second.card.place.number(); };
     if (!continuations_.empty()) {
-        const auto place = [](const auto& waiting) { return waiting.second.card.place.number(); };
         const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
         const std::string text = shown(line.raw.substr(0, kField));
         if (cards_.empty()) line.card.place.fail("a continuation " + text + " of no card");
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
         card.card.fail("its continuation " + shown(card.marker) + " is not there, and " + text +
                        " is a continuation of no card");
+    }
+    if (!cards_.empty() && !unasked_.empty()) {
+        const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
+        card.card.fail("its continuation " + shown(card.marker) + " is not there, and no card names " +
+                       unasked_);
     }
     // What they name never came: a mark of somebody's.
     std::map<std::uint64_t, const Waiting*> in_order;

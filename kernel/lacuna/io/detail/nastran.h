@@ -114,6 +114,7 @@ private:
     std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
     std::deque<std::string> owned_;                             ///< fields of these
     std::optional<std::vector<std::string>> awaited_; ///< names that lines give their continuations, sorted
+    std::string unasked_; ///< the first continuation taken behind a card though no card names it
 };
 
 /// Coordinate frames, each given by three points in another frame or by three nodes.
