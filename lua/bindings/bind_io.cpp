@@ -431,7 +431,7 @@ std::vector<mesh::MeshPart> parts_of(const AssemblyMeshState& state)
 io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
 {
     io::MeshDeckOptions& options = arguments.deck;
-    if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces);
+    if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces, context);
     for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
     std::vector<JoinedMesh> meshes;
     for (std::size_t p = 0; p < state.regions.size(); ++p)

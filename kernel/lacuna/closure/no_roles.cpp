@@ -91,12 +91,17 @@ bool is_cone_to_its_tip(const Model& model, FaceId face)
     return cone && cone->least_radius <= kTip * cone->largest_radius;
 }
 
-/// An edge between two parts of cylinders whose axes are not parallel.
+/// An edge between two cylinders whose axes are not parallel, each half a turn at least: fillets are less.
 EdgeId crossing_of_bores(const Model& model)
 {
+    constexpr double kHalfTurn = 0.7; // mean normal of less: half a turn has 2 / pi
+    const auto is_bore = [&](FaceId face) {
+        return face_area_vector(model, face).norm() < kHalfTurn * face_area(model, face);
+    };
     const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+        if (!is_bore(uses[e][0].face) || !is_bore(uses[e][1].face)) continue;
         const auto a = round_shape(model, uses[e][0].face), b = round_shape(model, uses[e][1].face);
         if (a && b && a->axis && b->axis && std::abs(a->axis->dot(*b->axis)) < kParallel) return EdgeId(e);
     }
@@ -156,7 +161,7 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
     const std::vector<FaceId> part = no_tube(volume), all = all_faces(model);
-    if (part.empty()) return;
+    if (part.empty() || has_branches(volume, context)) return;
     if (crossing_of_bores(model).valid()) refuse_without_roles(model, all, context);
     const std::vector<Reading> readings = find_readings(model, all, context);
     std::string text;

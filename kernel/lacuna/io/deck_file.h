@@ -54,7 +54,8 @@ Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const Ru
 /// @param interfaces  where groups are sets of quads: quads that two of the meshes have are elements too, one
 ///                    for both. Else the quads are the skin of the whole.
 /// @throw  as `deck_of()`.
-Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false);
+Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false,
+             const RunContext& context = {});
 
 /// Places of sets in a deck, by their kind and the group that they hold.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;

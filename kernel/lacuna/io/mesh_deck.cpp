@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <sstream>
 
 namespace lacuna::io {
 namespace {
@@ -96,6 +97,7 @@ public:
         if (!abaqus) add_groups();
         add_region_card();
         tell_names();
+        tell_kept_sets();
         return region_;
     }
 
@@ -317,10 +319,33 @@ private:
     [[nodiscard]] bool is_taken(DeckSet::Kind kind, const std::string& name) const
     {
         const auto same = [&](const std::string& other) { return same_word(other, name); };
-        if (kind == DeckSet::Kind::sides && std::ranges::any_of(texts_.surfaces, same)) return true;
+        if (kind != DeckSet::Kind::nodes && std::ranges::any_of(texts_.surfaces, same)) return true;
         return std::ranges::any_of(deck_.sets, [&](const DeckSet& set) {
             return share_names(options_.format, kind, set.kind) && same(set.name);
         });
+    }
+
+    /// Sets that Nastran's cards and case control list by numbers stay as they are.
+    void tell_kept_sets() const
+    {
+        if (!added_.joins || deck_.format != DeckFormat::nastran) return;
+        std::string list;
+        std::size_t count = 0;
+        for (const DeckText& text : deck_.texts) {
+            std::istringstream lines(text.text);
+            for (std::string line; std::getline(lines, line);) {
+                std::string word, number;
+                std::ranges::replace_if(
+                    line, [](char c) { return c == ',' || c == '=' || c == '*'; }, ' ');
+                std::istringstream(line) >> word >> number;
+                if (!same_word(word, "SET") && !same_word(word, "SET1") && !same_word(word, "SET3")) continue;
+                if (++count <= kMostListed) list += (count > 1 ? ", " : "") + word + " " + number;
+            }
+        }
+        if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
+        if (count > 0)
+            log_line(context_, "note: the numbers of " + list + " stay as they are: no node and no cell of " +
+                                   volume_ + " is added to them");
     }
 
     void tell_names() const
@@ -665,7 +690,8 @@ std::vector<const mesh::HexMesh*> meshes_of(const Parts& parts, const MeshOf& me
 
 } // namespace
 
-Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces)
+Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces,
+             const RunContext& context)
 {
     std::vector<Index> point, points; // of each node of the whole, and of a mesh
     return deck_of_meshes(
@@ -680,7 +706,7 @@ Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& optio
         [&](std::size_t, const Deck& deck) {
             while (point.size() < deck.points.size()) point.push_back(static_cast<Index>(point.size()));
         },
-        options, interfaces, {});
+        options, interfaces, context);
 }
 
 Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,

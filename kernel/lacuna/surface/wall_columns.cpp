@@ -25,11 +25,13 @@ double mean_length(const Model& model, const LinkingSurface& link)
     return 2 * area / (link.source.length() + link.target.length());
 }
 
-/// Whether walls are as long as a straight way of so many columns.
+/// Whether walls are as long as a straight way of so many columns: longer ones bend or bulge, and walls that
+/// are narrower between their rims than there have less area.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns,
                   double hardly_longer)
 {
-    return mean_length(model, link) * static_cast<double>(columns) < (1 + hardly_longer) * straight;
+    return std::abs(mean_length(model, link) * static_cast<double>(columns) - straight) <
+           hardly_longer * straight;
 }
 
 std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& segment, int steps)
