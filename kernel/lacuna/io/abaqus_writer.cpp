@@ -116,7 +116,7 @@ private:
     {
         by_elements_.assign(deck_.sets.size(), false);
         region_names_.resize(deck_.regions.size());
-        dimensions_.assign(deck_.regions.size(), 3);
+        dimensions_.assign(deck_.regions.size(), 0);
         set_of_region_.assign(deck_.regions.size(), -1);
         makes_set_.assign(deck_.regions.size(), !same_);
         std::vector<std::vector<DeckTag>> members(deck_.regions.size());
@@ -164,10 +164,12 @@ private:
                         set.kind == kind && (abaqus_name(set.name) == set.name) == stays)
                         names_[s] = choose(kind, set.name);
         for (std::size_t r = 0; r < deck_.regions.size(); ++r) {
+            const bool is_empty = dimensions_[r] == 0 && bulk_.parts_of(static_cast<Index>(r)).empty();
+            if (is_empty) continue;
             std::string name = deck_.regions[r].name;
             // A region of another format that has a number alone is called by it.
             if (name.empty() && !same_)
-                name = (dimensions_[r] == 3 ? "volume:" : "surface:") + std::to_string(deck_.regions[r].tag);
+                name = (dimensions_[r] != 2 ? "volume:" : "surface:") + std::to_string(deck_.regions[r].tag);
             region_names_[r] = set_of_region_[r] >= 0 ? names_[index(set_of_region_[r])]
                                : name.empty()         ? ""
                                                       : choose(elements, name);
@@ -280,7 +282,7 @@ private:
     std::vector<bool> by_elements_;                 ///< sets
     std::vector<bool> makes_set_;                   ///< regions
     std::vector<Index> set_of_region_;              ///< that it makes; -1: none
-    std::vector<int> dimensions_;                   ///< of the elements of regions
+    std::vector<int> dimensions_;                   ///< of the elements of regions; 0: there are none
     std::vector<std::string> names_, region_names_; ///< of sets and regions in the file
 };
 
