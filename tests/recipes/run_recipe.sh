@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run_recipe.sh PROGRAM RECIPE FOLDER JUDGE: runs the recipe in FOLDER, twice, and has its mesh judged: by the
+# run_recipe.sh PROGRAM RECIPE FOLDER JUDGE GROUPS: runs the recipe in FOLDER, twice, and has its mesh judged: by the
 # program itself, and by JUDGE, which shares no code with it, where that and Gmsh's Python module are there.
 set -euo pipefail
-program=$1 recipe=$2 folder=$3 judge=$4
+program=$1 recipe=$2 folder=$3 judge=$4 groups=$5
 
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -25,5 +25,5 @@ if [[ ! -f $judge ]]; then
 elif ! /usr/bin/python3 -c 'import gmsh, numpy' 2>/dev/null; then
     echo "skipped: the independent judge needs python3-gmsh and python3-numpy"
 else
-    /usr/bin/python3 "$judge" "$mesh" --groups source,target,volume
+    /usr/bin/python3 "$judge" "$mesh" --groups "$groups"
 fi
