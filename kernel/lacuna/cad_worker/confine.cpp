@@ -278,7 +278,7 @@ Filter make_filter()
                   SCMP_SYS(pselect6),
                   SCMP_SYS(sendmsg),
                   SCMP_SYS(recvmsg),
-                  SCMP_SYS(exit),
+                  __NR_exit,
                   SCMP_SYS(exit_group),
                   SCMP_SYS(set_robust_list),
                   SCMP_SYS(getrandom),
