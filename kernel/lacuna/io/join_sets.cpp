@@ -197,8 +197,11 @@ void join_sets(Deck& deck, const NewCells& added, const std::vector<std::size_t>
     for (const std::size_t s : of_all)
         if (DeckSet& set = deck.sets[s]; set.kind == DeckSet::Kind::nodes || fits(set))
             add(set.members, set.kind == DeckSet::Kind::nodes ? added.nodes : added.cells);
-    const bool named = std::ranges::any_of(
-        deck.gap.gone, [&](const auto& gone) { return !solids_called(*gone, added.volume).empty(); });
+    const auto is_volume = [&](const std::string& name) { return same_word(name, added.volume); };
+    const bool named = std::ranges::any_of(deck.gap.names, is_volume) &&
+                       std::ranges::any_of(deck.gap.gone, [&](const auto& gone) {
+                           return !solids_called(*gone, added.volume).empty();
+                       });
     for (const auto& gone : deck.gap.gone) {
         Replacer replacer(*gone, added, named);
         for (const DeckSet& old : gone->sets)
