@@ -163,7 +163,9 @@ TEST_CASE("what MSH 2.2 cannot hold is told")
     context.log = [&](std::string_view line) { lines.emplace_back(line); };
     io::write_msh(mesh, folder.file("a.msh"), {.version = 4.1}, context);
     CHECK(lines.empty());
-    io::write_msh(mesh, folder.file("a.msh"), {.version = 2.2}, context);
+    io::write_msh(mesh, folder.file("a.msh"), {.version = 2.2}, context); // one group a facet
+    CHECK(lines.empty());
+    io::write_msh(mesh, folder.file("a.msh"), {.version = 2.2, .all_groups = true}, context);
     CHECK(lines.size() == 1);
 }
 

@@ -273,7 +273,8 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
              {"        1.0\n", "of no card"},
              {"GRID    1               0.      0.      0.                              +A\n+B\n",
               "continuation"},
-             {"BEGIN SUPER=1\nGRDSET,,5\nGRID,1\nGRID,2\nGRID,3\n" + face, "GRDSET of superelements"}}) {
+             {"BEGIN SUPER=1\n" + frames + "GRDSET,,5\nGRID,1\nGRID,2\nGRID,3\n" + face,
+              "GRDSET of superelements"}}) {
         CAPTURE(deck);
         CHECK_MESSAGE(has(failure("x.bdf", deck), words), failure("x.bdf", deck));
     }

@@ -133,8 +133,8 @@ private:
                 if (set.kind != DeckSet::Kind::elements || !same_word(set.name, deck_.regions[r].name) ||
                     set.members != members[r] || bulk_.parts_of(set) != bulk_.parts_of(static_cast<Index>(r)))
                     continue;
-                by_elements_[s] = !set.listed;
-                makes_set_[r] = true;
+                // Not by both: CalculiX would have each element twice in the set.
+                makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }
         }
