@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run_recipe.sh PROGRAM RECIPE FOLDER JUDGE GROUPS: runs the recipe in FOLDER, twice, and has its mesh judged: by the
-# program itself, and by JUDGE, which shares no code with it, where that and Gmsh's Python module are there.
+# run_recipe.sh PROGRAM RECIPE FOLDER JUDGE GROUPS: runs the recipe in FOLDER, twice, and has its mesh judged:
+# by the program itself, and by JUDGE, which shares no code with it, where that and the Python module of Gmsh
+# are there.
 set -euo pipefail
 program=$1 recipe=$2 folder=$3 judge=$4 groups=$5
 
