@@ -162,6 +162,7 @@ for sides = 12, 40, 7 do
   member("ruled " .. sides, { sides = sides, radius = 1, length = 4, rows = 1, twist = 2 * math.pi / sides })
   member("bend " .. sides, { sides = sides, radius = 1, length = 6, rows = 9, bend = 1.5 })
   member("barrel " .. sides, { sides = sides, radius = 1, length = 2, rows = 6, bulge = 0.3 })
+  member("waist " .. sides, { sides = sides, radius = 1, length = 2, rows = 6, bulge = -0.4 })
   member("dome " .. sides, { sides = sides, radius = 1, length = 2, rows = 1, rise = 0.4 }, domed)
   member("stack " .. sides, { sides = sides, bulge = 0.2 }, stacked)
   member("tube " .. sides, { sides = sides, radius = 1, length = 3, rows = 1,
