@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/volume_share.h>
 
+#include <lacuna/closure/close.h>
 #include <lacuna/core/edge_key.h>
 #include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/polyline.h>
@@ -50,13 +51,6 @@ double area_of(const OpenVolume& volume, Role end)
     double area = 0;
     for (const FaceId face : volume.faces(end)) area += face_area(volume.model, face);
     return area;
-}
-
-double volume_of(const OpenVolume& volume)
-{
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.push_back(FaceId(f));
-    return volume_integral(volume.model, all);
 }
 
 Vec3 facet_normal(const Model& model, const Triangle& t)
@@ -235,7 +229,7 @@ double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const
     const double scale = std::sqrt(area_of(volume, Role::target) / area_of(volume, Role::source));
     return std::abs((lost_on_end(volume, Role::source, 1, options, size, kept) +
                      lost_on_end(volume, Role::target, scale, options, size, kept)) /
-                    volume_of(volume));
+                    closure::enclosed_volume(volume));
 }
 
 /// Points up the walls: rings of columns, one for each linking surface whose walls bend on the way.
@@ -365,7 +359,7 @@ int planned_layers(const OpenVolume& volume, std::span<const surface::LinkingSur
     const bool exact = std::ranges::all_of(walls, [&](FaceId f) {
         return volume.model[f].surface != nullptr || volume.model[f].origin == Origin::made_void;
     });
-    const double part = by_order(exact, options) / volume_of(volume);
+    const double part = by_order(exact, options) / closure::enclosed_volume(volume);
     if (part == 0) return least;
     const auto rings = bent_rings(volume, links, kSteps, context);
     const auto sum = [&](int rows) {
