@@ -426,6 +426,41 @@ TEST_CASE("quads given to the wrong face, a face left out, a fold and a node off
     }
 }
 
+TEST_CASE("the least deviation that is allowed depends on the model and the face, not on small quads")
+{
+    int members = 0;
+    for (const int sides : {3, 4, 5, 6, 8}) {
+        auto volume = test::sealed({.sides = sides, .height = 0.2});
+        const Swept swept = sweep::sweep(volume, layers_of(10, 0.02));
+        const auto node = index(swept.mesh.rim.front()[0]) + 5 * index(swept.mesh.nodes_per_layer);
+        const Vec3 outward = Vec3(swept.mesh.nodes[node].x(), swept.mesh.nodes[node].y(), 0).normalized();
+        const auto off_by = [&](double distance) {
+            mesh::HexMesh mesh = swept.mesh;
+            mesh.nodes[node] += distance * outward;
+            return misfits(compared(volume, mesh)).size();
+        };
+        for (const double diagonal : {80.0, 1000.0}) {
+            volume.model.diagonal = diagonal; // of the part that the volume is a small recess of
+            double least = 1e-4 * diagonal;
+            for (const Face& face : volume.model.faces) {
+                Eigen::AlignedBox3d box;
+                for (const Triangle& t : face.triangles)
+                    for (const Index p : t) box.extend(volume.model.at(p));
+                least = std::min(least, 1e-2 * box.diagonal().norm());
+            }
+            CAPTURE(sides);
+            CAPTURE(diagonal);
+            for (const double share : {0.7, 0.95}) {
+                REQUIRE(share * least > 0.25 * 0.02); // more than the quads allow
+                CHECK(off_by(share * least) == 0);
+                ++members;
+            }
+            CHECK(off_by(3 * least) > 0);
+        }
+    }
+    CHECK(members == 20);
+}
+
 TEST_CASE("a pocket that is filled over is refused by the name of its faces, at any size")
 {
     for (const double depth : {0.1, 0.2, 0.5}) {

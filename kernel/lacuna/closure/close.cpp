@@ -8,9 +8,11 @@
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealing.h>
+#include <lacuna/closure/detail/smooth_ends.h>
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/list_text.h>
 #include <lacuna/core/number_text.h>
 
 #include <algorithm>
@@ -503,6 +505,16 @@ Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, c
     return closure;
 }
 
+/// Say which walls were given the role of an end.
+void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
+{
+    if (walls.empty()) return;
+    const auto name = [&](FaceId face) { return name_of(model, face); };
+    closure.notes.push_back("an end runs into " + short_list(walls, name) +
+                            " without an edge; meshed as part of that end, not as walls");
+    closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
+}
+
 } // namespace
 
 std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const CloseOptions& options)
@@ -532,6 +544,7 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
                            "the volume runs round its whole turn and has no ends to be closed between; sweep "
                            "it, or close its pieces, which volume:cut() gives");
     Closure closure = close_holes_and_rest(volume, match, options, context);
+    if (options.hints) note_extended(volume.model, extend_smooth_ends(volume, context), closure);
     if (options.hints) log_notes(closure, context); // not of trials
     return closure;
 }

@@ -17,7 +17,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -30,8 +29,6 @@ namespace {
 /// How many facets of a target's part say which part of the source it lies over.
 constexpr std::size_t kVotes = 50;
 
-/// An end turns into the walls at a step by more than this [degrees]: half of a right angle. A choice.
-constexpr double kStep = 45;
 /// Each cut leaves pieces with fewer steps. More rounds than this are a fault, not a shape.
 constexpr int kRounds = 64;
 
@@ -61,7 +58,7 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
+                if (turns[use.edge.index()] < kRimTurn) {
                     if (uses[use.edge.index()].size() > 1) ++onward;
                     continue;
                 }

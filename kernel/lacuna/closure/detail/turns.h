@@ -4,9 +4,13 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <numbers>
 #include <vector>
 
 namespace lacuna::closure {
+
+/// An end has a rim with its walls where they meet at more than half of a right angle [radians].
+inline constexpr double kRimTurn = std::numbers::pi / 4;
 
 /// By how much the skin turns towards the void over each edge between two faces, on average along it
 /// [radians]: positive where the void has more than a straight angle there, 0 for free edges and seams.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/smooth_ends.h>
+
+#include <lacuna/closure/detail/turns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+bool is_free_of_meshes(const Face& face) { return face.origin == Origin::given && face.given_quads.empty(); }
+
+/// Height of faces along their mean normal over the diameter of a disc of their projected area.
+double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
+{
+    Vec3 area = Vec3::Zero();
+    for (const FaceId face : faces) area += face_area_vector(model, face);
+    const Vec3 normal = area.normalized();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const FaceId face : faces) {
+        for (const Triangle& t : model[face].triangles) {
+            for (const Index p : t) {
+                low = std::min(low, model.at(p).dot(normal));
+                high = std::max(high, model.at(p).dot(normal));
+            }
+        }
+    }
+    return (high - low) / std::sqrt(4 * area.norm() / std::numbers::pi);
+}
+
+/// The walls that an end runs into smoothly, one after the other; nothing where they may not join it.
+std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& turns)
+{
+    const Model& model = volume.model;
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    const std::vector<FaceId> given = volume.faces(end);
+    std::vector<FaceId> extended = given;
+    for (std::size_t i = 0; i < extended.size(); ++i) {
+        if (!is_free_of_meshes(model[extended[i]])) return {};
+        for (const Loop& loop : model[extended[i]].loops) {
+            for (const EdgeUse& use : loop.uses) {
+                if (std::abs(turns[use.edge.index()]) >= kRimTurn) continue;
+                for (const FaceUse& user : uses[use.edge.index()]) {
+                    if (std::ranges::find(extended, user.face) != extended.end()) continue;
+                    if (volume.role[user.face.index()] != Role::wall) return {};
+                    extended.push_back(user.face);
+                }
+            }
+        }
+    }
+    if (extended.size() == given.size()) return {};
+    const std::vector<Rim> now = rims(model, extended);
+    if (now.size() != rims(model, given).size() || depth_by_width(model, extended) > 1) return {};
+    for (const Rim& rim : now) {
+        for (const EdgeUse& use : rim.uses) {
+            for (const FaceUse& user : uses[use.edge.index()]) {
+                const bool own = std::ranges::find(extended, user.face) != extended.end();
+                if (!own && volume.role[user.face.index()] != Role::wall) return {};
+            }
+        }
+    }
+    return {extended.begin() + std::ssize(given), extended.end()};
+}
+
+} // namespace
+
+std::vector<FaceId> extend_smooth_ends(OpenVolume& sealed, const RunContext& context)
+{
+    const std::vector<double> turns = concave_turns(sealed, context);
+    std::vector<FaceId> joined;
+    for (const Role end : {Role::source, Role::target}) {
+        for (const FaceId wall : smooth_walls(sealed, end, turns)) {
+            sealed.role[wall.index()] = end;
+            joined.push_back(wall);
+        }
+    }
+    return joined;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace lacuna {
+
+/// "a, b, c": the texts of all items.
+/// @param text  of an item, a std::string.
+template <class Items, class Text>
+std::string full_list(const Items& items, Text text)
+{
+    std::string list;
+    for (const auto& item : items) list += (list.empty() ? "" : ", ") + text(item);
+    return list;
+}
+
+/// "a, b, c, d, e, f and 3 more": as many as a message can hold.
+template <class Items, class Text>
+std::string short_list(const Items& items, Text text)
+{
+    constexpr std::ptrdiff_t kListed = 6;
+    std::string list;
+    const auto count = std::ssize(items);
+    auto item = std::begin(items);
+    for (std::ptrdiff_t i = 0; i < std::min(count, kListed); ++i, ++item)
+        list += (i == 0 ? "" : ", ") + text(*item);
+    return count > kListed ? list + " and " + std::to_string(count - kListed) + " more" : list;
+}
+
+} // namespace lacuna

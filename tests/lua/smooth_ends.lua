@@ -1,0 +1,77 @@
+-- SPDX-License-Identifier: MIT
+-- Cups: a flat end whose fillet and cylinder it runs into smoothly, a ledge and a neck with a missing mouth.
+local lacuna = require "lacuna"
+
+local R, around = 10, 48
+
+--- Faces of a profile of { r, z } turned about the z axis.
+local function turned(model, name, profile)
+  local points, cells = {}, {}
+  for _, p in ipairs(profile) do
+    for k = 0, around - 1 do
+      local a = 2 * math.pi * k / around
+      points[#points + 1] = { p[1] * math.cos(a), p[1] * math.sin(a), p[2] }
+    end
+  end
+  for i = 1, #profile - 1 do
+    for k = 0, around - 1 do
+      local a, b = (i - 1) * around + k + 1, (i - 1) * around + (k + 1) % around + 1
+      cells[#cells + 1] = { a, b, b + around }
+      cells[#cells + 1] = { a, b + around, a + around }
+    end
+  end
+  model:add_face { name = name, points = points, cells = cells }
+end
+
+local function cup(fillet, length, ledge)
+  local model = lacuna.model()
+  local points, cells = { { 0, 0, 0 } }, {}
+  for k = 0, around - 1 do
+    local a = 2 * math.pi * k / around
+    points[#points + 1] = { (R - fillet) * math.cos(a), (R - fillet) * math.sin(a), 0 }
+    cells[k + 1] = { 1, (k + 1) % around + 2, k + 2 }
+  end
+  model:add_face { name = "floor", points = points, cells = cells }
+  local arc = {}
+  for i = 0, 8 do
+    local t = math.pi / 2 * i / 8
+    arc[i + 1] = { R - fillet + fillet * math.sin(t), fillet * (1 - math.cos(t)) }
+  end
+  turned(model, "fillet", arc)
+  local walls, high = { "fillet" }, fillet + length
+  if length > 0 then
+    turned(model, "cylinder", { { R, fillet }, { R, fillet + length / 2 }, { R, high } })
+    walls[2] = "cylinder"
+  end
+  if ledge > 0 then
+    turned(model, "ledge", { { R, high }, { R - ledge, high } })
+    turned(model, "neck", { { R - ledge, high }, { R - ledge, high + 4 } })
+    walls[#walls + 1], walls[#walls + 2] = "ledge", "neck"
+  end
+  return model:open_volume { source = "floor", walls = walls }
+end
+
+local members = 0
+for _, fillet in ipairs { 3, 4, 5, 6, 7 } do
+  for _, length in ipairs { 0, 4 } do
+    for _, ledge in ipairs { 0.7, 2 } do
+      local volume = cup(fillet, length, ledge)
+      assert(volume.class == "IV")
+      local mesh = volume:sweep {}
+      local quality = mesh:quality()
+      local member = ("fillet %g, length %g, ledge %g: least scaled Jacobian %.3f"):format(fillet, length,
+        ledge, quality.min_scaled_jacobian)
+      assert(quality.certified and quality.min_scaled_jacobian > 0.25, member)
+      assert(tostring(mesh.report):find("runs into", 1, true), member)
+      members = members + 1
+    end
+  end
+end
+assert(members == 20)
+
+-- A cup that is deeper than wide, and one whose walls go on smoothly up to the mouth, keep their roles.
+for _, volume in ipairs { cup(5, 30, 2), cup(5, 8, 0) } do
+  volume:close {}
+  assert(tostring(volume:tree()):find('"fillet", wall', 1, true), "the fillet is a wall")
+end
+print(members .. " cups")
