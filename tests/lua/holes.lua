@@ -118,6 +118,33 @@ local elbow = 'local void = synthetic.elbow { inner = 0.5, angle = %d, drop = { 
 tells("closure.loop_follows", elbow:format(60))
 tells(nil, elbow:format(30))
 
+-- A box with a missing target: a hole in a wall, and a wall that ends below the others.
+local box = [[
+local model = lacuna.model()
+local function grid(name, o, u, v, nu, nv, skip)
+  local points, cells = {}, {}
+  for i = 0, nu do
+    for j = 0, nv do
+      points[#points + 1] = {}
+      for c = 1, 3 do points[#points][c] = o[c] + u[c] * i + v[c] * j end
+      local k = #points
+      if i < nu and j < nv and not (skip and i == skip and j == skip) then
+        cells[#cells + 1] = { k, k + nv + 1, k + nv + 2, k + 1 }
+      end
+    end
+  end
+  model:add_face { name = name, points = points, cells = cells }
+end
+grid("low", { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 3, 3)
+grid("w1", { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 3, 3, %s)
+grid("w2", { 3, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 3, 3)
+grid("w3", { 3, 3, 0 }, { -1, 0, 0 }, { 0, 0, 1 }, 3, 3)
+grid("w4", { 0, 3, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, 3, %d)
+local void = model:open_volume {}]]
+tells("closure.hole_closed", box:format("1", 3))
+tells("closure.walls_filled", box:format("nil", 1))
+tells(nil, box:format("nil", 3))
+
 -- Nothing is assumed where all is given.
 tells(nil, prism("sides = 6", ends .. ', walls = "auto"'))
 tells(nil, prism('sides = 6, drop = { "target" }', 'source = "source", walls = "auto"'))
