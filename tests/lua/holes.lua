@@ -192,6 +192,34 @@ for seed = 1, 6 do
     end
   end
 end
+-- Numbers of nine digits put the start of a rim a rounding error away from the corner that it is.
+local function spiked_tube(spike)
+  local R, H, N, M, lines = 10, 30, 48, 10, { "solid w" }
+  local function point(i, j)
+    local angle = 2 * math.pi * (i % N) / N
+    return ("vertex %.9g %.9g %.9g"):format(R * math.cos(angle), R * math.sin(angle),
+      (H + (i % N == 0 and spike or 0)) * j / M)
+  end
+  local function facet(...)
+    lines[#lines + 1] = "facet normal 0 0 0\nouter loop\n" .. table.concat({ ... }, "\n") ..
+      "\nendloop\nendfacet"
+  end
+  for j = 0, M - 1 do
+    for i = 0, N - 1 do
+      facet(point(i, j), point(i + 1, j), point(i + 1, j + 1))
+      facet(point(i, j), point(i + 1, j + 1), point(i, j + 1))
+    end
+  end
+  lines[#lines + 1] = "endsolid w\nsolid bottom"
+  for i = 0, N - 1 do facet("vertex 0 0 0", point(i + 1, 0), point(i, 0)) end
+  lines[#lines + 1] = "endsolid"
+  check.write(folder .. "/tube.stl", table.concat(lines, "\n"))
+  return lacuna.load(folder .. "/tube.stl"):open_volume { source = "bottom", walls = "w" }
+end
+for _, spike in ipairs { 0.2, 0.6, 0.98, 1.6 } do
+  check.that(spiked_tube(spike):sweep { size = 2.5 }:quality().certified)
+end
+
 -- So rough that it is no rim of a plane, or so low that the rim matters.
 check.fails(function() bone(1, 48, 0.5, 0.12, true):close() end, "closure.shape_open")
 

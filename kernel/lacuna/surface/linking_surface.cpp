@@ -115,8 +115,7 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
     for (int turn = 0; turn < 2; ++turn) {
         for (std::size_t i = 0; i < chain.uses().size(); ++i) {
             const double at = chain.start(i) + turn * length;
-            const double margin = 1e-9 * length;
-            if (at > from + margin && at < to - margin &&
+            if (at > from + model.tolerance && at < to - model.tolerance &&
                 (all || matching::is_corner(model, chain.uses(), i)))
                 result.push_back(at);
         }
@@ -155,7 +154,7 @@ struct PairedPlaces {
 void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
                          double s1, double t0, double t1)
 {
-    const double slack = 1e-9 * link.source.length();
+    const double slack = model.tolerance; // no segment is shorter
     for (PairedPlaces& pair : pairs) {
         if (pair.target_at < t0) pair.target_at += link.target.length();
     }
