@@ -2,8 +2,10 @@
 #include <lacuna/cad/detail/cad_files.h>
 
 #include <lacuna/cad/detail/input_file.h>
+#include <lacuna/core/list_text.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -11,12 +13,7 @@ namespace lacuna::cad {
 
 using namespace cad_protocol;
 
-std::string subject_of(const CadOrder& order)
-{
-    std::string subject;
-    for (const std::string& path : order.paths) subject += (subject.empty() ? "" : ", ") + path;
-    return subject;
-}
+std::string subject_of(const CadOrder& order) { return full_list(order.paths, std::identity()); }
 
 CadFiles open_cad_files(const CadOrder& order, const RunContext& context)
 {

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/predicates.h>
 #include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/names_of.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -26,13 +27,6 @@ struct Tube {
     std::array<std::vector<Vec3>, 2> points;
 };
 
-std::string names(const Model& model, const std::vector<FaceId>& faces)
-{
-    std::string text;
-    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model, face);
-    return text;
-}
-
 std::vector<Tube> tubes_of(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -41,7 +35,7 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
         const std::vector<Rim> open = rims(model, part);
         if (open.size() != 2) {
             throw NotClosed("closure.tube_loops",
-                            "the walls " + names(model, part) + " have " + std::to_string(open.size()) +
+                            "the walls " + names_of(model, part) + " have " + std::to_string(open.size()) +
                                 (open.size() == 1 ? " free loop" : " free loops") +
                                 "; in class V each connected part of the walls needs two, one at either end: "
                                 "name the source or the target, or the walls "
@@ -83,8 +77,8 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
             (geometry::mean_point(first.points[0]) - geometry::mean_point(first.points[1])).norm();
         if (std::abs(as_is - turned) <= 1e-6 * apart) {
             throw NotClosed("closure.ambiguous_loops",
-                            "the two free loops of " + names(model, tube.walls) +
-                                " are as near to one end of " + names(model, first.walls) +
+                            "the two free loops of " + names_of(model, tube.walls) +
+                                " are as near to one end of " + names_of(model, first.walls) +
                                 " as to the other, so no source and target can be told; name the source");
         }
         if (turned < as_is) {
@@ -110,9 +104,9 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
             depth += j != i && geometry::lies_inside(flat[j], flat[i].front()) ? 1 : 0;
         if (depth != 1) {
             throw NotClosed("closure.nested_loops",
-                            "the walls " + names(volume.model, tubes[i].walls) +
+                            "the walls " + names_of(volume.model, tubes[i].walls) +
                                 (depth == 0 ? " stand beside " : " are nested more than once in ") +
-                                names(volume.model, tubes.front().walls) +
+                                names_of(volume.model, tubes.front().walls) +
                                 ": these are several volumes; make one open volume of each");
         }
         // With the void between them, an inner tube's loop runs against the outer one's.

@@ -12,8 +12,8 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/list_text.h>
 #include <lacuna/core/number_text.h>
+#include <lacuna/topology/names_of.h>
 
 #include <algorithm>
 #include <array>
@@ -509,8 +509,7 @@ Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, c
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    const auto name = [&](FaceId face) { return name_of(model, face); };
-    closure.notes.push_back("an end runs into " + short_list(walls, name) +
+    closure.notes.push_back("an end runs into " + names_of(model, walls) +
                             " without an edge; meshed as part of that end, not as walls");
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
 }

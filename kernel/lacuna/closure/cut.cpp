@@ -14,6 +14,7 @@
 #include <lacuna/geometry/triangulate.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/names_of.h>
 #include <lacuna/topology/section.h>
 
 #include <algorithm>
@@ -107,7 +108,7 @@ private:
     {
         const Model& model = parted_.model;
         double least = std::numeric_limits<double>::infinity(), most = -least;
-        std::string touched;
+        std::vector<FaceId> touched;
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             bool touches = false;
             for (const Triangle& t : model.faces[f].triangles) {
@@ -118,13 +119,13 @@ private:
                     touches = touches || std::abs(h) <= tolerance_;
                 }
             }
-            if (touches) touched += (touched.empty() ? "" : ", ") + name_of(model, FaceId(f));
+            if (touches) touched.emplace_back(f);
         }
         const std::string where = "the volume lies from " + number(least) + " to " + number(most) +
                                   " along the normal from the point given";
         if (!touched.empty())
-            throw NotSweepable("closure.cut_misses",
-                               "the plane only touches " + touched + " and cuts nothing off: " + where);
+            throw NotSweepable("closure.cut_misses", "the plane only touches " + names_of(model, touched) +
+                                                         " and cuts nothing off: " + where);
         if (least < 0 && most > 0)
             throw NotSweepable("closure.cut_misses", "the plane passes between the faces and crosses none: "
                                                      "close the volume first, then its void faces are cut");

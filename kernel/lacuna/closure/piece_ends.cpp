@@ -2,6 +2,7 @@
 #include <lacuna/closure/piece_ends.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/names_of.h>
 
 #include <algorithm>
 #include <bit>
@@ -275,13 +276,6 @@ std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
     return ways;
 }
 
-std::string names(const Model& model, const std::vector<FaceId>& faces)
-{
-    std::string text;
-    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model, face);
-    return text;
-}
-
 } // namespace
 
 std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
@@ -349,8 +343,9 @@ void check_ends(const OpenVolume& volume, const std::string& what)
     throw NotSweepable(
         "closure.no_ends",
         what + " is closed by its " + std::to_string(model.faces.size()) + " faces and has no " + missing +
-            ": its " + other + " is " + (only.empty() ? std::string("missing too") : names(model, only)) +
-            ", and its walls are " + names(model, walls) + "; a sweep needs two ends that no corner joins" +
+            ": its " + other + " is " + (only.empty() ? std::string("missing too") : names_of(model, only)) +
+            ", and its walls are " + names_of(model, walls) +
+            "; a sweep needs two ends that no corner joins" +
             (is_piece
                  ? ": move or tilt the plane so that the piece keeps a whole end or meets more walls, or "
                    "leave the piece out with fallback = \"leave_out\""

@@ -2,6 +2,7 @@
 #include <lacuna/matching/match.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/list_text.h>
 #include <lacuna/matching/detail/arc_pairs.h>
 #include <lacuna/matching/detail/arrange.h>
 #include <lacuna/matching/detail/nearest.h>
@@ -291,9 +292,7 @@ void by_nearest(const Problem& problem, Match& match)
 /// Numbers as the recipe counts them, from 1.
 std::string numbers(const std::vector<int>& list)
 {
-    std::string text;
-    for (const int i : list) text += (text.empty() ? "" : ", ") + std::to_string(i + 1);
-    return text;
+    return full_list(list, [](int i) { return std::to_string(i + 1); });
 }
 
 std::string loops_in_words(std::size_t count)

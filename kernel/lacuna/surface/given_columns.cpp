@@ -5,6 +5,7 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/given_nodes.h>
 #include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/names_of.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -286,9 +287,7 @@ private:
     {
         std::set<FaceId> faces;
         for (const WallQuad& quad : quads_) faces.insert(quad.wall);
-        std::string text;
-        for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model_, face);
-        return text;
+        return names_of(model_, faces);
     }
 
     [[nodiscard]] std::string place(Index point) const

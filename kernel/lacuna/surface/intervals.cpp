@@ -2,6 +2,7 @@
 #include <lacuna/surface/intervals.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,11 +80,10 @@ private:
             reversed = !along;
         }
         if (found.size() == 1) return on_edge(found.front(), interval, reversed);
-        std::string edges;
-        for (const EdgeId edge : found) edges += (edges.empty() ? "" : ", ") + name_of(model_, edge);
         refuse("names the edge between vertices " + std::to_string(tag[0]) + " and " +
                std::to_string(tag[1]) + ", and " +
-               (found.empty() ? "none joins them" : edges + " do; name one of them by its tag") +
+               (found.empty() ? "none joins them"
+                              : names_of(model_, found) + " do; name one of them by its tag") +
                "; volume:tree() lists edges with their vertices");
     }
 

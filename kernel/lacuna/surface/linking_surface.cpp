@@ -6,6 +6,7 @@
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/paired_breaks.h>
+#include <lacuna/topology/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,16 +62,6 @@ RimOf rims_of(const OpenVolume& volume, Role role)
     return result;
 }
 
-std::string names(const Model& model, const std::vector<FaceId>& faces)
-{
-    std::string text;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        if (i == 6) return text + ", …";
-        text += (i == 0 ? "" : ", ") + name_of(model, faces[i]);
-    }
-    return text;
-}
-
 /// The only rim that a wall part touches.
 std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of,
                      const std::string& end)
@@ -86,11 +77,11 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
     }
     if (touched.empty()) {
         throw NotSweepable("surface.belt_loops",
-                           "the walls " + names(model, part) + " do not touch the " + end +
+                           "the walls " + names_of(model, part) + " do not touch the " + end +
                                "; a sweep has one ring of walls between one source loop and one target loop");
     }
     if (touched.size() != 1) {
-        throw NotSweepable("surface.belt_loops", "the walls " + names(model, part) + " touch " +
+        throw NotSweepable("surface.belt_loops", "the walls " + names_of(model, part) + " touch " +
                                                      std::to_string(touched.size()) + " loops of the " + end +
                                                      "; a sweep has one ring of walls between one source "
                                                      "loop and one target loop");
@@ -275,10 +266,10 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
     }
     throw NotSweepable(
         "surface.wall_pierced",
-        "the walls " + names(model, part) + " do not form a plain ring between source and target" +
+        "the walls " + names_of(model, part) + " do not form a plain ring between source and target" +
             (pierced.empty()
                  ? std::string()
-                 : ": " + names(model, pierced) + " have openings that other walls lead through"));
+                 : ": " + names_of(model, pierced) + " have openings that other walls lead through"));
 }
 
 } // namespace
@@ -304,7 +295,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
         if (by_rim[s]) {
             throw NotSweepable(
                 "surface.belt_twice",
-                "the walls " + names(model, part) + " and " + names(model, by_rim[s]->walls) +
+                "the walls " + names_of(model, part) + " and " + names_of(model, by_rim[s]->walls) +
                     " stand on the same source loop without touching; the loop's walls must join");
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);

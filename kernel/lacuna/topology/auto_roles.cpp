@@ -9,6 +9,7 @@
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/detail/wall_tally.h>
+#include <lacuna/topology/names_of.h>
 #include <lacuna/topology/use_places.h>
 
 #include <algorithm>
@@ -649,9 +650,7 @@ private:
 
     [[nodiscard]] std::string names(const std::vector<FaceId>& faces) const
     {
-        std::string text;
-        for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + name_of(model_, face);
-        return text;
+        return names_of(model_, faces);
     }
 
     [[nodiscard]] std::vector<std::string> reasons(const Reading& reading, const Roles& roles) const

@@ -2,6 +2,7 @@
 #include <lacuna/topology/auto_walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/list_text.h>
 #include <lacuna/geometry/union_find.h>
 #include <lacuna/topology/hollows.h>
 #include <lacuna/topology/open_volume.h>
@@ -269,9 +270,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
 
 std::string tags_of(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::string text;
-    for (const FaceId face : faces) text += (text.empty() ? "" : ", ") + std::to_string(model[face].tag);
-    return text;
+    return full_list(faces, [&](FaceId face) { return std::to_string(model[face].tag); });
 }
 
 } // namespace

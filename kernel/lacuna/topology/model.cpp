@@ -3,6 +3,7 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/list_text.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -381,12 +382,11 @@ void orient_consistently(Model& model)
     const auto uses = edge_uses(model);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() <= 2) continue;
-        std::string names;
-        for (const FaceUse& use : uses[e]) names += (names.empty() ? "" : ", ") + name_of(model, use.face);
         throw InvalidInput(
             "topology.not_manifold",
             name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
-                names + "); the skin of a volume has two at each edge: leave the others out of the volume");
+                short_list(uses[e], [&](const FaceUse& use) { return name_of(model, use.face); }) +
+                "); the skin of a volume has two at each edge: leave the others out of the volume");
     }
 
     const std::vector<FaceId> all = all_faces(model);

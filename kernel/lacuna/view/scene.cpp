@@ -2,11 +2,13 @@
 #include <lacuna/view/detail/scene.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/list_text.h>
 #include <lacuna/quality/metrics.h>
 #include <lacuna/view/detail/cell_set.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace lacuna::view {
@@ -172,12 +174,7 @@ std::string title_of(std::span<const Region> regions)
     return regions.front().name + ": " + counted(cells, "cell") + ", " + counted(layers, "layer");
 }
 
-std::string joined(const std::vector<std::string>& names)
-{
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    return all;
-}
+std::string joined(const std::vector<std::string>& names) { return full_list(names, std::identity()); }
 
 /// Whether a side that lies inside the volume may be shown.
 bool laid_open(const PictureOptions& options) { return options.cut || options.layers; }
