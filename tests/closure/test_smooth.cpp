@@ -243,7 +243,7 @@ TEST_CASE("void edges given by hand that cannot be ones are refused, and their v
     CHECK(code({{free_low, free_high, {}}}, {}) == "done");
     CHECK(code({{free_low, free_high, {Vec3(0, 1.2, 1)}}}, {}) == "done");
     CHECK(code({{free_low, 4711, {}}}, {word(free_low), word(4711)}) == "closure.void_edge_vertex");
-    CHECK(code({{walled, top, {}}}, {word(walled), "no free rim"}) == "closure.void_edge_vertex");
+    CHECK(code({{walled, top, {}}}, {word(walled), "not on a free rim"}) == "closure.void_edge_vertex");
     CHECK(code({{free_low, free_low, {}}}, {word(free_low)}) == "closure.void_edge_ends");
     CHECK(code({{free_low, free_high, {}}, {free_high, free_low, {}}}, {word(free_low), "twice"}) ==
           "closure.void_edge_twice");

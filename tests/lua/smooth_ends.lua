@@ -62,7 +62,7 @@ for _, fillet in ipairs { 3, 4, 5, 6, 7 } do
       local member = ("fillet %g, length %g, ledge %g: least scaled Jacobian %.3f"):format(fillet, length,
         ledge, quality.min_scaled_jacobian)
       assert(quality.certified and quality.min_scaled_jacobian > 0.25, member)
-      assert(tostring(mesh.report):find("runs into", 1, true), member)
+      assert(tostring(mesh.report):find("an end meets ", 1, true), member)
       members = members + 1
     end
   end

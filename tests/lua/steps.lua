@@ -158,7 +158,7 @@ check.that(drum:find "air_1 and air_%d share void face", drum)
 check.fails(function()
   turned({ can[1], can[2], can[3], top }):open_volume { source = { "floor", "top" }, target = "lid",
     walls = "side" }:sweep { size = 0.3 }
-end, "apart", '"floor"', '"top"', "closure.steps")
+end, "several separate parts", '"floor"', '"top"', "closure.steps")
 
 -- A family: a pin of one to three diameters in a bore of one to three, steps either way.
 local random = check.random(14)

@@ -16,23 +16,25 @@ using namespace topology;
 
 namespace {
 
-/// As many faces are tried as the mouth, the largest first. A choice: a hollow has one, a prism six.
+/// Number of faces tried as the mouth, the largest first. Rule of thumb: a hollow has one, a prism six.
 constexpr std::size_t kMostMouths = 4;
-/// A face is flat where its summed area vector is as long as its area but for this. A choice: a degree.
+/// A face is flat if its summed area vector falls short of its area by less than this share: a degree. Rule
+/// of thumb.
 constexpr double kFlat = 2e-4;
-/// Heights the skin's lean is counted at: a rim rounded by a thirtieth of the depth has two. A choice.
+/// Number of heights at which the inclination is sampled: a rim rounded by a thirtieth of the depth covers
+/// two. Rule of thumb.
 constexpr std::size_t kBins = 64;
-/// Below this lean at its steepest a skin is a bottom alone [radians]. A choice.
+/// A skin whose steepest inclination is below this is only a bottom [radians]. Rule of thumb.
 constexpr double kLeastLean = 0.2;
 
-/// Faces in one plane that face one way.
+/// Coplanar faces with the same normal.
 struct Mouth {
     std::vector<FaceId> faces;
     geometry::Plane plane;
     double area = 0;
 };
 
-/// Flat faces with all else behind them, the largest first.
+/// Flat faces with all other faces behind them, the largest first.
 std::vector<Mouth> mouths(const Model& model)
 {
     std::vector<Mouth> found;
@@ -72,7 +74,7 @@ bool has(const std::vector<FaceId>& faces, FaceId face)
     return std::ranges::find(faces, face) != faces.end();
 }
 
-/// How deep below the mouth the bottom ends; nothing where it does not.
+/// Depth of the bottom's end below the mouth; empty if there is none.
 std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
 {
     double depth = 0;
@@ -110,7 +112,7 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
     return depth * (1 - static_cast<double>(first) / kBins);
 }
 
-/// Whether faces are a ring with one rim on each of two others.
+/// Whether faces form a ring with one rim on each of two others.
 bool join(const Model& model, const std::vector<FaceId>& ring)
 {
     return rims(model, ring).size() == 2 && euler_number(model, ring) == 0;
@@ -157,7 +159,7 @@ std::optional<Bowl> part_bowl(const OpenVolume& sealed, const RunContext& contex
         check_cancelled(context);
         try {
             if (auto bowl = part_at(sealed, mouth, context)) return bowl;
-        } catch (const InvalidInput&) { // the plane would go through quads that a face came with
+        } catch (const InvalidInput&) { // the plane would cross given quads of a face
         }
     }
     return std::nullopt;

@@ -30,33 +30,33 @@ using namespace topology;
 
 namespace {
 
-/// Walls turn inward at a mouth by more than this [degrees]: facets of a bent wall turn less. A choice.
+/// Walls turn inward at a mouth by more than this [degrees]; facets of a bent wall turn less. Rule of thumb.
 constexpr double kConcave = 15;
-/// The dip goes no deeper than this share of the way to the wall opposite: of tubes alike that is the axis.
+/// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
-/// A branch leaves sideways where the main body's way has at least this share square to it. A choice.
+/// A branch is a side branch if this share of the main body's direction is normal to it. Rule of thumb.
 constexpr double kAlong = 0.1;
-/// Branches leave to one side where the ways they go differ by less than this cosine, of 30°, or by a half
-/// turn but for that. A choice.
+/// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
+/// above this (30°). Rule of thumb.
 constexpr double kSameSide = 0.87;
-/// Walls of a branch face the way it goes by less than this cosine, of 44°. A choice.
+/// Walls of a branch have normals within this cosine (44°) of its direction. Rule of thumb.
 constexpr double kAlongWay = 0.72;
-/// Lines along a main body nearer than this share of its widest mouth are one. A choice.
+/// Lines along a main body closer than this share of its widest mouth are merged. Rule of thumb.
 constexpr double kBeside = 0.1;
-/// Chords of the dip. A choice.
+/// Chords of the dip. Rule of thumb.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges.
 struct Mouth {
     std::vector<EdgeId> edges;
-    std::size_t host = 0, branch = 0; ///< regions beside it
+    std::size_t host = 0, branch = 0; ///< skin regions on its two sides
 };
 
-/// The skin's regions between mouths, and the ends of each.
+/// The skin's regions between mouths, and the ends of each region.
 struct Branching {
-    std::vector<std::size_t> region;        ///< of each face
-    std::vector<std::vector<FaceId>> faces; ///< of each region
-    std::vector<std::vector<Vec3>> ends;    ///< centres of the ends of each region
+    std::vector<std::size_t> region;        ///< by face
+    std::vector<std::vector<FaceId>> faces; ///< by region
+    std::vector<std::vector<Vec3>> ends;    ///< centres of the ends, by region
     std::vector<Mouth> mouths;
 };
 
@@ -80,7 +80,7 @@ public:
     Branching run()
     {
         find_lines();
-        // A line that is no mouth parts nothing: what it lies in may be one side of another.
+        // A line that is no mouth separates no regions: remove it, and the regions around it merge.
         for (bool again = true; again;) {
             find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// Edges of faces that are no walls.
+    /// Marks the edges of faces that are ends.
     [[nodiscard]] std::vector<bool> at_ends() const
     {
         std::vector<bool> result;
@@ -165,7 +165,7 @@ private:
         }
     }
 
-    /// Which side of a mouth is the main body; false where neither is.
+    /// Decide which side of a mouth is the main body; false if neither is.
     bool set_sides(Mouth& mouth)
     {
         const std::vector<FaceUse>& users = uses_[mouth.edges.front().index()];
@@ -181,7 +181,7 @@ private:
         if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
         if (result_.ends[mouth.host].size() < 2) return false;
         if (!result_.ends[mouth.branch].empty()) return true;
-        // A dimple is a wall like any other.
+        // A shallow dimple counts as part of the wall.
         const std::vector<Vec3> rim = places(model_, mouth.edges);
         const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
@@ -203,7 +203,7 @@ private:
     Branching result_;
 };
 
-/// Where a mouth lies along a direction.
+/// Extent of a mouth along a direction.
 struct Reach {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -227,7 +227,7 @@ public:
             if (!planes.empty()) return with_lines(planes);
         }
         std::ranges::sort(mouths, {}, [&](const Mouth* mouth) { return reach(*mouth).low; });
-        // Those that lie across from each other, or overlap along the way, meet in one place.
+        // Mouths that face each other, or overlap along the direction, form one junction.
         double high = reach(*mouths.front()).high;
         std::size_t count = 1;
         for (; count < mouths.size() && reach(*mouths[count]).low <= high + volume_.model.tolerance; ++count)
@@ -255,12 +255,12 @@ private:
                       axis_.y(), axis_.z());
         throw NotSweepable("closure.branches",
                            "the branch of " + name_of(volume_.model, branch) + " on " +
-                               name_of(volume_.model, host) + " is not cut by itself: " + why +
-                               "; to cut by hand, planes beyond its mouth, which lies between " +
-                               hint.data() + ", take what is not at the branch off");
+                               name_of(volume_.model, host) + " cannot be cut automatically: " + why +
+                               "; cut by hand with planes on both sides of its mouth, which lies between " +
+                               hint.data());
     }
 
-    /// A branch that reaches past the side of the main body has its own end beside the mouth.
+    /// Refuse a branch that reaches past the side of the main body and so has its own end next to the mouth.
     void refuse_beyond(const Mouth& mouth) const
     {
         const Model& model = volume_.model;
@@ -273,13 +273,12 @@ private:
             });
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
             if (!beside || facing <= kAlongWay * face_area(model, face)) continue;
-            throw NotSweepable(
-                "closure.branches",
-                "the branch of " + name_of(model, wall_at(mouth, mouth.branch)) + " on " +
-                    name_of(model, wall_at(mouth, mouth.host)) +
-                    " reaches beyond the side of the main body: " + name_of(model, face) +
-                    " at its mouth faces the way the branch goes, and expected are walls along "
-                    "it; bring the branch nearer to the middle, or make it narrower");
+            throw NotSweepable("closure.branches",
+                               "the branch of " + name_of(model, wall_at(mouth, mouth.branch)) + " on " +
+                                   name_of(model, wall_at(mouth, mouth.host)) +
+                                   " reaches beyond the side of the main body: " + name_of(model, face) +
+                                   " at its mouth faces along the branch instead of across it"
+                                   "; move the branch towards the middle, or make it narrower");
         }
     }
 
@@ -294,7 +293,7 @@ private:
         return found_.faces[region].front();
     }
 
-    /// The way a branch leaves its mouth.
+    /// The direction in which a branch leaves its mouth.
     [[nodiscard]] Vec3 way_out(const Mouth& mouth) const
     {
         const std::vector<Vec3> rim = rim_places(mouth);
@@ -305,7 +304,7 @@ private:
         return (far - geometry::mean_point(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
     }
 
-    /// The way from end to end of the main body, square to the way the branch leaves it.
+    /// Set the main body's axis: the direction from end to end, normal to the branch.
     void set_axis(const Mouth& mouth)
     {
         centre_ = geometry::mean_point(rim_places(mouth));
@@ -316,13 +315,12 @@ private:
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
         if (ends.size() != 2)
             refuse(mouth, "the main body has " + std::to_string(ends.size()) +
-                              " ends, so it is not told which way it goes");
-        if (square.norm() < kAlong * way.norm())
-            refuse(mouth, "it leaves the main body along the way between that one's ends");
+                              " ends, so its direction is ambiguous");
+        if (square.norm() < kAlong * way.norm()) refuse(mouth, "it leaves the main body along its axis");
     }
 
-    /// Planes along the main body through the middle of each mouth and of each line across its ends, where
-    /// these leave to several sides; nothing where all leave to one.
+    /// Planes along the main body through the centre of each mouth and of each line across its ends, if these
+    /// leave to several sides; empty if all leave to one side.
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
@@ -347,7 +345,7 @@ private:
                 return std::abs(plane.normal.dot(n)) > kSameSide;
             });
             if (known) return;
-            // Through the ends of lines that it would pass by.
+            // Move the plane to pass through the ends of nearby lines.
             for (const auto& [a, b] : across) {
                 const auto is_near = [&](const Vec3& p) {
                     return std::abs((p - place).dot(n)) <= kBeside * width();
@@ -371,8 +369,8 @@ private:
         return planes;
     }
 
-    /// Cut the volume with lines on the walls of the main body in some planes: they say what goes with what
-    /// on the ends of arms whose rims are bent at mouths to several sides.
+    /// Split the walls of the main body along some planes: the lines determine the correspondence between the
+    /// ends of arms whose rims are bent at mouths on several sides.
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
@@ -399,7 +397,7 @@ private:
         return BranchCutter(lined, std::move(again), context_, true).run();
     }
 
-    /// Of the widest mouth.
+    /// Width of the widest mouth.
     [[nodiscard]] double width() const
     {
         double wide = 0;
@@ -410,7 +408,7 @@ private:
         return wide;
     }
 
-    /// Whether a line along the main body has an edge of its walls beside it.
+    /// Whether an edge of the main body's walls already runs close to a line along it.
     [[nodiscard]] bool is_beside_line(const Model& model, const std::vector<FaceId>& walls,
                                       const SectionWalk& walk, const geometry::Plane& plane,
                                       double near) const
@@ -441,7 +439,7 @@ private:
             model, walk_of(model, found_.faces[mouth.branch], {mouth.edges.begin(), mouth.edges.end()}));
     }
 
-    /// The rim of some faces that runs along the edges named.
+    /// The rim of some faces that runs along the given edges.
     static std::vector<EdgeUse> walk_of(const Model& model, const std::vector<FaceId>& faces,
                                         const std::set<EdgeId>& edges)
     {
@@ -460,8 +458,8 @@ private:
         return result;
     }
 
-    /// Planes along the sides of a mouth that run square to the axis, as of a square duct on a flat wall:
-    /// what lies between them is swept along the axis, the duct's sides being part of its ends.
+    /// Positions of planes along the sides of a mouth that are normal to the axis, as of a square duct on a
+    /// flat wall: the part between them is swept along the axis, with the duct's sides as parts of its ends.
     [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
     {
         const Model& model = volume_.model;
@@ -515,7 +513,7 @@ private:
         return geometry::to_plane(plane, a + ha / (ha - hb) * (b - a));
     }
 
-    /// Walks across the main body: those from mouth to mouth first, and the closed ones beside them.
+    /// Walks across the main body: those from mouth to mouth first, then closed ones next to them.
     [[nodiscard]] std::vector<SectionWalk> walks_across(const std::vector<const Mouth*>& mouths,
                                                         const geometry::Plane& plane) const
     {
@@ -526,9 +524,9 @@ private:
                                                         [](const SectionWalk& walk) { return !walk.closed; });
         const auto open = static_cast<std::size_t>(rest.begin() - walks.begin());
         if (open != mouths.size())
-            refuse(mouth, open < mouths.size() ? "no wall of the main body lies across from it"
-                                               : "walls of the main body are missing across from it");
-        // Of the closed ones those in the region that the open ones bound.
+            refuse(mouth, open < mouths.size() ? "no wall of the main body lies opposite"
+                                               : "walls of the main body are missing opposite");
+        // Keep the closed ones inside the region bounded by the open ones.
         std::vector<std::vector<Vec2>> loops(1);
         for (std::size_t w = 0; w < walks.size(); ++w) {
             if (w >= open) loops.emplace_back();
@@ -544,8 +542,8 @@ private:
         return own;
     }
 
-    /// Faces that meet in a line across each mouth: two from it to the halves of the mouth, and one between
-    /// the lines across the main body.
+    /// Add the faces that meet in a line across each mouth: two from the line to the halves of the mouth, and
+    /// one between the lines across the main body.
     std::vector<StepPiece> fork(const std::vector<const Mouth*>& mouths)
     {
         check_cancelled(context_);
@@ -565,14 +563,14 @@ private:
 
         PartedModel parted;
         Partition middle;
-        std::map<VertexId, EdgeUse> onward; // from the end of a walk across its mouth
+        std::map<VertexId, EdgeUse> onward; // by start vertex: from the end of a walk across its mouth
         for (const Mouth* mouth : mouths) {
-            // The void faces of a mouth before it are behind those of the skin.
+            // The void faces of earlier mouths come after the faces of the skin.
             std::vector<FaceId> branch;
             for (std::size_t f = 0; f < made.parent.size(); ++f)
                 if (found_.region[made.parent[f].index()] == mouth->branch) branch.emplace_back(f);
             std::array<std::vector<EdgeUse>, 2>
-                halves; // behind the plane and before it, as the branch uses them
+                halves; // behind the plane and in front of it, oriented as in the branch
             for (const EdgeUse& use : mouth_walk(model, branch, host)) {
                 double sum = 0;
                 for (const Index p : model[use.edge].points) sum += geometry::height(plane, model.at(p));
@@ -600,7 +598,7 @@ private:
             rings.front().insert(rings.front().end(), made.lines[w].begin(), made.lines[w].end());
             const auto across = onward.find(use_to(model, made.lines[w].back()));
             if (across == onward.end())
-                refuse(*mouths.front(), "walls of the main body are missing across from it");
+                refuse(*mouths.front(), "walls of the main body are missing opposite");
             rings.front().push_back(across->second);
             const VertexId start = use_to(model, across->second);
             for (std::size_t next = 0; next < mouths.size(); ++next)
@@ -624,7 +622,7 @@ private:
                          context_);
     }
 
-    /// The rim that the branch has in common with the main body.
+    /// The common rim of the branch and the main body.
     static std::vector<EdgeUse> mouth_walk(const Model& model, const std::vector<FaceId>& branch,
                                            const std::vector<FaceId>& host)
     {
@@ -635,7 +633,7 @@ private:
         return walk_of(model, branch, edges);
     }
 
-    /// The larger loop first.
+    /// Put the larger loop first.
     static void order_rings(const Model& model, const geometry::Plane& plane,
                             std::vector<std::vector<EdgeUse>>& rings)
     {
@@ -664,11 +662,11 @@ private:
         }
         if (!is_chain(halves[0]) || !is_chain(halves[1]) ||
             use_to(model, halves[0].back()) != use_from(model, halves[1].front()))
-            refuse(mouth, "the plane across the main body meets its mouth in other than two places");
+            refuse(mouth, "the plane across the main body must cross its mouth in two places");
         return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
     }
 
-    /// A parabola across the mouth that dips into the main body as deep as its mouth is wide along the axis.
+    /// A parabola across the mouth that dips into the main body as deep as the mouth is wide along the axis.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {
@@ -709,7 +707,7 @@ private:
     Branching found_;
     const RunContext& context_;
     bool lined_ = false;                               ///< walls have lines along the main body
-    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the way past it
+    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the direction along it
 };
 
 } // namespace

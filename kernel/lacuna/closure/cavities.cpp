@@ -14,7 +14,7 @@ using namespace topology;
 
 namespace {
 
-/// @param mouths  free loops of its faces
+/// @param mouths  number of free loops of its faces
 const char* word(VolumeClass value, std::size_t mouths)
 {
     switch (value) {
@@ -43,7 +43,7 @@ std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& face
     }
 }
 
-/// Hollows that share a whole rim, as one.
+/// Hollows that share a whole rim, merged.
 std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Hollow>& hollows)
 {
     const std::vector<std::size_t> first = joined_hollows(model, hollows);

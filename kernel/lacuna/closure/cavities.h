@@ -9,18 +9,18 @@
 
 namespace lacuna::closure {
 
-/// A hollow of a solid that can be read as an open volume.
+/// A hollow of a solid that is a valid open volume.
 struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
-    std::vector<FaceId> faces; ///< rising: what `faces` of an open volume names
+    std::vector<FaceId> faces; ///< ascending: the `faces` to name for an open volume
     topology::VolumeClass value = topology::VolumeClass::closed;
     double volume = 0; ///< enclosed once sealed [model length³]
 };
 
-/// The cavities of the solids of a model: hollows by topology::hollows(), alone and with those whose whole
-/// rim they share, that find_readings() reads as one void. In the order of their first faces.
+/// The cavities of the solids of a model: hollows of topology::hollows(), alone and merged with those that
+/// share a whole rim, for which find_readings() finds exactly one void. In the order of their first faces.
 /// @throw Cancelled
-/// @note  A reading for each hollow.
+/// @note  One call of find_readings() per hollow.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});
 
 } // namespace lacuna::closure

@@ -55,7 +55,7 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
     return tubes;
 }
 
-/// How far a loop's middle is from another loop: along that loop's normal, which is the sweeping direction
+/// Distance of a loop's centre from another loop, along that loop's normal, which is the sweep direction
 /// there.
 double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 {
@@ -63,7 +63,7 @@ double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
     return std::abs((geometry::mean_point(from) - geometry::mean_point(to)).dot(normal));
 }
 
-/// Put each tube's loops in the order of the first tube's.
+/// Order each tube's loops like those of the first tube.
 void sort_ends(const Model& model, std::vector<Tube>& tubes)
 {
     const Tube& first = tubes.front();
@@ -78,8 +78,8 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
         if (std::abs(as_is - turned) <= 1e-6 * apart) {
             throw NotClosed("closure.ambiguous_loops",
                             "the two free loops of " + names_of(model, tube.walls) +
-                                " are as near to one end of " + names_of(model, first.walls) +
-                                " as to the other, so no source and target can be told; name the source");
+                                " are equally close to both ends of " + names_of(model, first.walls) +
+                                ", so source and target are ambiguous; name the source");
         }
         if (turned < as_is) {
             std::swap(tube.rim[0], tube.rim[1]);
@@ -88,7 +88,7 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
     }
 }
 
-/// Turn over the tubes inside another, so that all ends agree on which side is the void.
+/// Reverse the tubes inside another, so that all walls face the void.
 void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
 {
     const std::array<std::vector<Vec3>, 1> outer{tubes.front().points[0]};
@@ -107,9 +107,9 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
                             "the walls " + names_of(volume.model, tubes[i].walls) +
                                 (depth == 0 ? " stand beside " : " are nested more than once in ") +
                                 names_of(volume.model, tubes.front().walls) +
-                                ": these are several volumes; make one open volume of each");
+                                ": these are several volumes; make an open volume of each");
         }
-        // With the void between them, an inner tube's loop runs against the outer one's.
+        // With the void between them, the loop of an inner tube runs against that of the outer one.
         const double along =
             geometry::newell_vector(tubes[i].points[0]).dot(geometry::newell_vector(tubes.front().points[0]));
         if (along > 0) {

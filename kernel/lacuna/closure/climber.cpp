@@ -12,8 +12,8 @@ using namespace topology;
 
 namespace {
 
-/// Cosine of the turn below which an edge goes on with a climb (45°): a wall's top turns by about 90°.
-/// A choice, not a measurement.
+/// Cosine of the largest turn (45°) at which an edge continues a side line; at the top of a wall it is about
+/// 90°. Rule of thumb.
 constexpr double kOnward = 0.7071;
 
 } // namespace

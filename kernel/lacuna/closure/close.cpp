@@ -38,13 +38,13 @@ void prove_sealed(const OpenVolume& volume)
         throw NotClosed("closure.not_watertight",
                         name_of(model, EdgeId(e)) + " is used " + std::to_string(uses[e].size()) +
                             (uses[e].size() == 2 ? " times in the same direction" : " times") +
-                            " after closing; every edge must be used twice, in opposite directions: check "
-                            "the faces around it");
+                            " after closing instead of twice in opposite directions; check "
+                            "the faces next to it");
     }
     if (!(enclosed_volume(volume) > 0)) {
         throw NotClosed("closure.no_volume",
                         "the sealed faces enclose a volume of " + std::to_string(enclosed_volume(volume)) +
-                            ", which is not above 0: source and target lie in each other, or the faces "
+                            ", which is not positive: source and target coincide, or the faces "
                             "between them are twisted");
     }
 }
@@ -54,36 +54,36 @@ bool has_two_ends(VolumeClass value)
     return value == VolumeClass::I || value == VolumeClass::II || value == VolumeClass::III;
 }
 
-/// @throw InvalidInput  an option that the class has no use for.
+/// @throw InvalidInput  an option that does not apply to the class.
 void check_options(const OpenVolume& volume, VolumeClass value, const std::vector<EndHole>& holes,
                    const CloseOptions& options)
 {
     if (options.holes != Holes::automatic && holes.empty()) {
-        throw InvalidInput(
-            "closure.holes_unused",
-            "holes says what becomes of a given end's holes that have no walls, and there is no "
-            "such hole; leave the option out");
+        throw InvalidInput("closure.holes_unused",
+                           "the option holes is for holes of a given end without walls, and there is no "
+                           "such hole; leave the option out");
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
         throw InvalidInput("closure.void_edges_unused",
                            value == VolumeClass::closed
-                               ? "void_edges are for walls that are missing, and none is"
-                               : "void_edges join a given source and a given target, and a volume of class " +
-                                     std::string(to_string(value)) + " has not both");
+                               ? "void_edges replace missing walls, and none is missing"
+                               : "void_edges join a given source and target, but a volume of class " +
+                                     std::string(to_string(value)) + " lacks one");
     }
     if (options.cap == Cap::automatic || value == VolumeClass::IV) return;
     if (value == VolumeClass::V && options.cap == Cap::flat) return;
-    throw InvalidInput(
-        "closure.cap_unused",
-        value == VolumeClass::V
-            ? "cap = \"parallel\" carries a given end's shape to the other, and both are "
-              "missing (class V); use \"flat\", or name the source"
-            : "cap shapes a missing end, and " + name_of(volume.model, volume.faces(Role::source).front()) +
-                  " and " + name_of(volume.model, volume.faces(Role::target).front()) + " are both given");
+    throw InvalidInput("closure.cap_unused",
+                       value == VolumeClass::V
+                           ? "cap = \"parallel\" moves a given end's shape to the missing one, and both are "
+                             "missing (class V); use \"flat\", or name the source"
+                           : "the option cap shapes a missing end, and " +
+                                 name_of(volume.model, volume.faces(Role::source).front()) + " and " +
+                                 name_of(volume.model, volume.faces(Role::target).front()) +
+                                 " are both given");
 }
 
-/// By how much the ends of a volume are turned against each other, each facing the other [radian]; 0 where
-/// one looks past the other or encloses nothing.
+/// Angle between the two ends of a volume, 0 if they face each other squarely [radian]; also 0 if one faces
+/// away from the other or has no area vector.
 double lean_of(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -105,31 +105,29 @@ double lean_of(const OpenVolume& volume)
     return std::atan2(facing[0].cross(facing[1]).norm(), facing[0].dot(facing[1]));
 }
 
-/// Ends without walls that are turned by more than this are closed by a bend: straight edges would graze
-/// both.
-/// A choice, not a measurement.
+/// Ends without walls at a larger angle are closed by a bend, as straight edges would graze both. Rule of
+/// thumb.
 constexpr double kBend = 100 * std::numbers::pi / 180;
-/// What is closed straight between ends turned by more than this may have been meant as a bend, and it is
-/// said.
+/// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * std::numbers::pi / 180;
 
-/// Ways to shape what is missing that differ by more than this share of the volume are both said. A choice.
+/// Alternatives that differ by more than this share of the volume are noted. Rule of thumb.
 constexpr double kToBeSaid = 0.01;
-/// By what share of what is enclosed something else differs; 0 where that cannot be.
+/// Relative difference of an alternative volume; 0 if the alternative is impossible.
 double share_between(double taken, const std::optional<double>& other)
 {
     return other ? std::abs(*other - taken) / taken : 0;
 }
 
-/// Whether the shape of what is missing was asked for.
+/// Whether an option asks for a shape.
 bool asks_for_shape(const CloseOptions& options)
 {
     return options.edge_shape != EdgeShape::automatic || !options.void_edges.empty() ||
            options.cap != Cap::automatic;
 }
 
-/// Note what is assumed of walls that are missing beside a missing end: it matters where a face that bulges
-/// over their rims by a quarter of their width, which is 4 area / perimeter, encloses something else.
+/// Note an assumption about walls missing next to a missing end. It matters if a face that bulges over their
+/// rims by a quarter of their width, 4 area / perimeter, would change the volume enough.
 void assume_walls(const OpenVolume& sealed, const char* code, std::string text, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
@@ -144,7 +142,7 @@ void assume_walls(const OpenVolume& sealed, const char* code, std::string text, 
     assume(closure, code, text + "; this encloses " + with_digits(taken, 4), open / taken);
 }
 
-/// The share of each of the source's rims' edges that has no wall.
+/// For each edge of the source's rims, the share of its length without a wall.
 std::vector<double> shares_without_walls(const OpenVolume& volume)
 {
     const auto uses = edge_uses(volume.model);
@@ -157,10 +155,10 @@ std::vector<double> shares_without_walls(const OpenVolume& volume)
     return shares;
 }
 
-/// A volume being sealed as one of a class, in one way after another.
+/// Seals a volume as one of a class, trying several methods.
 class Sealer {
 public:
-    /// @param lines  those of the volume where they are known
+    /// @param lines  of the volume, if they are known
     Sealer(const OpenVolume& volume, const std::optional<std::vector<matching::SideLine>>& lines,
            VolumeClass value, const CloseOptions& options, const RunContext& context)
         : volume_(volume), lines_(lines), value_(value), options_(options), context_(context)
@@ -174,7 +172,7 @@ public:
         }
     }
 
-    /// Seal and prove it, in the first of the wanted ways that can be done.
+    /// Seal and check with the first method that succeeds.
     Closure seal(const matching::Match& match)
     {
         std::optional<NotClosed> first;
@@ -203,8 +201,8 @@ private:
 
     [[nodiscard]] bool leads() const { return follower_ && follower_->leads(); }
 
-    /// Left to itself, a bent volume is closed bent, and a straight one straight unless that cuts through
-    /// what is given or encloses nothing.
+    /// With automatic options, a bent volume is closed with bent edges, and a straight one with straight
+    /// edges unless these cross given faces or enclose no volume.
     std::vector<Way> wanted(const matching::Match& match) const
     {
         if (value_ == VolumeClass::IV) {
@@ -223,8 +221,8 @@ private:
         return ways;
     }
 
-    /// What else void edges may be, and what that encloses: straight or a bend between ends that lean against
-    /// each other with no walls between, straight or as the walls bend beside those and along a loop without
+    /// Note the alternative shape of void edges and its volume: straight or bent between inclined ends
+    /// without walls, straight or like the walls next to given walls that bend and along a loop without
     /// walls.
     void say_what_else(const Way& way, const matching::Match& match, Closure& closure)
     {
@@ -249,12 +247,15 @@ private:
             sealed_ = std::move(kept);
         }
         const double share = share_between(taken, instead);
-        if (leads() && !(share > kToBeSaid)) return; // a bend is told, a widening of the bore alone is not
+        if (leads() && !(share > kToBeSaid))
+            return; // report inclined ends, but no alternative that only
+                    // widens the bore
         std::string text =
-            follows   ? "a loop of the source has no wall, and void faces follow those of another loop there"
-            : leads() ? "void edges are straight beside given walls that bend"
-                      : "the ends are turned by " + with_digits(lean * 180 / std::numbers::pi, 3) +
-                            "° and no given wall says how the way between them bends: void edges are " +
+            follows
+                ? "a loop of the source has no wall, and void faces there follow the walls of another loop"
+            : leads() ? "void edges are straight next to given walls that bend"
+                      : "the angle between the ends is " + with_digits(lean * 180 / std::numbers::pi, 3) +
+                            "° and no given wall determines the bend between them: void edges are " +
                             (straight ? "straight" : "curves that leave both ends square");
         text += std::string("; close{ edge_shape = \"") +
                 (other == EdgeShape::straight ? "straight"
@@ -262,7 +263,7 @@ private:
                                               : "smooth") +
                 "\" } " +
                 (instead ? "encloses " + with_digits(*instead, 4) + " instead of " + with_digits(taken, 4)
-                         : "is the other way");
+                         : "is the alternative");
         assume(closure,
                follows   ? "closure.loop_follows"
                : leads() ? "closure.straight_assumed"
@@ -270,17 +271,17 @@ private:
                std::move(text), share);
     }
 
-    /// A missing end with walls missing beside it that was closed by several flat faces.
+    /// Note a missing end with missing walls that was closed by several flat faces.
     void say_what_is_filled(Closure& closure) const
     {
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
             assume_walls(sealed_, "closure.walls_filled",
-                         "walls beside the missing target end below it, and flat faces that meet in "
+                         "walls next to the missing target end below it; flat faces that meet in "
                          "straight edges continue them",
                          closure);
     }
 
-    /// Void faces whose inside the rim does not tell, and those that fill what may lie behind them.
+    /// Note void faces whose rim does not determine their inside, and those that may close off a pocket.
     void say_what_is_open(Closure& closure) const
     {
         note_open_rims(sealed_, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
@@ -313,7 +314,7 @@ private:
         }
     }
 
-    /// What was tried after a failure and found to seal; what did not is not recommended.
+    /// The option that was found to seal after a failure; options that also failed are not suggested.
     std::string what_helps(const matching::Match& match)
     {
         const std::string otherwise = "; give the missing face, or another wall";
@@ -341,7 +342,7 @@ private:
                 if (would_seal(way, other)) return "; match{ flip = { " + loops + " } } seals it";
             }
         } catch (const NotClosed&) {
-        } catch (const InvalidInput&) { // walls or pairs settle the direction
+        } catch (const InvalidInput&) { // the direction is fixed by walls or pairs
         }
         return otherwise;
     }
@@ -355,8 +356,8 @@ private:
     OpenVolume sealed_;
 };
 
-/// Whether side lines lead up along open rims: walls that end at different heights beside each other. Their
-/// open rim is no loop to match then, and the side lines say what goes with what.
+/// Whether side lines run up along open rims, where adjacent walls end at different heights. Their open rim
+/// is no loop to match, but the side lines give the correspondence.
 bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 {
     const std::vector<EdgeId> free = free_edges(volume);
@@ -370,7 +371,7 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
     });
 }
 
-/// @throw NotClosed  the shape that was sealed is a guess which nobody asked for.
+/// @throw NotClosed  the shape that was sealed is ambiguous and was not asked for.
 void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseOptions& options)
 {
     if (options.take_guess || asks_for_shape(options)) return;
@@ -378,12 +379,12 @@ void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseO
     if (guess.empty()) return;
     throw NotClosed("closure.shape_open",
                     guess +
-                        "; give the missing face, ask for a shape by close{ cap = … } or "
-                        "close{ edge_shape = … }, or take what was assumed, which encloses " +
-                        with_digits(enclosed_volume(sealed), 4) + ", by open_volume{ …, reading = 1 }");
+                        "; give the missing face, choose a shape with close{ cap = … } or "
+                        "close{ edge_shape = … }, or accept the assumed shape, which encloses " +
+                        with_digits(enclosed_volume(sealed), 4) + ", with open_volume{ …, reading = 1 }");
 }
 
-/// Seal a volume as one of a class, and prove it.
+/// Seal a volume as one of a class, and check it.
 Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
              const RunContext& context)
 {
@@ -400,8 +401,8 @@ bool lacks_walls(const OpenVolume& volume)
     return std::ranges::any_of(shares_without_walls(volume), [](double share) { return share > 0; });
 }
 
-/// Seal a volume of class IV that lacks walls as well: the source's shape, moved onto the tops of the walls
-/// that stand, is the target's. None where these do not tell, or where another shape is asked for.
+/// Seal a volume of class IV that lacks walls as well: the target is the source's shape, moved onto the tops
+/// of the given walls. Empty if these do not determine the motion, or if another shape is asked for.
 std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptions& options,
                                             const RunContext& context)
 {
@@ -415,16 +416,15 @@ std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptio
     const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
     if (without > std::ssize(holes_without_walls(volume)))
         assume_walls(moved->volume, "closure.end_moved",
-                     "the target is missing and walls beside it too; it is taken to have the source's "
-                     "shape, which " +
-                         name_of(volume.model, moved->from) +
-                         " tells, where the tops of the walls that stand say",
+                     "the target and walls next to it are missing; the target is assumed to have the "
+                     "shape of the source " +
+                         name_of(volume.model, moved->from) + ", moved onto the tops of the given walls",
                      closure);
     volume = std::move(moved->volume);
     return std::move(moved->closure);
 }
 
-/// The match of the ends that keeps to what is given by hand.
+/// The match of the ends, including the user's void edges.
 matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options, const RunContext& context)
 {
     matching::MatchOptions by_hand;
@@ -432,12 +432,12 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
     return matching::match(volume, by_hand, context);
 }
 
-/// Seal a volume whose holes without walls are covered already, or to be taken as the rest of the ends is.
-/// @param whole  its class
+/// Seal a volume whose holes without walls are already covered, or are extended like the rest of the end.
+/// @param whole  the class of the volume with its holes
 Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                    const CloseOptions& options, const RunContext& context)
 {
-    // Trials of readings move ends by themselves.
+    // Trials of candidates move ends themselves.
     if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
         if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
     }
@@ -446,7 +446,7 @@ Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
     if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
 
-    // Part of a stack is missing: what is open lies between the stubs, and is matched there.
+    // The middle of a stack is missing: the gap is between the partial walls and is matched there.
     lent.override_class.reset();
     Closure closure = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
     closure.value = whole;
@@ -456,7 +456,7 @@ Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass
     return closure;
 }
 
-/// Seal a volume of which given ends have holes that are to be covered.
+/// Seal a volume after covering the holes of its given ends.
 Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
                       const CloseOptions& options, const RunContext& context)
 {
@@ -471,7 +471,7 @@ Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, Vol
     return closure;
 }
 
-/// What holes without walls may be, and what is enclosed then.
+/// Describe the options for holes without walls, with the enclosed volumes.
 std::string in_words(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
 {
     const auto encloses = [](const std::optional<double>& volume) {
@@ -479,11 +479,11 @@ std::string in_words(const Model& model, const std::vector<EndHole>& holes, cons
     };
     return name_of(model, holes.front().face) + " has " +
            (holes.size() == 1 ? "a hole" : std::to_string(holes.size()) + " holes") +
-           " without walls: close{ holes = \"cover\" }, by flat faces," + encloses(volumes.covered) +
-           "; close{ holes = \"through\" }, on to the missing end," + encloses(volumes.through);
+           " without walls: close{ holes = \"cover\" }, with flat faces," + encloses(volumes.covered) +
+           "; close{ holes = \"through\" }, up to the missing end," + encloses(volumes.through);
 }
 
-/// Seal a volume after holes without walls of its ends.
+/// Seal a volume, including holes without walls in its ends.
 Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
                              const RunContext& context)
 {
@@ -492,7 +492,7 @@ Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, c
     check_options(volume, whole, holes, options);
     if (whole == VolumeClass::V && options.hints) check_tubes(volume, context);
     if (options.holes == Holes::cover) return close_covered(volume, holes, whole, options, context);
-    std::optional<HoleVolumes> volumes; // where it is open which of them is meant
+    std::optional<HoleVolumes> volumes; // set if the treatment of the holes is ambiguous
     if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && options.hints)
         volumes = hole_volumes(volume, options, context);
     if (volumes && !options.take_guess && (volumes->covered || volumes->through))
@@ -500,17 +500,17 @@ Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, c
     Closure closure = close_rest(volume, match, whole, options, context);
     if (volumes)
         assume(closure, "closure.hole_through",
-               in_words(volume.model, holes, *volumes) + "; they are taken through",
+               in_words(volume.model, holes, *volumes) + "; they are extended",
                share_between(enclosed_volume(volume), volumes->covered));
     return closure;
 }
 
-/// Say which walls were given the role of an end.
+/// Note which walls were given the role of an end.
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    closure.notes.push_back("an end runs into " + names_of(model, walls) +
-                            " without an edge; meshed as part of that end, not as walls");
+    closure.notes.push_back("an end meets " + names_of(model, walls) +
+                            " smoothly; meshed as part of that end, not as walls");
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
 }
 
@@ -540,11 +540,11 @@ Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptio
     check_cancelled(context);
     if (volume.full_turn)
         throw NotSweepable("closure.full_turn_whole",
-                           "the volume runs round its whole turn and has no ends to be closed between; sweep "
-                           "it, or close its pieces, which volume:cut() gives");
+                           "the volume runs round its whole turn and has no ends to close between; sweep "
+                           "it, or close the pieces that volume:cut() returns");
     Closure closure = close_holes_and_rest(volume, match, options, context);
     if (options.hints) note_extended(volume.model, extend_smooth_ends(volume, context), closure);
-    if (options.hints) log_notes(closure, context); // not of trials
+    if (options.hints) log_notes(closure, context); // not in trials
     return closure;
 }
 

@@ -11,94 +11,95 @@
 
 namespace lacuna::closure {
 
-/// How a void edge runs between its two vertices.
+/// Shape of a void edge between its two vertices.
 enum class EdgeShape {
-    /// Straight; `follow` where straight would stray from the walls. Where that crosses the given faces or
+    /// Straight, or `follow` if straight edges would stray from the walls. If that crosses the given faces or
     /// encloses no volume, the first of straight, `follow` and `smooth` that seals.
     automatic,
-    straight, ///< the paper's
-    follow,   ///< as the side edges next to it
-    smooth,   ///< a cubic that leaves both ends along the walls there, else along the faces' normals
+    straight, ///< as in the paper
+    follow,   ///< bent like the given walls beside it
+    smooth,   ///< a cubic tangent to the walls at both ends, otherwise normal to the faces
 };
 
-/// How a missing end (class IV) is shaped.
+/// Shape of a missing end (class IV).
 enum class Cap {
-    automatic, ///< flat; parallel where flat would cross the given faces
-    flat,      ///< in the plane of its rim, or between its rim's heights (Algorithm 4)
-    parallel,  ///< the given end's shape, moved to the rim as the walls lead
+    automatic, ///< flat, or parallel if flat would cross the given faces
+    flat,      ///< in the plane of its rim, or interpolated from its rim's heights (Algorithm 4)
+    parallel,  ///< the given end's shape, moved to the rim by the motion of the walls
 };
 
-/// What becomes of holes of a given end that have no walls.
+/// Treatment of a given end's holes without walls.
 enum class Holes {
-    automatic, ///< refused where the other end is missing; else closed as the match says
-    cover,     ///< covered in the end's surface
-    through,   ///< taken through to the other end
+    automatic, ///< an error if the other end is missing; otherwise closed as matched
+    cover,     ///< closed by a face in the end's surface
+    through,   ///< extended to the other end
 };
 
-/// A void edge given by hand.
+/// A void edge given by the user.
 struct VoidEdge {
     int from = 0, to = 0;     ///< tags of vertices on the free rims
-    std::vector<Vec3> points; ///< between the two, in that order; none: straight [model length]
+    std::vector<Vec3> points; ///< inner points from `from` to `to`; empty: straight [model length]
 };
 
 struct CloseOptions {
     EdgeShape edge_shape = EdgeShape::automatic;
-    std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
+    std::vector<VoidEdge> void_edges{}; ///< given by the user; the match adds the others
     Cap cap = Cap::automatic;
     Holes holes = Holes::automatic;
-    bool hints = true; ///< whether a refusal says what would seal, which takes as long as sealing once more
-    bool take_guess = false; ///< take what nothing given tells as it closes; an option above takes it as well
+    bool hints = true;       ///< whether an error suggests an option that seals, which doubles its run time
+    bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
 };
 
-/// Something that closing assumed, without which the volume would differ by more than 2 %.
+/// An assumption of the closing that changes the volume by more than 2 %.
 struct Assumption {
-    std::string code; ///< stable, for programs: "closure.end_moved"
+    std::string code; ///< stable code for programs: "closure.end_moved"
     std::string text; ///< one of the closure's notes
 };
 
-/// What was added to seal the volume, and how.
+/// The void entities added to seal the volume, and how they were made.
 struct Closure {
     topology::VolumeClass value = topology::VolumeClass::closed;
     std::vector<EdgeId> void_edges;
     std::vector<FaceId> void_faces;
-    std::vector<std::string> algorithms; ///< of the paper, in the order used: "Algorithm 8", "Algorithm 4", …
+    std::vector<std::string> algorithms; ///< names as in the paper, in the order used: "Algorithm 8",
+                                         ///< "Algorithm 4", …
     bool watertight = false;
-    std::vector<std::string> notes;      ///< what was taken though something else may have been meant
-    std::vector<Assumption> assumptions; ///< those notes that say what matters
+    std::vector<std::string> notes;      ///< assumptions and alternatives, one sentence each
+    std::vector<Assumption> assumptions; ///< the notes that change the volume by more than 2 %
 };
 
 /// Seal the volume: add void edges and faces with their geometry, and give every face its role.
 ///
-/// Algorithms 2–6 and one closer a class, 8–11. Classes IV and V have no target before, and both ends after.
-/// Departure: where walls stand for part of the way between source and target, a void edge joins what they
-/// leave open of each matched pair; the paper joins only vertices that are on no wall.
+/// Algorithms 2–6 and one of 8–11 for the class. Classes IV and V start without a target and end with both
+/// ends. Departure: where walls cover only part of the height, a void edge joins the remaining gap of each
+/// matched pair; the paper joins only vertices that are on no wall.
 /// @param volume  out: with the void entities added.
-/// @param match   of source and target; not read for classes IV and V, which have no two ends to match.
-/// @throw NotClosed  names the free loop, face or edge that cannot be sealed, and why; and another shape or
-///         direction that was found to seal it. "closure.shape_open": nothing given tells the shape of
-///         what is missing, and neither a shape nor a guess was asked for; names the faces round it.
-///         "closure.holes_open": an end is missing and the given one has holes without walls; says what is
-///         enclosed with these covered and taken through.
-/// @throw InvalidInput  a void edge given by hand that cannot be one; names its vertices. An option that the
-///         volume has no use for.
+/// @param match   of source and target; ignored for classes IV and V, which lack an end.
+/// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
+///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
+///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an
+///         end is missing and the given one has holes without walls; reports the volume with these covered
+///         and extended.
+/// @throw InvalidInput  a user's void edge that is not possible; names its vertices. An option that does not
+///         apply to the volume.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});
 
-/// Hand a closure's notes to the log, those of assumptions as `note: … [code]`. close() does so unless it is
-/// a trial, without hints.
+/// Log a closure's notes, assumptions as `note: … [code]`. close() does this itself, except in trials without
+/// hints.
 void log_notes(const Closure& closure, const RunContext& context);
 
-/// The void edges given by hand that join the rims of source and target, as pairs (source, target) of vertex
-/// tags: what a match has to keep to.
+/// The user's void edges that join the rims of source and target, as pairs (source, target) of vertex tags,
+/// which a match must contain.
 std::vector<std::pair<int, int>> pairs_by_hand(const topology::OpenVolume& volume,
                                                const CloseOptions& options);
 
 /// True when every edge is used twice in opposite directions and the facets enclose a positive volume.
 bool is_watertight(const topology::OpenVolume& volume);
 
-/// Volume the facets enclose, positive when they are oriented outward [model length³].
+/// Volume enclosed by the facets, positive if they face outward [model length³].
 double enclosed_volume(const topology::OpenVolume& volume);
 
 } // namespace lacuna::closure

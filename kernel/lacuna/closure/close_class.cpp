@@ -32,8 +32,8 @@ void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loo
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
 
-/// With no walls between them nothing but the match says how source and target face each other. Walls that
-/// are connected to the target alone turn with it.
+/// Without walls between them, only the match tells how source and target face each other. Walls connected to
+/// the target only are reversed with it.
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
@@ -47,7 +47,7 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
     }
 }
 
-/// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace a free loop.
+/// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace per free loop.
 void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     for (const Loop& loop : void_loops(volume, closure.void_edges))
@@ -55,7 +55,7 @@ void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
     note(closure, "Algorithm 3");
 }
 
-/// A loop with no wall at all is connected by void edges alone.
+/// A loop without any wall is connected by void edges only, so it needs matched vertices.
 void check_matched(const OpenVolume& volume, const matching::Match& match)
 {
     const auto uses = edge_uses(volume.model);
@@ -71,13 +71,13 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
         throw NotClosed("closure.unmatched_loop",
                         "source loop " + std::to_string(l + 1) + ", with " +
                             name_of(volume.model, rim.front().edge) +
-                            ", has no wall and none of its vertices is matched to the target; pair some by "
+                            ", has no wall and no vertex matched to the target; pair some by "
                             "hand with match{ vertices = … }");
     }
 }
 
-/// Class I has no algorithm of its own in the paper; its walls are those of class II with no wall given.
-/// Class III is the same with every vertex on a wall: void edges only where its wall does not go all the way.
+/// The paper has no algorithm for class I; its walls are made as in class II without given walls. Class III
+/// likewise, with every vertex on a wall: void edges only where that wall does not reach the other end.
 void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
@@ -95,19 +95,19 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// A missing target with the source's shape, moved to the walls' rim by the affine map that the walls'
-/// sections give.
+/// A missing target with the source's shape, moved to the walls' rim by the affine map fitted to the walls'
+/// sections.
 VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
                          const RunContext& context)
 {
     const Model& model = volume.model;
-    OpenVolume capped = volume; // the walls say how they lead only between two ends
+    OpenVolume capped = volume; // the walls define a motion only between two ends
     add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
     const Follower follower(capped, matching::side_lines(capped, context), context);
     if (!follower.leads()) {
         throw NotClosed("closure.nothing_parallel",
-                        name + " cannot be parallel to the given end: the walls do not say how it is "
-                               "carried to their rim; use cap = \"flat\"");
+                        name + " cannot be parallel to the given end: the walls do not determine its motion "
+                               "to their rim; use cap = \"flat\"");
     }
     std::vector<Vec3> points;
     for (const Vec3& p : model.points) points.push_back(follower.carried(p));
@@ -126,7 +126,7 @@ VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loop
                    sides / static_cast<double>(3 * triangles.size()), name, context);
 }
 
-/// Eq. (3) and (4): the free loops of source and walls are the target's.
+/// Eq. (3) and (4): the free loops of source and walls are those of the target.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
@@ -143,18 +143,18 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             if (!on_source.contains(use.edge)) continue;
             throw NotClosed("closure.wall_missing",
                             name_of(model, use.edge) +
-                                " of the source has no wall, and the tops of the walls that stand do not "
-                                "tell where the missing target is there: name the wall, or the target");
+                                " of the source has no wall, and the tops of the walls given do not "
+                                "determine the missing target there; name the wall, or the target");
         }
         loops.push_back(reversed(rim));
     }
     const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
     if (loops.size() != wanted) {
-        throw NotClosed("closure.loop_counts", "the source has " + std::to_string(wanted) +
-                                                   " loops and the walls leave " +
-                                                   std::to_string(loops.size()) +
-                                                   " free loops for the target; a sweep needs as many on "
-                                                   "both ends: check the walls, or name the target");
+        throw NotClosed("closure.loop_counts",
+                        "the source has " + std::to_string(wanted) + " loops and the walls leave " +
+                            std::to_string(loops.size()) +
+                            " free loops for the target; a sweep needs the same number on "
+                            "both ends; check the walls, or name the target");
     }
     if (tools.way.planes) {
         if (auto filled = fill_missing_end(volume, tools.context)) {
@@ -173,8 +173,8 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::target));
 }
 
-/// Eq. (5) to (8): the free loops, sorted into two subsets, are the source's and the target's. Departure: a
-/// floor round a loop is part of that end, with which it would make cells of no thickness as a wall.
+/// Eq. (5) to (8): the free loops, sorted into two sets, are those of source and target. Departure: a floor
+/// round a loop becomes part of that end; as a wall it would get cells of zero thickness.
 void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 11");
@@ -187,7 +187,7 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
             volume.role[floor.index()] = role;
             closure.notes.push_back(name_of(volume.model, floor) + " lies in the plane of " +
                                     (role == Role::source ? "the source" : "the target") +
-                                    " and is taken as a part of it");
+                                    " and becomes part of it");
         }
     }
 }

@@ -30,9 +30,9 @@ using namespace topology;
 
 namespace {
 
-/// Open walks are joined by trying all orders up to so many.
+/// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-/// Loops of less area than this part of the square of their length enclose nothing. A choice.
+/// Loops with less area than this share of their squared length enclose nothing. Rule of thumb.
 constexpr double kSlit = 1e-6;
 
 std::string number(double value) { return with_digits(value, 4); }
@@ -55,7 +55,7 @@ public:
         parted_.turned_round = volume.turned_round;
     }
 
-    /// @param within  null, or facets of a face: only regions with some of them are cut.
+    /// @param within  null, or facets of a face: only regions that contain some of them are cut.
     std::vector<StepPiece> run(const geometry::FacetTree* within)
     {
         find_walks();
@@ -95,8 +95,8 @@ private:
             const double area = signed_area(outline(walk));
             if (std::abs(area) > std::abs(most)) most = area;
         }
-        // Walks round what is within the skin run clockwise. Else it faces inward, and what lies in the plane
-        // would be taken for the other side.
+        // Walks round the inside of the skin are clockwise. Otherwise the skin faces inward, and facets in
+        // the plane would be assigned to the wrong side.
         if (most > 0) {
             flip_faces(model, all_faces(model));
             walks_ = section_walks(model, all_faces(model), plane_, tolerance_);
@@ -125,14 +125,15 @@ private:
                                   " along the normal from the point given";
         if (!touched.empty())
             throw NotSweepable("closure.cut_misses", "the plane only touches " + names_of(model, touched) +
-                                                         " and cuts nothing off: " + where);
+                                                         " and cuts nothing: " + where);
         if (least < 0 && most > 0)
-            throw NotSweepable("closure.cut_misses", "the plane passes between the faces and crosses none: "
-                                                     "close the volume first, then its void faces are cut");
+            throw NotSweepable("closure.cut_misses",
+                               "the plane passes between the faces without crossing any: "
+                               "close the volume first, then its void faces are cut");
         throw NotSweepable("closure.cut_misses", "the plane misses the volume: " + where);
     }
 
-    /// Keep the walks round regions that have some of the facets.
+    /// Keep the walks round regions that contain some of the facets.
     void choose(const geometry::FacetTree& within)
     {
         std::vector<std::vector<Vec2>> loops;
@@ -161,7 +162,7 @@ private:
         }
         if (kept.empty())
             throw NotSweepable("closure.cut_misses",
-                               "the face lies outside the volume, which its plane cuts elsewhere");
+                               "the face is outside the volume; its plane cuts the volume elsewhere");
         walks_ = std::move(kept);
     }
 
@@ -176,7 +177,8 @@ private:
         return line;
     }
 
-    /// Which open line follows each, so that the straight ways between them are shortest and cross nothing.
+    /// Next open line of each, such that the straight connections between them are shortest and cross
+    /// nothing.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {
         std::vector<std::size_t> order(lines.size()), best;
@@ -243,7 +245,7 @@ private:
             if (follower.empty())
                 throw NotSweepable(
                     "closure.cut_gaps",
-                    "the plane crosses walls with gaps between them, which straight lines do "
+                    "the plane crosses walls with gaps that straight lines do "
                     "not join to simple loops: close the volume first, then its void faces are "
                     "cut");
             std::vector<char> seen(open.size(), 0);
@@ -279,7 +281,7 @@ private:
             } catch (const InvalidInput& error) {
                 throw NotSweepable(
                     "closure.cut_touches",
-                    std::string("the plane runs along faces that lie nearly in it: move or tilt "
+                    std::string("the plane runs along faces that are nearly in it; move or tilt "
                                 "it a little (") +
                         error.what() + ")");
             }
@@ -306,7 +308,7 @@ public:
         parted_.turned_round = volume.turned_round;
     }
 
-    /// Whether the rim runs along edges; where it leaves them otherwise.
+    /// Whether the rim runs along edges; otherwise stores the place where it leaves them.
     bool fits()
     {
         std::vector<Triangle> dots;
@@ -374,12 +376,12 @@ private:
     FaceId face_;
     double tolerance_;
     PartedModel parted_;
-    std::map<Index, Index> there_; ///< of points of the face: those of the volume
+    std::map<Index, Index> there_; ///< points of the face to points of the volume
     std::vector<EdgeUse> rim_;
     Vec3 off_ = Vec3::Zero();
 };
 
-/// The volume closed as a whole; nothing where that is not possible.
+/// The volume closed as a whole; empty if that fails.
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
     OpenVolume result = volume;
@@ -406,14 +408,14 @@ std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plan
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
-        // What is missing there has the shape that closing the whole gives it, corners and all.
+        // The missing faces then have the shape of the closed whole, including its corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
             return PlaneCutter(*whole, plane, context).run(within);
     }
     return PlaneCutter(volume, plane, context).run(within);
 }
 
-/// Whether a face is one of the volume's, or what it was before that was split.
+/// Whether a face belongs to the volume, or did before the volume was split.
 bool is_own(const OpenVolume& volume, const Model& model, FaceId face)
 {
     const geometry::FacetTree facets(model.points, model[face].triangles);
@@ -450,8 +452,8 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
             name_of(model, face) + " is curved" +
                 (own ? " and one of the volume's own"
                      : ", and its rim leaves the volume's edges at " + std::string(place.data())) +
-                ": a flat face cuts by its plane, a curved one must end on edges of the volume "
-                "all round");
+                "; a curved face cuts only if its whole rim is on edges of the volume, "
+                "a flat one cuts by its plane");
     }
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);

@@ -61,7 +61,7 @@ HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, 
         OpenVolume sealed = volume;
         try {
             close(sealed, {}, asked, quiet);
-        } catch (const NotClosed&) { // one that cannot be sealed so is said to be
+        } catch (const NotClosed&) { // reported as a volume that cannot be sealed
             return std::nullopt;
         } catch (const InvalidInput&) {
             return std::nullopt;

@@ -22,10 +22,10 @@ using namespace topology;
 
 namespace {
 
-/// A loop is flat where no point of it is further than this share of its length from its plane.
+/// A loop is planar if all its points are within this share of its length of a plane.
 constexpr double kFlatLoop = 1e-6;
 
-/// Loops that lie in one plane.
+/// Coplanar loops.
 struct Coplanar {
     geometry::Plane plane;
     std::vector<std::size_t> loops;
@@ -50,7 +50,7 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loop
     return planes;
 }
 
-/// The free loops of a filling's faces, those in several planes parted.
+/// The free loops of the faces, loops in several planes already split.
 struct ToFill {
     std::vector<Loop> flat, bent;
 };
@@ -99,7 +99,7 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
-/// `fill_flat_loops()`, not proved yet.
+/// `fill_flat_loops()` without the final check.
 std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces,
                                       const RunContext& context)
 {
@@ -116,7 +116,7 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
             VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
             result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
         }
-    } catch (const InvalidInput&) { // a ridge across a notch: its straight edge runs outside of the rim
+    } catch (const InvalidInput&) { // a ridge across a notch: its straight edge would be outside the rim
         return std::nullopt;
     } catch (const NotClosed&) {
         return std::nullopt;
@@ -134,15 +134,14 @@ bool prove(FlatFilling& filling, const RunContext& context)
     return filling.closure.watertight;
 }
 
-/// A made face that is turned against the way from the source by more than this is a wall, where another is
-/// less so [degrees]. A choice: chamfers and the slopes of a roof belong to the end, the risers of steps do
-/// not.
+/// A new face at a larger angle to the source's plane is a wall, if another face is at a smaller one
+/// [degrees]. Rule of thumb: chamfers and roof slopes belong to the end, risers of steps do not.
 constexpr double kSlope = 60;
 
-/// Give the faces that were made their roles.
+/// Assign roles to the new faces.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
-    constexpr double kAsSteep = 1e-6; ///< cosines that differ by less are the same: both slopes of a roof
+    constexpr double kAsSteep = 1e-6; ///< cosines closer than this are equal, as for the two slopes of a roof
     const Model& model = filling.volume.model;
     Vec3 way = Vec3::Zero();
     for (const FaceId face : source) way -= face_area_vector(model, face);
@@ -157,7 +156,7 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }
 
-/// Whether the target can be one of this source: it has as many loops, or lies at several heights.
+/// Whether the target suits the source: it has as many loops, or is at several heights.
 bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source)
 {
     const std::vector<FaceId> target = volume.faces(Role::target);
@@ -165,7 +164,7 @@ bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source
            connected_parts(volume.model, target).size() > 1;
 }
 
-/// Whether a loop lies on a ball, a round cylinder or a cone, whatever planes it lies in.
+/// Whether a loop lies on a sphere, a circular cylinder or a cone.
 bool lies_on_round_face(const Model& model, const Rim& rim)
 {
     const std::vector<std::vector<Vec3>> places{loop_places(model, rim.uses)};

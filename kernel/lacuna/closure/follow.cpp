@@ -11,26 +11,24 @@ namespace lacuna::closure {
 
 namespace {
 
-/// Heights at which the walls are cut: as many as a void edge has segments, so that each gets a level of
-/// its own.
+/// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// How far walls that go all round may be bowed, of the rims' radius, for void walls between straight edges:
-/// what is lost of a section is about twice that. A choice, not a measurement.
+/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges: the section loses
+/// about twice that. Rule of thumb.
 constexpr double kAstray = 0.005;
-/// The same for open walls that say how the rest of their loop goes, and for others: walls that came with a
-/// mesh, and single twisted walls of few facets, are that rough. Choices, not measurements.
+/// The same for open walls that determine the rest of their loop, and for other walls: walls with a given
+/// mesh, and single twisted walls of few facets, are that rough. Rules of thumb.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Open walls bowed by more than this, of the rims' radius, may be no walls of a sweep at all: then void
-/// edges are to stray from straight ones by so much that these are out of the question. Choices, not
-/// measurements.
+/// Open walls with a larger bow, as a share of the rims' radius, may not be walls of a sweep at all; void
+/// edges then follow them only if they stray this far from straight ones. Rules of thumb.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// Beside walls that go all round, the given walls of another loop lead the rest of it by themselves where
-/// those would lead them off themselves by more than this, of their radius: half of their points further.
-/// Else the closed ones know the bends better. On 350 tubes that bend, twist and taper the closed ones were
-/// off by 0.005 at most in nine of ten; on a lofted pipe by 0.017.
+/// Next to ring walls, the given walls of another loop determine their own loop if the ring walls' motion
+/// would take half of their points further off than this, as a share of their radius. Otherwise the ring
+/// walls represent bends better: on 350 tubes that bend, twist and taper they were off by 0.005 at most in
+/// nine of ten; on a lofted pipe by 0.017.
 constexpr double kMissed = 0.01;
 
-/// Mean distance of points from their middle; 0 for none.
+/// Mean distance of points from their centroid; 0 if there are none.
 double mean_radius(const std::vector<Vec3>& points)
 {
     const Vec3 middle = geometry::mean_point(points);
@@ -39,7 +37,7 @@ double mean_radius(const std::vector<Vec3>& points)
     return points.empty() ? 0 : sum / static_cast<double>(points.size());
 }
 
-/// That of a rim's points: of all loops together.
+/// Mean radius of an end's rim points, over all its loops.
 double radius_of(const topology::OpenVolume& volume, topology::Role end)
 {
     const topology::Model& model = volume.model;
@@ -52,19 +50,19 @@ double radius_of(const topology::OpenVolume& volume, topology::Role end)
     return mean_radius(points);
 }
 
-/// How far a point strays from a straight line.
+/// Distance of a point from a straight line.
 double off_line(const Vec3& point, const Vec3& from, const Vec3& way)
 {
     const Vec3 off = point - from;
     return (off - off.dot(way) * way).norm();
 }
 
-/// How far the walls stray from straight lines between the rims, of these' radius: half of their points
-/// further than this from the strip that such lines make.
+/// How far the walls stray from straight lines between the rims, as a share of the rims' radius: the median
+/// distance of their points from the strip formed by such lines.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
-    constexpr std::size_t kStep = 4; // levels from one that is looked at to the next
-    constexpr double kOnePart = 4;   // mean steps: points further apart are of two parts
+    constexpr std::size_t kStep = 4; // only every fourth level is checked
+    constexpr double kOnePart = 4;   // in mean steps: points further apart belong to two parts
     const std::size_t n = levels.front().size();
     std::vector<Vec3> points = levels.front();
     points.insert(points.end(), levels.back().begin(), levels.back().end());

@@ -17,11 +17,10 @@ using namespace topology;
 
 namespace {
 
-/// Where a rim turns by more than this it has a corner, as faces that do are two patches [degrees].
-/// A choice, not a measurement.
+/// A rim turns by more than this at a corner [degrees]; the same limit separates patches. Rule of thumb.
 constexpr double kCorner = 30;
 
-/// How unlike the first and the third side are for a patch moved along the others.
+/// Mismatch of the first and third side if the first is moved along the others.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
     std::array<std::vector<Vec3>, 4> side;

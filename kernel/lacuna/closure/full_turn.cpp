@@ -21,23 +21,24 @@ using namespace topology;
 
 namespace {
 
-/// Planes tried through each main axis. Straight rings of up to as many sides are cut near a middle of one.
+/// Planes tried through each principal axis. Straight rings with up to as many sides are cut near the middle
+/// of a side.
 constexpr int kDirections = 8;
-/// Sections that differ by less than this share are as good as each other: facets of round walls are nearer
-/// to the axis in their middles. A choice, not a measurement.
+/// Section lengths that differ by less than this share are equal: facets of round walls are closer to the
+/// axis in their middles. Rule of thumb.
 constexpr double kAsShort = 0.02;
 
-/// Sections by whose middles the way round is measured: chords of a half circle are off by 0.2 %. A choice.
+/// Sections used to measure the length of the turn: chords of a half circle are off by 0.2 %. Rule of thumb.
 constexpr std::size_t kSections = 16;
-/// The share of a piece that cannot be measured.
+/// Share of a piece whose length cannot be measured.
 constexpr double kHalf = 0.5;
 
 struct Candidate {
     geometry::Plane plane;
-    double length = 0; ///< of what it crosses of the walls [model length]
+    double length = 0; ///< total length of the lines where it crosses walls [model length]
 };
 
-/// Where the walls are, by area.
+/// Centroid and second moments of the walls, by area.
 geometry::Spread spread_of_walls(const Model& model)
 {
     std::vector<Vec3> middles;
@@ -70,7 +71,7 @@ double section_length(const Model& model, const std::vector<FaceId>& faces, cons
     return length;
 }
 
-/// Planes that cross the walls, those that do along the shortest lines first.
+/// Planes that cross the walls, ordered by the length of the lines in which they do.
 std::vector<Candidate> candidates_of(const Model& model, const RunContext& context)
 {
     const std::vector<FaceId> faces = all_faces(model);
@@ -78,7 +79,7 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     std::vector<Candidate> found;
     for (int a = 0; a < 3; ++a) {
         const Vec3 axis = walls.axis.col(a);
-        // A round wall starts at a vertex: a plane near its seam, yet not through it, would leave a sliver.
+        // On a round wall start at a vertex: a plane near its seam, but not through it, would leave a sliver.
         Vec3 first = Vec3::Zero();
         for (const Vertex& vertex : model.vertices) {
             const Vec3 out = model.at(vertex.point) - walls.centre;
@@ -96,7 +97,7 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
             if (candidate.length > 0) found.push_back(candidate);
         }
     }
-    // The order in which they were found decides between those as short as each other.
+    // Planes with equal lengths keep the order in which they were found.
     std::vector<Candidate> sorted;
     while (!found.empty()) {
         const double least = std::ranges::min_element(found, {}, &Candidate::length)->length;
@@ -108,8 +109,8 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     return sorted;
 }
 
-/// How long a piece is from cut to cut: along the middles of its walls' sections where a harmonic function
-/// that is 0 at one cut and 1 at the other has one value.
+/// Length of a piece from cut to cut, along the centroids of the level lines of a harmonic function on its
+/// walls that is 0 at one cut and 1 at the other.
 double arc_length(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -165,7 +166,7 @@ double arc_length(const OpenVolume& volume)
     return geometry::length(line);
 }
 
-/// Whether a ring was cut across: both pieces end in both cuts.
+/// Whether a ring was cut across: both pieces have both cuts as ends.
 bool is_cut_across(const std::vector<StepPiece>& pieces)
 {
     return pieces.size() == 2 && std::ranges::all_of(pieces, [](const StepPiece& piece) {
@@ -186,8 +187,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     for (std::size_t f = 0; f < volume.role.size(); ++f) {
         if (volume.role[f] != Role::wall)
             throw InvalidInput("closure.full_turn_ends",
-                               "a volume that runs round its whole turn has no ends, and " +
-                                   name_of(volume.model, FaceId(f)) + " is named as one: name walls alone");
+                               "a volume that runs round its whole turn has no ends, but " +
+                                   name_of(volume.model, FaceId(f)) + " is named as one; name walls only");
     }
     std::string why;
     for (const Candidate& candidate : candidates_of(volume.model, context)) {
@@ -202,7 +203,7 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
             }
             if (why.empty())
                 why = "the plane that crosses the walls along the shortest lines cuts off " +
-                      std::to_string(pieces.size()) + " pieces, not two that each lie between two cuts";
+                      std::to_string(pieces.size()) + " pieces instead of two between two cuts";
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
@@ -210,11 +211,10 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
         }
     }
     throw NotSweepable("closure.full_turn",
-                       "no plane through the middle of the walls cuts the volume across in two places, as it "
-                       "does a ring (" +
+                       "no plane through the centre of the walls cuts the ring in two places (" +
                            (why.empty() ? "none crosses a wall" : why) +
-                           "): name all walls of the ring and no others, or cut it with volume:cut { plane = "
-                           "… } and join the pieces with lacuna.assembly");
+                           "); name all walls of the ring and no others, or use volume:cut{ plane = … } "
+                           "and lacuna.assembly");
 }
 
 } // namespace lacuna::closure

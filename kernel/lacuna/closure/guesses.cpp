@@ -26,24 +26,24 @@ using namespace topology;
 
 namespace {
 
-/// A bent face leaves the shape in doubt where more than this share of what is enclosed lies beside its
-/// plane. A choice: tops that bend by a few hundredths of the height stay below it.
+/// A bent face is ambiguous if more than this share of the enclosed volume lies between it and its plane.
+/// Rule of thumb: tops that bend by a few hundredths of the height stay below.
 constexpr double kDoubt = 0.05;
-/// A missing end leaves the shape in doubt where more than this share of what is enclosed lies between it and
-/// another smooth face over its rim. Of 893 ends over twelve outlines 131 are refused, those with straight
-/// rims among them, and 762 are not. By closing all, 41 and 12 are off by a volume above 3 %,
-/// 70 and 719 by one below 1 %.
+/// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
+/// smooth face over its rim. Of 893 ends over twelve outlines 131 are refused, including those with straight
+/// rims; of the 762 accepted ones 12 have a volume error above 3 % and 719 below 1 %, of the refused ones 41
+/// and 70.
 constexpr double kBendDoubt = 0.03;
-/// A rim is rough where its points are off a plane by up to this share of its diameter. A choice: the cut end
-/// of a bone, of which there are scans.
+/// A rough rim has points off a plane by up to this share of its diameter. Rule of thumb, from scans of cut
+/// bones.
 constexpr double kRough = 0.05;
 
-/// What lies between a face and heights over a plane [model length³].
+/// Volume between a face and heights over a plane [model length³].
 struct Between {
-    double all = 0, above = 0; ///< on both sides, and above the face less what is below
+    double all = 0, above = 0; ///< on both sides, and the part above the face minus the part below
 };
 
-/// @return  nothing where there are no heights over a part of the face.
+/// @return  empty if the heights are undefined over part of the face.
 template <class Heights>
 std::optional<Between> between(const Model& model, FaceId face, const geometry::Plane& plane,
                                const Heights& heights)
@@ -62,13 +62,13 @@ std::optional<Between> between(const Model& model, FaceId face, const geometry::
     return sum;
 }
 
-/// The plane through the middle of a face, across what it shows most of. @pre it has an area
+/// The plane through the centre of a face, normal to its area vector. @pre the area vector is not zero
 geometry::Plane middle_plane(const Model& model, FaceId face)
 {
     return geometry::plane_across(face_centroid(model, face), face_area_vector(model, face));
 }
 
-/// What lies between a void face and the plane through its middle [model length³].
+/// Volume between a void face and the plane through its centre [model length³].
 double beside_plane(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return 0;
@@ -78,7 +78,7 @@ double beside_plane(const Model& model, FaceId face)
 
 Between beside_thin_plate(const Model& model, FaceId face)
 {
-    if (!(face_area_vector(model, face).norm() > 0)) return {}; // as much of it looks up as down
+    if (!(face_area_vector(model, face).norm() > 0)) return {}; // the face has no mean normal
     const geometry::Plane plane = middle_plane(model, face);
     const ThinPlate plate = plate_over(plane, model, model[face].loops);
     return *between(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
@@ -91,7 +91,7 @@ bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
 
 bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
 
-/// How far some places are off the plane they show their largest area on, at the most [model length].
+/// Largest distance of points from the plane of their largest projected area [model length].
 double off_one_plane(std::vector<Vec3> places)
 {
     const std::vector<std::vector<Vec3>> chain{std::move(places)};
@@ -101,7 +101,7 @@ double off_one_plane(std::vector<Vec3> places)
     return furthest;
 }
 
-/// Whether given edges of a loop, from one on, go round two corners in one plane.
+/// Whether given edges of a loop, starting at one, turn two corners within one plane.
 bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
 {
     std::vector<EdgeUse> run;
@@ -117,7 +117,7 @@ bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
     return false;
 }
 
-/// Whether a void face is bent between its sides and not by its heights over its plane.
+/// Whether a void face is blended between its sides instead of being a height over its plane.
 bool is_stretched(const Model& model, FaceId face)
 {
     return model[face].geometry != Geometry::newell && !is_about_flat(model, face);
@@ -125,7 +125,7 @@ bool is_stretched(const Model& model, FaceId face)
 
 bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corners(model, loop).size() > 4; }
 
-/// Whether a void face is bent and its rim does not tell how.
+/// Whether a void face is bent and its rim does not determine the bend.
 bool is_open(const Model& model, FaceId face)
 {
     if (bends_as_rim(model, face)) return false;
@@ -134,7 +134,7 @@ bool is_open(const Model& model, FaceId face)
     return is_stretched(model, face) && loops.size() == 1 && has_many_corners(model, loops.front());
 }
 
-/// The angles between one segment of a chain and the next, the greatest first [radians].
+/// The angles between consecutive segments of a chain, largest first [radians].
 std::vector<double> turns_of(const std::vector<Vec3>& chain)
 {
     std::vector<double> turns;
@@ -146,10 +146,10 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
     return turns;
 }
 
-/// Whether an edge goes straight from kink to kink, of which there are few.
+/// Whether an edge is straight between a few kinks.
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
-    // Choices: a ridge, a chamfer or a notch makes up to three kinks, and a curve in four facets has as many.
+    // Rules of thumb: a ridge, a chamfer or a notch has up to three kinks, as has a curve of four facets.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -165,17 +165,17 @@ bool is_straight_sided(const Model& model, const Loop& loop)
                                [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
-/// Whether a rim of flat faces leaves too much open: half of what would lie between the plane through its
-/// middle and a flat face as far off as its furthest place, as much as a roof has.
+/// Whether a polygonal rim is too far off a plane: half of the volume between its middle plane and a flat
+/// face at the height of its furthest point, as much as a roof has.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
     const double furthest = off_one_plane(loop_places(model, loop.uses));
     return furthest * face_area_vector(model, face).norm() / 2 >= kDoubt * enclosed;
 }
 
-/// Whether a smooth face over the rim of an end that was said to be missing is in doubt. Straight sides in
-/// several planes tell of several flat faces, as does a rim that folds in its plane, round the mouth of a
-/// slot; what bent ones leave open lies between two smooth faces.
+/// Whether a smooth face over the rim of a missing end is ambiguous. Straight sides in several planes suggest
+/// several flat faces, as does a rim that folds in its plane, round the mouth of a slot; for curved sides the
+/// ambiguity is the volume between two smooth faces.
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
     for (const Loop& loop : model[face].loops)
@@ -186,7 +186,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
            beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
-/// Whether a missing end was made between four sides of which no two that face each other are straight.
+/// Whether a missing end was blended between four sides without two straight opposite ones.
 bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -196,7 +196,7 @@ bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
     return !sides.empty() && !is_ruled(model, sides);
 }
 
-/// Whether a smooth face over a rim is far off one of the quadrics that the rim lies on.
+/// Whether a smooth face over a rim is far off one of the quadrics through the rim.
 bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -211,8 +211,8 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
     return std::ranges::any_of(shapes.told.empty() ? shapes.possible : shapes.told, is_far_off);
 }
 
-/// Whether a void face is bent though given edges of its rim go round a plane. Between four given sides it
-/// may be.
+/// Whether a void face is bent although given edges of its rim turn corners within one plane. Between four
+/// given sides this is allowed.
 bool leaves_plane(const Model& model, FaceId face)
 {
     return is_stretched(model, face) && std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
@@ -225,8 +225,8 @@ bool leaves_plane(const Model& model, FaceId face)
            });
 }
 
-/// Whether a void face closes a rough rim: one that is about flat, over which smooth faces enclose about the
-/// same.
+/// Whether a void face closes a rough rim: one that is nearly planar and over which smooth faces enclose
+/// about the same volume.
 bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
 {
     const bool about_flat = std::ranges::all_of(model[face].loops, [&](const Loop& loop) {
@@ -244,7 +244,7 @@ bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
     return is_far_off_plane(model, enclosed, face) && is_open(model, face);
 }
 
-/// Whether the rim of a void face leaves its shape in doubt, be it rough or not.
+/// Whether the rim of a void face leaves its shape ambiguous, ignoring roughness.
 bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
     const Model& model = sealed.model;
@@ -255,7 +255,7 @@ bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, Rol
     return is_open_far_off_plane(model, enclosed, face);
 }
 
-/// Whether a void face leaves the shape of a sealed volume in doubt.
+/// Whether a void face leaves the shape of a sealed volume ambiguous.
 bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
     const Model& model = sealed.model;
@@ -264,7 +264,7 @@ bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy
            (is_rim_in_doubt(sealed, enclosed, face, by) && !closes_rough_rim(model, enclosed, face));
 }
 
-/// The tags of some faces, the first of many.
+/// The tags of some faces; long lists are shortened.
 std::string in_words(const std::set<int>& tags)
 {
     constexpr std::size_t kMostNamed = 12;
@@ -276,7 +276,7 @@ std::string in_words(const std::set<int>& tags)
     return text;
 }
 
-/// The faces that have an edge in common with a face.
+/// The faces that share an edge with a face.
 std::set<FaceId> faces_round(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face)
 {
     std::set<FaceId> round;
@@ -287,7 +287,7 @@ std::set<FaceId> faces_round(const Model& model, const std::vector<std::vector<F
     return round;
 }
 
-/// The given face in whose plane a void face closes a hole of it, if it does.
+/// The given face with a hole that a void face closes in its plane, if there is one.
 std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                       FaceId filler)
 {
@@ -306,7 +306,7 @@ std::set<VertexId> vertices_of(const Model& model, FaceId face)
     return result;
 }
 
-/// Whether a void face lies away from a given one: they have no vertex in common.
+/// Whether a void face has no vertex in common with a given one.
 bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
     const std::set<VertexId> own = vertices_of(model, face);
@@ -315,7 +315,7 @@ bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces,
     });
 }
 
-/// Whether the given faces look into the volume that was sealed, as those of a hollow in a solid do.
+/// Whether the given faces face into the sealed volume, as those of a hollow in a solid do.
 bool look_inward(const Model& model, const std::vector<FaceId>& given, const Model& sealed)
 {
     const auto normal = [](const Model& of, FaceId face) {
@@ -332,7 +332,7 @@ struct ClosedHole {
     FaceId round, filler;
 };
 
-/// The holes of faces before `given` that are closed so.
+/// The closed holes of the first `given` faces.
 std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
                                      const std::vector<FaceId>& void_faces)
 {
@@ -345,7 +345,7 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
     return holes;
 }
 
-/// How far off the plane of one void face the others reach [model length].
+/// Largest distance of the other void faces from the plane of one [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
     const geometry::Plane plane = middle_plane(model, face);
@@ -375,8 +375,8 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
         std::set<int> tags;
         for (const FaceId other : faces_round(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
-        return "nothing given tells how what is missing beside " + in_words(tags) +
-               " bends: its rim does not lie in one plane";
+        return "the shape of the missing face beside " + in_words(tags) +
+               " is ambiguous: its rim is not planar";
     }
     return {};
 }
@@ -392,8 +392,8 @@ FaceId open_hole(const Model& model, const std::vector<FaceId>& given, const Ope
 
 std::string hole_in_words(const Model& model, FaceId face)
 {
-    return "nothing given tells what is behind the hole of " + name_of(model, face) +
-           ": its walls are missing, and so is an end to which it may go through";
+    return "it is ambiguous whether the hole of " + name_of(model, face) +
+           " ends there or goes through: its walls are missing, and so is an opposite end";
 }
 
 void assume(Closure& closure, const char* code, std::string text, double share)
@@ -413,14 +413,13 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
         const std::string hole = "a hole of " + name_of(model, given[round.index()]);
         if (wall)
             assume(closure, "closure.hole_closed",
-                   hole +
-                       " is closed in its plane: a pocket that begins there is filled; give its faces where "
-                       "there is one",
+                   hole + " is closed in its plane, which fills any pocket behind it; if there is one, give "
+                          "its faces",
                    area * std::sqrt(area) / enclosed_volume(sealed));
         else
             assume(closure, "closure.hole_covered",
-                   hole + " is covered, because the faces look into the void; name it the source, and close{ "
-                          "holes = \"through\" } takes the hole through to the missing end",
+                   hole + " is covered, because the faces face into the void; with it as source, close{ "
+                          "holes = \"through\" } extends the hole to the missing end",
                    area * reach_of_others(sealed.model, closure.void_faces, filler) /
                        enclosed_volume(sealed));
     }
@@ -431,16 +430,14 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : membranes(model, closure.void_faces))
-        assume(
-            closure, "closure.membrane",
-            name_of(model, face) +
-                " spans a rim that lies in no plane, as a membrane does: the rim leaves open how the inside "
-                "bends; give the face where it bulges",
-            std::abs(beside_thin_plate(model, face).above) / enclosed);
+        assume(closure, "closure.membrane",
+               name_of(model, face) + " is a membrane over a rim that is not planar, so its shape is assumed"
+                                      "; if the face bulges, give it",
+               std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         closure.notes.push_back("the rim of " + name_of(model, face) +
-                                " is rough and is closed by a smooth face; give the face where it bulges");
+                                " is rough and is closed by a smooth face; if the face bulges, give it");
         closure.assumptions.push_back({"closure.rough_rim", closure.notes.back()});
     }
 }

@@ -38,7 +38,7 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
                                    : roles.target.empty()             ? VolumeClass::IV
                                                                       : VolumeClass::III;
     reading.classification.reasons.push_back(
-        "the bottom goes over into the walls smoothly; it is parted from them " +
+        "the bottom blends smoothly into the walls; it is separated from them " +
         with_digits(bowl->depth, 4) + " below " + name_of(bowl->volume.model, bowl->mouth) +
         ", where it bends");
     reading.roles.value = reading.classification.value;
@@ -55,14 +55,14 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     const Roles walls{{}, {}, faces};
     std::vector<FaceId> low, high;
     try {
-        OpenVolume open = open_volume(model, walls, context); // numbers the faces as they are listed
+        OpenVolume open = open_volume(model, walls, context); // renumbers the faces in the listed order
         if (free_loops(open).size() != 2 || connected_parts(open.model, open.faces(Role::wall)).size() != 1)
             return std::nullopt;
         const EndLoops ends = group_loops(open);
         low = floors_round(open, ends.source);
         high = floors_round(open, ends.target);
     } catch (const InvalidInput&) {
-        return std::nullopt; // other readings say why, or get on without
+        return std::nullopt; // other candidates report it or succeed
     }
     if (low.empty() == high.empty()) return std::nullopt; // two floors are the ends of a ring
     const std::optional<Sealed> sealed = seal(model, walls, context);
@@ -83,7 +83,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.classification = class_as_given(model, roles);
     reading.roles.value = reading.classification.value;
     reading.roles.reasons.push_back(name_of(model, roles.source.front()) +
-                                    " is a floor round a narrower bore, and the bore is closed there");
+                                    " is a floor round a narrower bore, which is closed there");
     return reading;
 }
 

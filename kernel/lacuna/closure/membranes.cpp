@@ -18,25 +18,25 @@ using namespace topology;
 
 namespace {
 
-/// A face no further off its plane than this share of its extent is about flat. A choice, not a measurement.
+/// A face with all points within this share of its extent of its plane is about flat. Rule of thumb.
 constexpr double kFlat = 0.02;
-/// Share of the bulge that a face may be off a quadratic height: what closing takes as lying on one.
+/// Tolerance for a face on a quadratic height, as a share of its bulge; the same as in closing.
 constexpr double kOnIt = 0.03;
-/// Share of the bulge that the inside of a face may be off the quadric that its rim lies on. A choice: what
-/// is stretched between two planes is off both by more.
+/// Tolerance for the inside of a face on the quadric of its rim, as a share of its bulge. Rule of thumb: a
+/// membrane between two planes is further off both.
 constexpr double kNearIt = 0.2;
 
-/// Corners of a face's facets as places on its plane and heights above it.
+/// Corners of a face's facets as positions in its plane and heights above it.
 struct Heights {
     Eigen::Matrix2Xd place;
     Eigen::VectorXd height;
 
-    /// Of the place over the plane [model length].
+    /// Extent in the plane [model length].
     [[nodiscard]] double extent() const
     {
         return (place.rowwise().maxCoeff() - place.rowwise().minCoeff()).norm();
     }
-    /// Half of what lies between the lowest and the highest [model length].
+    /// Half the height range [model length].
     [[nodiscard]] double bulge() const { return (height.maxCoeff() - height.minCoeff()) / 2; }
 };
 
@@ -56,7 +56,7 @@ Heights heights_of(const Model& model, FaceId face)
     return result;
 }
 
-/// How far heights are off the quadratic one that fits them best [model length].
+/// Largest distance of heights from their best quadratic fit [model length].
 double off_quadratic(const Heights& heights, double extent)
 {
     Eigen::MatrixXd powers(heights.height.size(), 6);
@@ -69,7 +69,7 @@ double off_quadratic(const Heights& heights, double extent)
     return (powers * fit - heights.height).cwiseAbs().maxCoeff();
 }
 
-/// Whether a face lies on a sheet that its rim tells.
+/// Whether a face lies on a sheet given by its rim.
 bool lies_as_told(const Model& model, FaceId face)
 {
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
@@ -116,7 +116,7 @@ bool bends_as_rim(const Model& model, FaceId face)
         powers << 1, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
         return powers;
     };
-    // As many places on edges of straight sides as on bent ones.
+    // Sample straight edges as densely as curved ones.
     constexpr int kOnEdge = 16;
     std::vector<Vec3> rim;
     for (const Loop& loop : model[face].loops) {

@@ -14,22 +14,23 @@
 
 namespace lacuna::closure {
 
-/// What helps to choose faces of a model: read by `model:info()` and the page of a model alike.
+/// Facts for choosing faces of a model, shared by `model:info()` and the HTML page of a model.
 struct ModelFacts {
     std::vector<topology::FaceFacts> faces;                 ///< of each face
     std::vector<std::optional<topology::RoundShape>> round; ///< of each face
-    std::vector<std::optional<topology::ConeShape>> cone;   ///< of each face that is not round
-    std::vector<bool> part_closed; ///< of each part that hangs together: no free edge
+    std::vector<std::optional<topology::ConeShape>> cone;   ///< of each face that is no cylinder or sphere
+    std::vector<bool> part_closed;                          ///< by connected part: it has no free edge
     std::vector<topology::Gap> gaps;
     std::vector<Cavity> cavities;
-    std::vector<std::size_t> cavity_of; ///< of each face the smallest cavity, from 0; their count: none
+    std::vector<std::size_t> cavity_of; ///< by face: the smallest cavity it belongs to, from 0; their count:
+                                        ///< none
 };
 
 /// @throw Cancelled
-/// @note  As `cavities()` and `topology::gaps()`.
+/// @note  Cost as `cavities()` and `topology::gaps()`.
 ModelFacts model_facts(const topology::Model& model, const RunContext& context = {});
 
-/// What a face would be part of: the kind of its cavity, "outer skin" or "open shell". Lives with `facts`.
+/// Where a face belongs: the kind of its cavity, "outer skin" or "open shell". Valid as long as `facts`.
 const char* use_of(const ModelFacts& facts, FaceId face);
 
 } // namespace lacuna::closure

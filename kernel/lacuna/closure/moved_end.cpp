@@ -29,18 +29,18 @@ using namespace topology;
 
 namespace {
 
-/// A moved foot of a wall may be off the wall's top by this share of the end's width: what facets cut off
-/// round sides, and more. A choice, not a measurement.
+/// A moved foot of a wall may be off the wall's top by this share of the end's width: allows for the sag of
+/// round sides, and more. Rule of thumb.
 constexpr double kOnTop = 0.01;
-/// Points spread less than this share of their width to one side of a line are on it. A choice.
+/// Points within this share of their width of a line are collinear. Rule of thumb.
 constexpr double kOnLine = 0.01;
-/// Places asked for along each wall's foot. A choice.
+/// Sample points along each wall's foot. Rule of thumb.
 constexpr int kSamples = 8;
 
-/// Part of an end's rim between two places where walls lead up, or without walls.
+/// A segment of an end's rim between two places where walls lead up, or without walls.
 struct Stretch {
-    std::vector<EdgeUse> foot; ///< as the end uses it
-    std::vector<EdgeUse> top;  ///< as the walls use it, from above the foot's start; empty: no wall here
+    std::vector<EdgeUse> foot; ///< as used by the end
+    std::vector<EdgeUse> top;  ///< as used by the walls, from above the foot's start; empty: no wall here
 };
 
 double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
@@ -51,10 +51,11 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
     return least;
 }
 
-/// The flat faces beside which walls stand and others are missing, those with most faces beside them first.
+/// The flat faces with some adjacent walls given and others missing, those with the most adjacent faces
+/// first.
 std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vector<FaceUse>>& uses)
 {
-    constexpr std::size_t kMost = 16; // for the time: each costs a copy of the faces
+    constexpr std::size_t kMost = 16; // limits run time: each costs a copy of the faces
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
         bool bare = false;
@@ -76,10 +77,10 @@ std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vec
     return ends;
 }
 
-/// A given end, and what is known of the one it is to be moved to.
+/// A given end, and the known part of the end it is moved to.
 class EndMover {
 public:
-    /// @pre  the volume's model is oriented, and all its faces but those of the end, the source, are walls
+    /// @pre  the volume's model is oriented, its source is the given end, and all other faces are walls
     /// @param uses  of the model's edges
     EndMover(OpenVolume volume, std::vector<std::vector<FaceUse>> uses)
         : volume_(std::move(volume)),
@@ -88,7 +89,7 @@ public:
           uses_(std::move(uses))
     {
     }
-    EndMover(const EndMover&) = delete; // the climber refers to the volume
+    EndMover(const EndMover&) = delete; // the climber references the volume
     EndMover& operator=(const EndMover&) = delete;
 
     [[nodiscard]] bool can_move()
@@ -103,7 +104,7 @@ public:
         return accounts_for_all() && fit();
     }
 
-    /// Give the volume the moved end.
+    /// Add the moved end to the volume.
     void move(const RunContext& context)
     {
         std::vector<Loop> loops;
@@ -123,7 +124,7 @@ public:
         made_ = add_void_face(volume_, std::move(filling), Role::target);
     }
 
-    /// Places on the rim of the missing end and half way up the missing walls.
+    /// Points on the rim of the missing end and at mid-height of the missing walls.
     [[nodiscard]] std::vector<Vec3> missing_places() const
     {
         std::vector<Vec3> result;
@@ -154,7 +155,7 @@ public:
 private:
     [[nodiscard]] bool is_free(EdgeId edge) const { return uses_[edge.index()].size() == 1; }
 
-    /// Note where each free use of the walls goes on. False where two leave one vertex.
+    /// Index the free uses of the walls by their start vertex. False if two leave one vertex.
     bool index_rim(const Rim& rim)
     {
         const Model& model = volume_.model;
@@ -168,7 +169,7 @@ private:
         return true;
     }
 
-    /// The walls' free uses from one vertex on to another, past no vertex of the end.
+    /// The walls' free uses from one vertex to another that pass no vertex of the end.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
         std::vector<EdgeUse> top;
@@ -225,11 +226,11 @@ private:
         return true;
     }
 
-    /// Walls that go all round without an edge that leads up: their other rim is free.
+    /// Add ring walls without an edge that leads up: their other rim is free.
     bool add_tube(const Rim& rim)
     {
         const Model& model = volume_.model;
-        if (free_rims_.size() != 1) return false; // which of several it is cannot be told
+        if (free_rims_.size() != 1) return false; // which of several it is remains ambiguous
         const std::vector<Vec3> low = use_places(model, rim.uses),
                                 high = use_places(model, free_rims_[0].uses);
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
@@ -256,7 +257,7 @@ private:
         to_.insert(to_.end(), high.begin(), high.end());
     }
 
-    /// Whether every free edge is at the end's rim, at the top of a wall or beside one.
+    /// Whether every free edge is at the end's rim, or at the top or side of a wall.
     [[nodiscard]] bool accounts_for_all() const
     {
         std::set<EdgeId> known = accounted_;
@@ -266,7 +267,7 @@ private:
         return known.size() == free_count_;
     }
 
-    /// Find what moves the end, and whether it brings every foot onto its top.
+    /// Fit the motion of the end; false if it does not move every foot onto its top.
     bool fit()
     {
         if (from_.empty()) return false;
@@ -303,8 +304,8 @@ private:
         return goes_straight(width) && moves_all(width);
     }
 
-    /// Whether what is missing of the end's rim is straight sides between corners that walls lead up to, and
-    /// the tops lie in one plane and are straight where their feet are: so are the missing sides then.
+    /// Whether the missing parts of the end's rim are straight sides between corners with walls, and the tops
+    /// lie in one plane and are straight where their feet are: the missing sides are then straight too.
     [[nodiscard]] bool goes_straight(double width) const
     {
         const auto straight = [&](const std::vector<EdgeUse>& uses) {
@@ -332,7 +333,7 @@ private:
         });
     }
 
-    /// Whether no part of the rim without walls stays where it is: nothing would lie between the ends there.
+    /// Whether no part of the rim without walls stays in place, where the ends would coincide.
     [[nodiscard]] bool moves_all(double width) const
     {
         for (const std::vector<Stretch>& rim : rims_) {
@@ -345,10 +346,11 @@ private:
         return true;
     }
 
-    /// Whether walls stand along enough of the end's outline, its longest loop, to tell its scale.
+    /// Whether walls along enough of the end's outline, its longest loop, determine its scale.
     [[nodiscard]] bool tells_scale() const
     {
-        constexpr double kTold = 1.0 / 3; // a choice: two walls of five tell a taper, one of four does not
+        constexpr double kTold = 1.0 / 3; // rule of thumb: two walls of five determine a taper, one of four
+                                          // does not
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {
             double walled = 0, whole = 0;
@@ -364,7 +366,8 @@ private:
         return told >= kTold;
     }
 
-    /// Whether the feet of all walls are on one line, about which the end could be turned as well.
+    /// Whether the feet of all walls are collinear, so that a rotation of the end about that line would be
+    /// undetermined.
     [[nodiscard]] bool on_line(double width) const
     {
         Vec3 along = Vec3::Zero();
@@ -386,7 +389,7 @@ private:
         return made;
     }
 
-    /// The moved edge, as the moved end uses it.
+    /// The moved edge, as used by the moved end.
     EdgeUse moved(EdgeUse foot)
     {
         const VertexId from = moved(use_from(volume_.model, foot)), to = moved(use_to(volume_.model, foot));
@@ -412,20 +415,20 @@ private:
     Climber climber_;
     std::vector<std::vector<FaceUse>> uses_;
     std::set<VertexId> on_end_;
-    std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by where they start
+    std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by start vertex
     std::vector<Rim> free_rims_;          ///< of walls
-    std::size_t free_count_ = 0;          ///< free edges of walls
-    std::map<VertexId, VertexId> above_;  ///< of vertices of the end those of the moved one
+    std::size_t free_count_ = 0;          ///< number of free edges of walls
+    std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
     std::set<EdgeId> accounted_;          ///< free edges that lead up to those
     std::vector<std::vector<Stretch>> rims_;
-    std::vector<Vec3> from_, to_; ///< places on feet and on tops
+    std::vector<Vec3> from_, to_; ///< points on feet and on tops
     std::function<Vec3(const Vec3&)> motion_;
     std::vector<EdgeId> made_edges_;
 };
 
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
-/// @param stop  out: set where what is missing is known
+/// @param stop  out: set if the missing faces exist already
 std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::vector<FaceUse>>& uses,
                                  const Known& known, bool& stop, const RunContext& context)
 {

@@ -26,20 +26,20 @@ using namespace topology;
 
 namespace {
 
-/// A cone runs to its tip within this share of its radius: as shapes are fitted.
+/// A cone includes its apex within this share of its radius; the tolerance of the shape fits.
 constexpr double kTip = 0.01;
-/// Axes are parallel within 5°: the cosine of the angle between them.
+/// Cosine of 5°, within which axes are parallel.
 constexpr double kParallel = 0.996;
-/// Edges where the skin turns inward by more than 30° are concave: as sharp as those between patches.
+/// Edges where the skin turns inward by more than 30° are concave: the limit between patches.
 constexpr double kConcaveEdge = std::numbers::pi / 6;
-/// As many planes are tried for a message. For the time: each is a cut.
+/// Number of planes tried for a message. Limits run time, as each is a cut.
 constexpr std::size_t kMostPlanes = 8;
-/// As many readings are offered, the likeliest: more make no sentence.
+/// Number of readings offered in a message, the likeliest first.
 constexpr std::size_t kMostOffered = 2;
-/// Digits of what a person types: far below the tolerance, a millionth of the diagonal.
+/// Digits of coordinates in messages: far below the tolerance, a millionth of the diagonal.
 constexpr int kDigits = 9;
 
-/// Faces as a recipe names them.
+/// A list of faces in recipe syntax.
 std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
 {
     std::string text;
@@ -57,8 +57,8 @@ std::string plane_in_words(const Model& model, const Vec3& point, const Vec3& no
     return text;
 }
 
-/// The plane of a flat face beside a concave edge that cuts a volume into pieces with two ends each; empty
-/// where none does.
+/// The plane of a flat face at a concave edge that cuts a volume into pieces with two ends each; empty if
+/// there is none.
 std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
@@ -78,7 +78,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
                 if (std::ranges::all_of(pieces, walls_run_between_ends, &StepPiece::volume))
                     return plane_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
             } catch (const NotSweepable&) {
-            } catch (const InvalidInput&) { // through quads that a face came with
+            } catch (const InvalidInput&) { // the plane crosses given quads of a face
             }
         }
     }
@@ -91,10 +91,11 @@ bool is_cone_to_its_tip(const Model& model, FaceId face)
     return cone && cone->least_radius <= kTip * cone->largest_radius;
 }
 
-/// An edge between two cylinders whose axes are not parallel, each half a turn at least: fillets are less.
+/// An edge between two cylinders with non-parallel axes, each covering half a turn or more; fillets cover
+/// less.
 EdgeId crossing_of_bores(const Model& model)
 {
-    constexpr double kHalfTurn = 0.7; // mean normal of less: half a turn has 2 / pi
+    constexpr double kHalfTurn = 0.7; // upper bound of the mean normal's length: half a turn has 2 / pi
     const auto is_bore = [&](FaceId face) {
         return face_area_vector(model, face).norm() < kHalfTurn * face_area(model, face);
     };
@@ -130,7 +131,7 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
                       which = "faces " + tags.substr(2, tags.size() - 4);
     if (free_edges(volume).empty() && is_ring(volume, context))
         throw InvalidInput("topology.torus", which +
-                                                 " run round like a torus and have no ends; sweep them "
+                                                 " form a torus and have no ends; sweep them "
                                                  "round the whole turn: " +
                                                  call + ", full_turn = true }");
     const auto round = round_shape(model, FaceId(0));
@@ -146,15 +147,14 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
     for (const FaceId face : all_faces(model))
         if (is_cone_to_its_tip(model, face))
             throw InvalidInput("topology.cone", name_of(model, face) +
-                                                    " is a cone that runs to its tip, where "
+                                                    " is a cone with its apex, where "
                                                     "layers have no width" +
                                                     advice);
     if (const EdgeId edge = crossing_of_bores(model); edge.valid())
         throw InvalidInput("topology.crossing_bores", "bores cross at " + name_of(model, edge) +
-                                                          ", so that no sweep runs along both" + advice);
-    throw InvalidInput("topology.no_roles", "no reading of the " + which +
-                                                " as source, target and walls of one sweep was found" +
-                                                advice);
+                                                          ", and one sweep cannot follow both" + advice);
+    throw InvalidInput("topology.no_roles",
+                       "no roles of source, target and walls were found for " + which + advice);
 }
 
 void check_tubes(const OpenVolume& volume, const RunContext& context)
@@ -174,8 +174,8 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
     if (text.starts_with("cut")) text = "cut them by volume:" + text;
     if (text.empty()) text = "name the source or the target, or the walls that close the others";
     const std::size_t loops = rims(model, part).size();
-    throw NotClosed("closure.tube_loops", name_of(model, part.front()) + " and the walls joined to it have " +
-                                              std::to_string(loops) +
+    throw NotClosed("closure.tube_loops", name_of(model, part.front()) +
+                                              " and the walls connected to it have " + std::to_string(loops) +
                                               (loops == 1 ? " free loop" : " free loops") +
                                               ", and class V needs two, one at either end: " + text);
 }
@@ -191,7 +191,7 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
     if (readings.size() != 1 || !(take_guess || readings.front().guess.empty())) return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
     log_line(context,
-             "note: the walls that were named alone are no tube between two missing ends; taken as " +
+             "note: the walls, named without ends, are no tube between two missing ends; their roles are " +
                  in_words(model, roles.roles, roles.value));
     return std::move(readings.front());
 }

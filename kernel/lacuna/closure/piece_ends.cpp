@@ -21,18 +21,18 @@ using namespace topology;
 
 namespace {
 
-/// Sets of faces are bits of a word. More faces than this are no piece of a few planes. A choice.
+/// Sets of faces are bit masks. Pieces of a few cuts have fewer faces than this. Rule of thumb.
 constexpr std::size_t kMostFaces = 40;
-/// Ends that are looked at, the smallest sets first: all of a prism of twelve sides. A choice.
+/// Number of ends tried, the smallest sets first: covers a prism with twelve sides. Rule of thumb.
 constexpr std::size_t kMostEnds = 600;
-/// Faces of one end differ in their normals by less than this cosine, of 110°. A choice.
+/// Normals of the faces of one end differ by less than this cosine, of 110°. Rule of thumb.
 constexpr double kOneEnd = -0.35;
-/// And are flat but for this share of their area.
+/// An end is flat within this share of its area.
 constexpr double kFlat = 0.1;
-/// What an end named by the user is worth beside ends that are flat and square to their walls. A choice.
+/// Bonus of an end named by the user against ends that are flat and square to their walls. Rule of thumb.
 constexpr double kNamed = 0.1;
-/// What it costs that a cut is a wall of both pieces beside it which have other sides of it at their ends:
-/// more than any ends do. A choice.
+/// Cost of a cut that is a wall of both adjacent pieces but has different sides along their ends; larger than
+/// any cost of ends. Rule of thumb.
 constexpr double kUnlikeCut = 10;
 
 using FaceSet = std::uint64_t;
@@ -45,7 +45,7 @@ void for_each(FaceSet set, const Do& use)
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// The faces of a closed skin, their neighbours and shapes.
+/// The faces of a closed skin, with adjacency and shape.
 class Skin {
 public:
     explicit Skin(const Model& model) : model_(model)
@@ -74,7 +74,7 @@ public:
         for (const FaceSet met : at) for_each(met, [&](std::size_t f) { faces_[f].touched |= met; });
     }
 
-    /// Sets of faces that an end may be, small ones first.
+    /// Sets of faces that may be an end, small ones first.
     [[nodiscard]] std::vector<FaceSet> ends() const
     {
         std::vector<FaceSet> found;
@@ -99,7 +99,7 @@ public:
         return found;
     }
 
-    /// Whether walls each run from end to end, so that all that is between two of them is a line of columns.
+    /// Whether each wall runs from end to end, so that two walls meet in a line of columns.
     [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
     {
         const FaceSet all = one(faces_.size()) - 1;
@@ -115,7 +115,7 @@ public:
         return fits && rims_of(source) == rims_of(target) && rims_of(source) == parts_of(walls);
     }
 
-    /// 0: flat ends, alike and square to their walls.
+    /// 0: ends that are flat, alike and square to their walls.
     [[nodiscard]] double cost(FaceSet source, FaceSet target) const
     {
         return cost_of_end(source) + cost_of_end(target) +
@@ -141,19 +141,19 @@ public:
 
 private:
     struct Side {
-        std::size_t face; ///< on its other side
+        std::size_t face; ///< the adjacent face
         double length;
         EdgeId edge;
     };
     struct OneFace {
         std::vector<std::vector<Side>> loops;
-        FaceSet beside = 0, touched = 0; ///< faces with an edge, and with a vertex in common
-        Vec3 normal = Vec3::Zero();      ///< on average: shorter than 1 where it bends
+        FaceSet beside = 0, touched = 0; ///< faces that share an edge, and a vertex
+        Vec3 normal = Vec3::Zero();      ///< mean normal: shorter than 1 if the face bends
         double area = 0;
     };
 
     /// Whether a face is a ring from end to end, or has four sides: one at either end, and one at each of two
-    /// walls or twice at the same.
+    /// walls or two at the same wall.
     static bool runs_between(const OneFace& face, FaceSet source, FaceSet target)
     {
         constexpr int kSource = -1, kTarget = -2;
@@ -218,17 +218,17 @@ FaceSet set_of(const std::vector<FaceId>& faces)
     return set;
 }
 
-/// A way to sweep a piece.
+/// Ends between which a piece can be swept.
 struct Ends {
-    FaceSet source = 0, target = 0; ///< nothing: no way is known
+    FaceSet source = 0, target = 0; ///< empty: no ends are known
     double cost = 0;
     bool as_named = false;
-    /// Of each void face that is a wall, by its name, the edges that it has with ends, by origin and tag.
+    /// For each void face that is a wall, by name: its edges at the ends, by origin and tag.
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
-/// How many cuts are walls of both pieces, but with other sides along their ends: rows of one are none of the
-/// other.
+/// Number of cuts that are walls of both pieces, but with different sides along their ends, so that their
+/// rows of quads cannot match.
 std::size_t unlike(const Ends& a, const Ends& b)
 {
     return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {
@@ -237,7 +237,7 @@ std::size_t unlike(const Ends& a, const Ends& b)
     }));
 }
 
-/// The ways to sweep a piece: as it is where that is one, and others; at least one, be it none.
+/// Possible ends of a piece: its current ones, if valid, and others; at least one entry, which may be empty.
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;
@@ -287,7 +287,7 @@ std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
         all_fit = all_fit && ways.back().front().as_named;
     }
     if (all_fit) return 0;
-    // Of each way of the first piece, the best of those that follow it.
+    // For each choice of the first piece, the best choices of the following pieces.
     std::vector<const Ends*> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Ends& first : ways.front()) {
@@ -342,14 +342,12 @@ void check_ends(const OpenVolume& volume, const std::string& what)
         model.faces, [](const Face& face) { return face.origin == Origin::made_void && !face.name.empty(); });
     throw NotSweepable(
         "closure.no_ends",
-        what + " is closed by its " + std::to_string(model.faces.size()) + " faces and has no " + missing +
+        what + " is closed by its " + std::to_string(model.faces.size()) + " faces but has no " + missing +
             ": its " + other + " is " + (only.empty() ? std::string("missing too") : names_of(model, only)) +
             ", and its walls are " + names_of(model, walls) +
-            "; a sweep needs two ends that no corner joins" +
-            (is_piece
-                 ? ": move or tilt the plane so that the piece keeps a whole end or meets more walls, or "
-                   "leave the piece out with fallback = \"leave_out\""
-                 : ": name the " + missing + " among them"));
+            "; a sweep needs two ends without a common corner" +
+            (is_piece ? ": move or tilt the plane, or leave the piece out with fallback = \"leave_out\""
+                      : ": name the " + missing + " among them"));
 }
 
 } // namespace lacuna::closure

@@ -11,25 +11,24 @@
 
 namespace lacuna::closure {
 
-/// Read anew which faces of closed pieces of a cut are their ends, where one of them cannot be swept between
-/// those it has.
+/// Choose the ends of closed cut pieces again, if a piece cannot be swept between its current ends.
 ///
-/// A plane that crosses an end aslant leaves pieces whose cut lies beside what is left of that end. An end is
-/// one or more faces that hang together and whose normals differ by less than 110°; two are ends of a piece
-/// where each wall runs from one to the other between two neighbours. Of these the pair is taken whose ends
-/// are the flattest, the most square to their walls and the most alike; ends that were named count for more,
-/// and a cut that is a wall of both pieces beside it has the same sides at the ends of both where it can.
-/// @return  how many pieces have other ends than before. Those without such ends, or with faces missing, are
-///          left as they are.
+/// A plane that crosses an end obliquely leaves pieces whose cut is adjacent to the rest of that end. An end
+/// is a connected set of faces whose normals differ by less than 110°; two sets can be ends if each wall runs
+/// from one to the other between two neighbours. The pair with the flattest and most similar ends, most
+/// square to their walls, is taken. User-named ends are preferred, and a cut that is a wall of both adjacent
+/// pieces gets the same sides along the ends of both if possible.
+/// @return  the number of pieces whose ends changed. Pieces without such ends, or with missing faces, are
+///         unchanged.
 /// @throw Cancelled
-/// @note  O(ends² · faces) a piece, of at most 600 ends; pieces of more than 40 faces are left as they are.
+/// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
 std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context = {});
 
-/// Whether a closed volume has two ends between which each wall runs, as `read_ends()` wants them; false of
+/// Whether a closed volume has two ends between which each wall runs, as `read_ends()` requires; false for
 /// more than 40 faces.
 bool walls_run_between_ends(const topology::OpenVolume& volume);
 
-/// @param what  the volume, for the message: "volume_2".
+/// @param what  name of the volume in the message: "volume_2".
 /// @throw NotSweepable "closure.no_ends"  a closed volume that lacks a source or a target; names its faces.
 void check_ends(const topology::OpenVolume& volume, const std::string& what);
 

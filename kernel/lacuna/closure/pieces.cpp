@@ -20,13 +20,13 @@ using namespace topology;
 
 namespace {
 
-/// A cut lies across the sweep where its normal and the source's differ by less than this cosine. A choice.
+/// A cut is across the sweep if the cosine between its normal and the source's exceeds this. Rule of thumb.
 constexpr double kAcross = 0.9;
 
-/// A piece, still in the model of all.
+/// A piece, in the common model.
 struct Part {
     std::vector<FaceId> skin, partitions;
-    std::vector<FaceId> behind; ///< partitions it lies behind
+    std::vector<FaceId> behind; ///< partitions in front of it
 };
 
 class Parter {
@@ -80,8 +80,8 @@ private:
             if (behind == before) {
                 throw NotSweepable("closure.cut_apart",
                                    what_ + " cuts the volume open at " + name_of(model_, face) +
-                                       ", and what lies on both sides of it still hangs together: cut it at "
-                                       "another place too, or where it comes apart");
+                                       ", but the volume still hangs together: cut it at "
+                                       "another place too, or choose another cut");
             }
             for (const std::size_t root : {behind, before}) {
                 const auto [found, fresh] = number.try_emplace(root, parts_.size());
@@ -99,7 +99,8 @@ private:
             else
                 lone[sets.find(f)].emplace_back(f);
         }
-        // What no partition touches is of the piece it lies in; ends apart from all walls of the nearest.
+        // Faces that touch no partition belong to the piece they lie in; ends without walls belong to the
+        // nearest.
         std::vector<std::size_t> home;
         for (const auto& [root, skin] : lone) home.push_back(part_round(skin));
         std::size_t next = 0;
@@ -131,7 +132,7 @@ private:
         return best;
     }
 
-    /// Whether some faces meet faces of a role, be it in a vertex.
+    /// Whether some faces share an edge or a vertex with faces of a role.
     [[nodiscard]] bool touches(const std::vector<FaceId>& faces, const std::vector<FaceId>& ends) const
     {
         std::set<VertexId> met;
@@ -159,7 +160,7 @@ private:
         }
         std::vector<std::vector<FaceId>> across;
         for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
-            // In the plane of an end that it goes on from, it is of that end.
+            // A cut in the plane of an end that it touches is part of that end.
             std::vector<FaceId>* const end = goes_on(cut, roles.source)   ? &roles.source
                                              : goes_on(cut, roles.target) ? &roles.target
                                                                           : nullptr;
@@ -193,7 +194,8 @@ private:
         return parted_.plane && lies_in_plane(model_, face, *parted_.plane);
     }
 
-    /// Of a piece with both ends, the one a flat cut across the sweep is part of: that which faces its way.
+    /// In a piece with both ends, the end that a flat cut across the sweep belongs to: the one with the same
+    /// normal.
     [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
                                                 Roles& roles) const
     {
@@ -206,14 +208,14 @@ private:
         return along < -kAcross ? &roles.target : nullptr;
     }
 
-    /// Whether a cut meets faces of an end that lie in its plane.
+    /// Whether a cut touches coplanar faces of an end.
     [[nodiscard]] bool goes_on(const std::vector<FaceId>& cut, const std::vector<FaceId>& end) const
     {
         return std::ranges::any_of(end,
                                    [&](FaceId face) { return lies_in_cut(face) && touches(cut, {face}); });
     }
 
-    /// Walls in the plane of a cut that is an end, as a shoulder it goes on from, are of that end.
+    /// If a cut is an end, adjacent walls in its plane, such as a shoulder, become part of that end.
     void take_coplanar(std::vector<FaceId>& walls, std::vector<FaceId>& cut) const
     {
         std::vector<FaceId> both = cut;
@@ -233,7 +235,7 @@ private:
         return roles;
     }
 
-    /// An end among faces that were all named as walls, where they show one.
+    /// Take an end from faces that were all named as walls, if they determine one.
     void take_end(Roles& roles) const
     {
         for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, {}, context_)) {
@@ -263,7 +265,7 @@ std::vector<StepPiece> pieces_of(const PartedModel& parted, const std::string& w
 
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops)
 {
-    std::vector<std::vector<std::size_t>> round(loops.size()); // of each loop: those it lies in
+    std::vector<std::vector<std::size_t>> round(loops.size()); // by loop: the loops it lies in
     for (std::size_t i = 0; i < loops.size(); ++i) {
         for (std::size_t o = 0; o < loops.size(); ++o)
             if (i != o && geometry::lies_inside(loops[o], loops[i].front())) round[i].push_back(o);
@@ -285,7 +287,7 @@ std::string partition_name(const Model& model)
     int number = 1;
     for (const Face& face : model.faces) {
         if (face.name.starts_with("cut_"))
-            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 where it is no number
+            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 if it is no number
     }
     return "cut_" + std::to_string(number);
 }

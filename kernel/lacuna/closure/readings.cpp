@@ -21,19 +21,19 @@ using namespace topology;
 
 namespace {
 
-/// As many readings of the given faces are sealed. A choice: some tenths of a second for 10,000 facets.
+/// Number of candidates that are sealed. Rule of thumb: takes some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
-/// And as many are tried where none of the likeliest seals. A choice as well.
+/// Number of candidates tried if none of the likeliest seals. Rule of thumb.
 constexpr std::size_t kMostTried = 50;
-/// What it costs to close by flat faces that are not one for each free loop: as `topology::role_candidates()`
-/// counts no end at all. A choice.
+/// Cost of closing by flat faces that are not one per free loop; as for no end in
+/// `topology::role_candidates()`. Rule of thumb.
 constexpr double kFilled = 0.1;
-/// As many readings are listed: what a person reads in a message.
+/// Number of readings listed in a message.
 constexpr std::size_t kMostListed = 8;
 
 std::string plain(double value) { return with_digits(value, 4); }
 
-/// Whether a void edge goes further from its chord than a half circle does.
+/// Whether a void edge is further from its chord than a half circle.
 bool detours(const Void& v)
 {
     const Model& model = v.sealed.volume.model;
@@ -46,8 +46,8 @@ bool detours(const Void& v)
     });
 }
 
-/// The void that flat faces close, where these are not one for each free loop, or ends that are alike.
-/// @param told  whether a void is known whose bends are told: then no channel is guessed
+/// The void that flat faces close, if they are not one per free loop or the ends are congruent.
+/// @param told  whether a void without ambiguous bends is known: then no channel is assumed
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {
@@ -62,13 +62,13 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     found.sealed.volume = std::move(filled->volume);
     found.sealed.closure = std::move(filled->closure);
     found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.filled = filled->channel ? "sealed by ends that are alike and a wall between them"
-                                   : "sealed by flat faces within its free loops";
+    found.filled = filled->channel ? "sealed by two congruent ends and a wall between them"
+                                   : "sealed by flat faces in its free loops";
     found.channel = filled->channel;
     return found;
 }
 
-/// Whether all that closed a reading is flat.
+/// Whether all void faces of a reading are flat.
 bool closes_flat(const Reading& reading)
 {
     const Model& model = reading.volume.model;
@@ -96,7 +96,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     RoleOptions far;
     far.margin = std::numeric_limits<double>::infinity();
     far.most = kMostTried;
-    if (found.empty()) { // the likeliest do not seal; what comes after them may
+    if (found.empty()) { // the likeliest do not seal; less likely ones may
         const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
         const auto seals = std::find_if(all.begin(), all.end(), [&](const RoleCandidate& candidate) {
             return seal(model, candidate.roles, context).has_value();
@@ -107,7 +107,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         found = voids(model, {seals, end}, kMostSealed, false, context);
     }
     if (!found.empty() && leaves_open(found.front().sealed)) {
-        // What it encloses is a guess; where the rims say how void faces go it is none.
+        // The enclosed volume is a guess, unless the rims determine the void faces.
         auto settled = settled_void(model, faces, role_candidates(model, faces, far, context), context);
         if (settled) {
             found.clear();
@@ -144,10 +144,10 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
         if (readings.front().guess.empty()) return std::move(readings.front());
         throw InvalidInput("topology.shape_open",
                            readings.front().guess +
-                               "; give the missing face, name the roles, or take what was assumed, which "
+                               "; give the missing face, name the roles, or accept the assumed shape, which "
                                "encloses " +
                                plain(readings.front().enclosed) +
-                               ", by open_volume{ faces = …, reading = 1 }");
+                               ", with open_volume{ faces = …, reading = 1 }");
     }
     const auto place = static_cast<std::size_t>(number);
     if (number >= 1 && place <= readings.size()) return std::move(readings[place - 1]);
@@ -158,14 +158,15 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
     }
     if (readings.size() > kMostListed) text += "\n  … (" + std::to_string(readings.size()) + " in all)";
     if (number == 0) {
-        throw InvalidInput("topology.roles_ambiguous",
-                           "the faces enclose different volumes by readings about as likely; take one of "
-                           "them by open_volume{ faces = …, reading = 1 }, or name its roles:" +
-                               text);
+        throw InvalidInput(
+            "topology.roles_ambiguous",
+            "the faces have several equally likely readings with different volumes; choose one "
+            "with open_volume{ faces = …, reading = 1 }, or name its roles:" +
+                text);
     }
     throw InvalidInput("topology.no_such_reading", "there is no reading " + std::to_string(number) +
-                                                       " of the faces; those about as "
-                                                       "likely are:" +
+                                                       " of the faces; the likely "
+                                                       "ones are:" +
                                                        text);
 }
 

@@ -13,84 +13,83 @@
 
 namespace lacuna::closure {
 
-/// A volume as it is sealed where nothing is asked for: close() with this match and no options gives just
-/// that.
+/// A volume sealed with default options: close() with this match and no options gives the same result.
 struct SealedVolume {
     matching::Match match;
     topology::OpenVolume volume;
     Closure closure;
 };
 
-/// A void, sealed, and the ways to sweep it besides the one a reading takes, the best first.
+/// A sealed void and its other sweep directions, best first, besides the one of its reading.
 struct OtherSweeps {
     topology::OpenVolume volume;
     Closure closure;
     std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
 };
 
-/// A void that some faces can be read as, ready to be swept the best way.
+/// A void that some faces enclose, ready to be swept in its best direction.
 struct Reading {
     topology::RoleCandidate roles; ///< in faces of the model
     topology::OpenVolume volume;   ///< with those roles
     topology::Classification classification;
-    /// Set where an end is a face that only closing makes: `volume` is sealed then.
+    /// Set if an end is a face that only closing makes; `volume` is then sealed.
     std::optional<Closure> closure;
-    /// Set where `volume` is open and was sealed as it is to be read: that need not be done again.
+    /// Set if `volume` is open: its sealed state, so that it need not be closed again.
     std::optional<SealedVolume> sealed;
     double enclosed = 0; ///< [model length³]
-    std::string guess;   ///< what of its shape nothing given tells, in words; empty where all is told
-    /// A given end with holes that have no walls, and may go through to an end that is missing; not valid
-    /// where there is none. An open volume with this as its source is to be closed by `CloseOptions::holes`.
+    std::string guess;   ///< description of an ambiguous shape, for the user; empty if unambiguous
+    /// A given end with holes without walls that may extend to a missing end; invalid if there is none. An
+    /// open volume with this end as source must be closed with `CloseOptions::holes`.
     FaceId holed;
-    std::size_t ways = 1; ///< how many readings of the faces enclose it
-    /// Null where there is no other way, and where the ends were given as such.
+    std::size_t ways = 1; ///< number of candidates for roles that enclose this volume
+    /// Null if there is no other sweep direction, or if the user gave the ends.
     std::shared_ptr<const OtherSweeps> others;
 };
 
-/// The sealed volume with the roles of its k-th other way. @pre k < others.ways.size()
+/// The sealed volume with the roles of its k-th other sweep. @pre k < others.ways.size()
 topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 
-/// The voids that some faces of `model` can be read as without being told roles, the likeliest first; all are
-/// about as likely.
+/// The voids that some faces of `model` may enclose when no roles are given, likeliest first; all are about
+/// equally likely.
 ///
-/// Readings as topology::role_candidates() has them are sealed, each by itself; those that do not seal drop
-/// out. Two readings are one void where their volumes agree and no point of one's void faces lies further
-/// than a small share of its size from the other's: given faces are the same in both. A void is then read
-/// anew, as the closed skin it is, and swept the best way: of those about as likely as the likeliest the one
-/// with the fewest irregular nodes to expect, and of these the one with the most even cells. That way is kept
-/// open where a reading of the given faces says the same. The next three are kept as well, for who finds that
-/// the first cannot be meshed.
+/// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two are the same void
+/// if their volumes agree and their void faces lie within a small share of its size of each other. Each void
+/// is then analysed again as a closed skin and swept in its best direction: of the about likeliest candidates
+/// the one with the fewest expected irregular nodes, then the one with the most even cells. That one stays
+/// open if a candidate of the given faces has the same roles. The next three are kept for when the first
+/// cannot be meshed.
 ///
-/// A hollow that has no such reading, because its bottom goes over into its walls smoothly, is split across
-/// where it bends: a hemisphere, a bore with a round end. Its bottom is the source then.
+/// A hollow without such a candidate, because its bottom blends smoothly into its walls (a hemisphere, a bore
+/// with a round end), is split across the blend; its bottom is the source.
 ///
-/// A tube with a flat floor round a narrower bore at one of its two ends, as a counterbore's wall and ledge
-/// are, is read from that floor and the bore's mouth in it.
+/// A tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, has that
+/// floor and the bore's mouth as source.
 ///
-/// Where the likeliest void is closed by a membrane, a void face over a rim that lies in no plane and leaves
-/// open how its inside bends, unlikely readings without steps are tried too: where all of them that close
-/// without membranes enclose one void, that is taken instead.
+/// If the likeliest void needs a membrane, a void face over a non-planar rim that leaves its shape ambiguous,
+/// unlikely candidates without steps are tried too. If all of them that close without membranes enclose one
+/// void, that one is used.
 ///
-/// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
-/// one more void. So is a channel without its ends and a wall where nothing else tells: the free loop's runs
-/// in two planes are its ends where they are alike.
+/// Free loops that flat faces close, but not with one face each (a face has a hole, or a loop lies in two
+/// planes), are a further void. So is a channel without its ends and one wall if nothing else is certain:
+/// planar parts of the free loop are its ends if they are congruent.
 ///
-/// A void whose bends nothing tells gives way to one with flat faces, and is a guess where it stands alone:
-/// `Reading::guess` says what is not told.
-/// @return  empty where no reading passes.
+/// A void with an ambiguous bent face is dropped if there is one with flat faces; alone, it is a guess, and
+/// `Reading::guess` describes the ambiguity.
+/// @return  empty if no candidate is valid.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
-/// @note  O(facets log facets) for each reading that is sealed; no more than 24 are. Readings that only fill
-///        flat free loops enclose the same, and of those one is sealed.
+/// @note  O(facets log facets) for each sealed candidate, at most 24. Candidates that only fill flat free
+///        loops enclose the same volume, so only one of them is sealed.
 std::vector<Reading> find_readings(const topology::Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context = {});
 
-/// The one void that some faces are, or the one that is asked for by its number.
-/// @param number  from 1, as the message counts them; 0: there must be one only, whose shape is no guess.
-/// @return  with 0, where all that is left open is whether holes without walls go through: the face that has
-///          them as the source of a volume of class IV, which close() refuses unless it is told.
+/// The only void of some faces, or the one selected by number.
+/// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
+///         shape.
+/// @return  with 0, if only holes without walls are ambiguous: the face that has them as the source of a
+///          class IV volume, for which close() needs `CloseOptions::holes`.
 /// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
-///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists what each would
-///        enclose), "topology.shape_open" (names the faces round what is missing),
+///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists the enclosed
+///        volumes), "topology.shape_open" (names the faces next to the missing one),
 ///        "topology.no_such_reading". Cancelled.
 Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
                      const RunContext& context = {});

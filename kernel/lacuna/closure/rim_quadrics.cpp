@@ -24,17 +24,17 @@ namespace {
 
 using Powers = Eigen::Vector<double, 10>;
 
-/// Share of a rim's own spread off its plane that its points may be off a quadric. A choice: points of a mesh
-/// lie on it but for rounding.
+/// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Rule of thumb:
+/// mesh points are on it up to rounding.
 constexpr double kOnQuadric = 1e-4;
-/// How many conditions more than are needed to find what goes through a rim have to be met. A choice.
+/// Number of redundant conditions required to find the quadrics through a rim. Rule of thumb.
 constexpr Eigen::Index kSpare = 4;
-/// How far a quadric may be from a special one, as a share of its largest coefficient. A choice: the quadric
-/// goes through the rim all the same.
+/// Tolerance for a special quadric, as a share of its largest coefficient. Rule of thumb: the quadric passes
+/// through the rim anyway.
 constexpr double kSpecial = 0.01;
-/// Cosine between a form's slope and the plane's normal up to which the quadric stands up, as the walls that
-/// end at the rim do, and the share of the rim along which it may. A choice: a shaft as wide as the tube that
-/// ends on it stands up at two places.
+/// A quadric is steep where the cosine between its gradient and the plane's normal is below the first value,
+/// as on the walls that end at the rim, and it may be steep along this share of the rim. Rule of thumb: a
+/// shaft as wide as the tube that ends on it is steep at two places.
 constexpr double kStandsUp = 0.05, kStanding = 0.1;
 
 Powers powers_at(const Vec3& p)
@@ -54,7 +54,7 @@ Eigen::Matrix4d form_of(const Powers& q)
     return form;
 }
 
-/// A place as a quadric's form takes it.
+/// Homogeneous coordinates of a point in a quadric's frame.
 Eigen::Vector4d in_frame(const Quadric& quadric, const Vec3& place)
 {
     Eigen::Vector4d at;
@@ -62,7 +62,7 @@ Eigen::Vector4d in_frame(const Quadric& quadric, const Vec3& place)
     return at;
 }
 
-/// The frame in which points spread alike every way.
+/// A frame in which points spread equally in all directions.
 struct EvenFrame {
     Vec3 centre = Vec3::Zero();
     double unit = 0; ///< the largest spread [model length]
@@ -79,8 +79,8 @@ std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
                      spread.axis * stretches.asDiagonal() * spread.axis.transpose()};
 }
 
-/// Forms that span those which vanish on some points, in units of their frame; none where there are too few
-/// points to say so.
+/// A basis of the forms that vanish on some points, in the units of their frame; empty if there are too few
+/// points to decide.
 std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const EvenFrame& frame)
 {
     Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
@@ -104,9 +104,9 @@ std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const E
     return result;
 }
 
-// --- what is special about a form; 0 where it is ------------------------------------------------------
+// --- deviation of a form from a special one --------------------------------------------------------
 
-/// How a form bends along its axes, rising.
+/// Principal curvatures of a form, ascending.
 Vec3 bends_of(const Eigen::Matrix4d& form)
 {
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly)
@@ -129,7 +129,7 @@ Eigen::Vector4d singular_values(const Eigen::Matrix4d& form)
 
 double off_plane_pair(const Eigen::Matrix4d& form) { return singular_values(form)(2); }
 
-/// Of a round cylinder or a round cone.
+/// Deviation from a circular cylinder or cone.
 double off_round_cone(const Eigen::Matrix4d& form)
 {
     constexpr double kBendsAtAll = 1e-2;
@@ -143,14 +143,14 @@ double off_round_cone(const Eigen::Matrix4d& form)
     return unlike + singular_values(form)(3);
 }
 
-/// Of a cylinder of any section.
+/// Deviation from a cylinder of any section.
 double off_cylinder(const Eigen::Matrix4d& form)
 {
     const Vec3 values = form.leftCols<3>().jacobiSvd().singularValues();
     return values(2) / values(0);
 }
 
-/// The forms cos t · a + sin t · b at which something is special.
+/// The forms cos t · a + sin t · b with zero deviation.
 std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
                                            const std::function<double(const Eigen::Matrix4d&)>& off)
 {
@@ -179,15 +179,15 @@ std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen
     return found;
 }
 
-/// How the points of a rim are meant.
+/// Interpretation of a rim's points.
 enum class RimIs {
-    straight, ///< between them
-    curved,   ///< but between those that are far from each other
+    straight, ///< straight segments between all points
+    curved,   ///< a curve, except between points that are far apart
 };
 
 std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops, RimIs rim)
 {
-    constexpr double kFar = 0.25; // of the rim's extent: twelve facets of a circle are no further
+    constexpr double kFar = 0.25; // share of the rim's extent: twelve facets of a circle are closer
     constexpr std::size_t kPieces = 4;
     std::vector<std::vector<Vec3>> chains;
     Eigen::AlignedBox3d box;
@@ -206,11 +206,11 @@ std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops,
     return places;
 }
 
-/// The sheet of a quadric that all of a rim lies on; nothing where there is none.
+/// The sheet of a quadric that contains the whole rim; empty if there is none.
 std::optional<QuadricSheet> sheet_through(std::span<const Vec3> rim, const Quadric& quadric,
                                           const geometry::Plane& plane)
 {
-    constexpr double kNoSlope = 1e-6; // of the steepest: where two planes meet
+    constexpr double kNoSlope = 1e-6; // share of the steepest slope, for the line where two planes meet
     std::vector<Vec3> slopes;
     double steepest = 0;
     for (const Vec3& p : rim) {
@@ -248,8 +248,8 @@ RimShapes shapes_through(std::span<const Vec3> rim, const geometry::Plane& plane
     return result;
 }
 
-/// Whether a given face at the edges of some loops lies on a quadric: what is missing does not lie on it too,
-/// where it is a pair of planes.
+/// Whether a given face at the edges of some loops lies on a quadric: if the quadric is a pair of planes, the
+/// missing face cannot lie on the given face's plane too.
 bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const Quadric& quadric)
 {
     std::set<EdgeId> rim;
@@ -278,7 +278,7 @@ std::optional<double> QuadricSheet::height(const Vec2& place) const
     way << plane.normal, 0;
     const double a = way.dot(quadric.form * way), b = way.dot(quadric.form * foot);
     const double c = foot.dot(quadric.form * foot);
-    // Places of the rim may be beyond where the sheet stands up by rounding.
+    // Points of the rim may lie beyond the steep edge of the sheet by rounding.
     constexpr double kRounding = 1e-6;
     const double inside = b * b - a * c;
     if (inside < -kRounding * (b * b + std::abs(a * c))) return std::nullopt;

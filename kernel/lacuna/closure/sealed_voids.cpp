@@ -21,27 +21,27 @@ using namespace topology;
 
 namespace {
 
-/// And as many are tried where one closes with a membrane. For the time: bent faces take long to close.
+/// Number of candidates tried if one closes with a membrane. Limits run time, as bent faces are slow to
+/// close.
 constexpr std::size_t kMostSettled = 4;
-/// Volumes that differ by less than this share of the larger are as large: what chords leave out of round
-/// faces, and more.
+/// Volumes that differ by less than this share of the larger are equal: allows for the sag of round faces,
+/// and more.
 constexpr double kSameVolume = 5e-3;
-/// And skins lie on each other where they are no further apart than this share of the cube root of what they
-/// enclose. A choice, not a measurement.
+/// Skins coincide if their distance is below this share of the cube root of their volume. Rule of thumb.
 constexpr double kSameSkin = 0.02;
-/// What void faces cost that are bent by a half turn: of two ways to close, the one with flat faces is
-/// likelier. A choice, not a measurement.
+/// Cost of void faces bent by a half turn: of two closings, the one with flat faces is likelier. Rule of
+/// thumb.
 constexpr double kBentVoid = 0.5;
 
-/// Whether what is missing is one face for each of the free loops: nothing needs a void edge, and no face has
-/// several loops.
+/// Whether the missing faces are one per free loop, so that no void edge is needed and no face has several
+/// loops.
 bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 {
     const Classification found = classify(open);
     switch (found.value) {
     case VolumeClass::closed:
         return true;
-    case VolumeClass::III: // every vertex of both ends is on a wall, which leads to the other
+    case VolumeClass::III: // every vertex of both ends is on a wall, which reaches the other end
         return found.wall_free_source.empty() && found.wall_free_target.empty();
     case VolumeClass::IV:
         return loops == 1;
@@ -52,7 +52,7 @@ bool fills_each_loop(const OpenVolume& open, std::size_t loops)
     }
 }
 
-/// The void faces of a volume.
+/// The facets of a volume's void faces.
 geometry::FacetTree void_facets(const Sealed& sealed)
 {
     std::vector<Triangle> facets;
@@ -63,7 +63,7 @@ geometry::FacetTree void_facets(const Sealed& sealed)
     return {sealed.volume.model.points, facets};
 }
 
-/// Whether the corners and the middles of one volume's void facets lie near those of another.
+/// Whether the corners and centres of one volume's void facets are near those of another.
 bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near)
 {
     const Model& model = sealed.volume.model;
@@ -85,7 +85,7 @@ bool enclose_the_same(const Sealed& a, const Sealed& b)
     return lies_on(a, void_facets(b), near) && lies_on(b, void_facets(a), near);
 }
 
-/// Whether a reading only fills flat free loops, which any other that does fills alike.
+/// Whether a candidate only fills planar free loops; all such candidates enclose the same volume.
 bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& context)
 {
     try {
@@ -95,25 +95,25 @@ bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& 
                std::all_of(loops.begin(), loops.end(),
                            [&](const Rim& rim) { return is_flat(open.model, rim); });
     } catch (const InvalidInput&) {
-        return false; // sealing it says no as well
+        return false; // sealing reports it as well
     }
 }
 
-/// How unlikely a void is: by its ends, and by how far its void faces are from flat.
+/// Cost of a void: of its ends, and of the bend of its void faces.
 double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
 {
     const Model& model = sealed.volume.model;
     double bent = 0, whole = 0;
     for (const FaceId face : sealed.closure.void_faces) {
         const double area = face_area(model, face);
-        // As ends are judged: four times, so that 90° costs 0.4 of what a half turn does.
+        // Rated as for ends: times four, so that 90° costs 0.4 of a half turn.
         bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
         whole += area;
     }
     return candidate.cost + (whole > 0 ? kBentVoid * bent / whole : 0);
 }
 
-/// Whether a void is closed by about flat faces between ends, or by ends that are alike.
+/// Whether a void is closed by nearly flat faces between ends, or by congruent ends.
 bool is_settled(const Void& v)
 {
     if (v.untold || !v.filled.empty()) return v.channel;
@@ -121,7 +121,7 @@ bool is_settled(const Void& v)
                                [&](FaceId face) { return is_about_flat(v.sealed.volume.model, face); });
 }
 
-/// Keep those about as likely as the likeliest. What bends as nothing tells gives way to what is settled.
+/// Keep the about likeliest voids. Those with an ambiguous bend are dropped in favour of settled ones.
 void keep_likely(std::vector<Void>& found)
 {
     if (std::ranges::any_of(found, is_settled)) std::erase_if(found, &Void::untold);
@@ -132,8 +132,8 @@ void keep_likely(std::vector<Void>& found)
     });
 }
 
-/// Add a reading to the void that it encloses. One that bends as nothing tells gives way to those that
-/// enclose the same and do not: closed by its roles, the void would bend so.
+/// Add a candidate to the void that it encloses. A candidate with an ambiguous bend is dropped in favour of
+/// one with the same volume and none, because closing with its roles would bend the face.
 void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed sealed, bool fills_flat)
 {
     Void now;
@@ -159,7 +159,7 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
     }
 }
 
-/// The faces round each free loop that is not flat and leaves open how its inside bends.
+/// The faces next to each non-planar free loop that does not determine its inside.
 std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, const std::vector<FaceId>& faces)
 {
     OpenVolume open;
@@ -276,14 +276,14 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
-    bool told = true; // all of them by what is given
+    bool told = true; // all follow from the given faces
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed.volume = std::move(one.volume);
         now.sealed.closure = std::move(one.closure);
         now.sealed.enclosed = one.enclosed;
         now.filled = "sealed with the shape of " + name_of(model, one.from) + " at the other end";
-        now.first.roles.walls = faces; // as its volume numbers them
+        now.first.roles.walls = faces; // in the numbering of its volume
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;
         told = told && !one.through;
@@ -295,14 +295,14 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     for (Void& v : found) {
         const auto end = std::ranges::find_if(
             ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
-        // A face that is not told how it bends gives way to the moved end.
+        // A face with an ambiguous bend is replaced by the moved end.
         if (end != ends.end()) same.push_back(v.untold || has_membranes(v.sealed) ? *end : v);
     }
     if (!same.empty())
         found = std::move(same);
     else if (told)
         found = std::move(ends);
-    else // whether a hole without walls goes through is for the person to say
+    else // the user decides whether a hole without walls goes through
         found.insert(found.end(), ends.begin(), ends.end());
 }
 

@@ -31,7 +31,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             made.insert(made.end(), face.triangles.begin(), face.triangles.end());
     }
     if (made.empty()) return std::nullopt;
-    // Of given faces, which may be fine, only facets beside void ones can be crossed by these.
+    // Given faces may be finely meshed, so only their facets near void faces are checked.
     const geometry::FacetTree all_made(model.points, made, context);
     std::vector<std::vector<Triangle>> facets(model.faces.size());
     std::vector<geometry::FacetTree> trees(model.faces.size());
@@ -60,7 +60,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
                 const Triangle& mine = facets[v][index(a)];
                 const Triangle& theirs = facets[f][index(b)];
                 // Neighbours along a shared side can only fold onto each other, which the enclosed volume
-                // shows.
+                // reveals.
                 if (shared_points(mine, theirs) >= 2) return true;
                 return !geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance);
             });

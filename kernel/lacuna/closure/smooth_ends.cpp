@@ -16,7 +16,7 @@ namespace {
 
 bool is_free_of_meshes(const Face& face) { return face.origin == Origin::given && face.given_quads.empty(); }
 
-/// Height of faces along their mean normal over the diameter of a disc of their projected area.
+/// Extent of faces along their mean normal over the diameter of a disc of their projected area.
 double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 {
     Vec3 area = Vec3::Zero();
@@ -34,7 +34,7 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
     return (high - low) / std::sqrt(4 * area.norm() / std::numbers::pi);
 }
 
-/// The walls that an end runs into smoothly, one after the other; nothing where they may not join it.
+/// The walls that meet an end smoothly, directly or through each other; empty if they must not join it.
 std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& turns)
 {
     const Model& model = volume.model;

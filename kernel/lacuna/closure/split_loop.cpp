@@ -19,16 +19,16 @@ using namespace topology;
 
 namespace {
 
-/// Sine of the angle up to which a chain goes straight on.
+/// Sine of the largest turn of a straight chain.
 constexpr double kStraight = 1e-6;
-/// Sine of the angle up to which what a groove's sides do counts as parallel: facets of a prism are so but
-/// for rounding, those of the side of a bent groove are not. A choice, not a measurement.
+/// Sine of the largest angle between parallel sides of a groove: facets of a prism are parallel up to
+/// rounding, those of a bent groove's side are not. Rule of thumb.
 constexpr double kParallel = 0.02;
-/// Ends are alike where one lies on the other, moved, but for this share of its length: what facets cut off
-/// round sides, and more. A choice, not a measurement.
+/// Ends are congruent if one moved onto the other is off by less than this share of its length: allows for
+/// the sag of round sides, and more. Rule of thumb.
 constexpr double kAlike = 0.005;
 
-/// As many uses of a loop from `start` as lie in one plane.
+/// The number of consecutive uses of a loop from `start` that lie in one plane.
 std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
 {
     const std::size_t uses = rim.uses.size();
@@ -54,7 +54,7 @@ std::size_t flat_run(const Model& model, const Rim& rim, std::size_t start)
     return uses;
 }
 
-/// Part of a loop: `count` uses from `first` on, round its end.
+/// Part of a loop: `count` uses from `first`, wrapping round at the end.
 struct Run {
     std::size_t first = 0, count = 0;
 };
@@ -66,20 +66,20 @@ std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
     return uses;
 }
 
-/// Where in a loop the run after the r-th of some begins, counted on beyond its last use. @pre they rise
+/// Start of the run after the r-th in a loop; may exceed the number of uses. @pre the runs are ascending
 std::size_t next_start(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     return r + 1 == runs.size() ? runs.front().first + rim.uses.size() : runs[r + 1].first;
 }
 
-/// What of a loop lies between the r-th of some runs and the next. @pre they rise and do not overlap
+/// The part of a loop between the r-th run and the next. @pre the runs are ascending and do not overlap
 Run between(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     const std::size_t end = runs[r].first + runs[r].count;
     return {end, next_start(rim, runs, r) - end};
 }
 
-/// Whether some rising runs of a loop go on past each other.
+/// Whether ascending runs of a loop overlap.
 bool overlap(const Rim& rim, const std::vector<Run>& runs)
 {
     for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -88,7 +88,7 @@ bool overlap(const Rim& rim, const std::vector<Run>& runs)
     return false;
 }
 
-/// Cut runs of uses off a loop by straight void edges. @return  each run's loop, then what is left.
+/// Separate runs of uses from a loop by straight void edges. @return  each run's loop, then the rest.
 std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
 {
     std::vector<Loop> parts(runs.size() + 1);
@@ -104,20 +104,20 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
     return parts;
 }
 
-/// Where to part a loop that lies in two planes.
+/// The place to split a loop that lies in two planes.
 std::optional<Run> half_run(const std::vector<std::size_t>& run)
 {
     const std::size_t uses = run.size();
     for (std::size_t i = 0; i < uses; ++i) {
         const std::size_t first = run[i], j = (i + first) % uses;
         if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
-        // Runs that go on past each other leave several places to part them: none is more right.
+        // Overlapping runs leave several places to split, none of which is preferable.
         if (run[j] == uses - first) return Run{i, first};
     }
     return std::nullopt;
 }
 
-/// The faces at the free edges.
+/// The faces with free edges.
 std::vector<FaceId> faces_at_edges(const Model& model)
 {
     std::vector<FaceId> at(model.edges.size());
@@ -127,7 +127,7 @@ std::vector<FaceId> faces_at_edges(const Model& model)
     return at;
 }
 
-/// How often an open chain of points changes its direction.
+/// How often an open chain of points changes direction.
 std::size_t turns(const std::vector<Vec3>& chain)
 {
     std::size_t count = 0;
@@ -138,16 +138,16 @@ std::size_t turns(const std::vector<Vec3>& chain)
     return count;
 }
 
-/// Whether a run of a loop or what is left of it shows that a flat face is missing there: two straight edges
-/// lie in a plane wherever they meet.
+/// Whether a run of a loop, or its complement, shows that a flat face is missing there; two straight edges
+/// alone do not, as they are always coplanar.
 bool tells_plane(const Model& model, const Rim& rim, const Run& run)
 {
     const auto tells = [&](const Run& part) { return turns(use_places(model, uses_of(rim, part))) >= 2; };
     return tells(run) || tells(between(rim, {&run, 1}, 0));
 }
 
-/// Whether some uses bend from one corner to the next and those beside are not parallel, as along a side of
-/// the sector of a ring: what is missing across from it may bend as it does.
+/// Whether some uses bend from corner to corner and the adjacent ones are not parallel, as along a side of a
+/// ring sector: the missing face opposite may bend in the same way.
 bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
 {
     const auto way = [&](EdgeUse use) {
@@ -167,8 +167,8 @@ bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
     return false;
 }
 
-/// The ends of a groove: runs of a loop that lie in planes of their own, where no given face does, and are no
-/// mere corners, which two straight edges are, and no sides of a ring.
+/// The ends of a groove: runs of a loop in planes without a given face. Excluded are mere corners, which are
+/// two straight edges, and sides of a ring.
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();
@@ -176,7 +176,7 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     std::vector<Run> ends;
     for (std::size_t i = 0; i < uses; ++i) {
         if (run[i] == 0 || run[i] == uses) continue;
-        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer one
+        if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer run
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
         const std::vector<std::vector<Vec3>> points{use_places(model, own)};
         if (turns(points.front()) < 2 || is_of_ring(model, own)) continue;
@@ -188,8 +188,8 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     return ends;
 }
 
-/// The way a groove runs: that of the straight edges of its mouth, from end to end.
-/// @return  nothing where one is bent or they are not parallel.
+/// The direction of a groove: that of the straight edges of its mouth from end to end.
+/// @return  empty if one is bent or they are not parallel.
 std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
 {
     std::optional<Vec3> way;
@@ -197,7 +197,7 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
         const std::vector<EdgeUse> own = uses_of(rim, between(rim, ends, r));
         if (own.empty()) continue;
         const std::vector<Vec3> chain = use_places(model, own);
-        if (turns(chain) > 0) continue; // across the mouth, where an end is given
+        if (turns(chain) > 0) continue; // across the mouth, at a given end
         const Vec3 along = (chain.back() - chain.front()).normalized();
         if (way && way->cross(along).norm() > kParallel) return std::nullopt;
         way = along;
@@ -205,8 +205,8 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
     return way;
 }
 
-/// Whether all faces that are not flat go along `way`. Beside a groove that is bent they do not: there the
-/// rim's long sides lie in planes of their own, and its ends are where the straight edges are.
+/// Whether all non-flat faces run along `way`. Those of a bent groove do not: the rim's long sides are then
+/// planar, and the straight edges are at the ends.
 bool all_go_along(const Model& model, const Vec3& way)
 {
     return std::ranges::all_of(all_faces(model), [&](FaceId face) {
@@ -222,7 +222,7 @@ bool all_go_along(const Model& model, const Vec3& way)
     });
 }
 
-/// Whether one run of a loop, walked back, is another that was turned and shifted.
+/// Whether one run of a loop, reversed, is another one rotated and shifted.
 bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
 {
     constexpr std::size_t kPieces = 32;
@@ -237,8 +237,8 @@ bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
     return true;
 }
 
-/// The ends of a channel: two runs that are alike, with edges of walls between them. They have three edges
-/// and more: two may be those of a triangle or of a rectangle, and a bent wall's own rim may lie in a plane.
+/// The ends of a channel: two congruent runs with edges of walls between them. They need three edges or more:
+/// two may belong to a triangle or a rectangle, and the rim of a bent wall may be planar.
 std::vector<Run> channel_ends(const Model& model, const Rim& rim, std::vector<Run> ends)
 {
     std::erase_if(ends, [](const Run& run) { return run.count < 3; });
@@ -255,8 +255,9 @@ bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<
     return way && all_go_along(model, *way);
 }
 
-/// Cut the ends of a straight groove off its loop. What lies in the plane of its mouth is no end but a part
-/// of that. @return  nothing where it is no such groove; the model is as it was then
+/// Separate the ends of a straight groove from its loop. Runs in the plane of its mouth are part of the
+/// mouth, not ends.
+/// @return  empty if it is no such groove; the model is then unchanged
 std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
 {
     if (!ends_straight_groove(model, rim, ends)) return std::nullopt;

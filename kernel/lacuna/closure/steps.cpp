@@ -26,22 +26,22 @@ using namespace topology;
 
 namespace {
 
-/// How many facets of a target's part say which part of the source it lies over.
+/// Number of facets of a target region that vote for the source part below it.
 constexpr std::size_t kVotes = 50;
 
-/// Each cut leaves pieces with fewer steps. More rounds than this are a fault, not a shape.
+/// Each cut reduces the number of steps; more rounds than this indicate an error.
 constexpr int kRounds = 64;
 
-/// A rim of an end from which the walls go away from the opposite end.
+/// A rim of an end where the walls lead away from the opposite end.
 struct Hanging {
     std::size_t part = 0; ///< of the end
     Rim rim;
 };
 
-/// How the rims of an end turn into the walls.
+/// The rims of an end where the walls turn.
 struct Steps {
-    std::vector<std::vector<FaceId>> parts; ///< of the end, that hang together
-    std::vector<Hanging> closed;            ///< all round
+    std::vector<std::vector<FaceId>> parts; ///< connected parts of the end
+    std::vector<Hanging> closed;            ///< rims with such walls all round
     std::vector<FaceId> risers;             ///< walls at steps that end at other walls
 };
 
@@ -76,14 +76,14 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
     return steps;
 }
 
-/// A rim laid onto the opposite end.
+/// A rim projected onto the opposite end.
 struct Imprinted {
-    std::size_t part = 0; ///< it is a rim of
+    std::size_t part = 0; ///< the part whose rim it is
     Rim rim;
     FaceId target;                       ///< the face it lies on
-    std::size_t inside = 0, outside = 0; ///< the regions of that face on both sides of it
-    std::vector<Index> points;           ///< of the model, the first not repeated
-    std::vector<Vec2> flat;              ///< the same seen along the sweep
+    std::size_t inside = 0, outside = 0; ///< the regions of that face on its two sides
+    std::vector<Index> points;           ///< of the model, the first is not repeated
+    std::vector<Vec2> flat;              ///< the same, projected along the sweep
     std::vector<FaceId> curtain;
 };
 
@@ -136,7 +136,7 @@ private:
         FaceId face;
         Vec2 uv = Vec2::Zero();
     };
-    /// Where the line through a point along the sweep meets the opposite end.
+    /// The point where the line through a point along the sweep meets the opposite end.
     std::optional<Hit> above(const Vec3& p)
     {
         const auto hit = opposite_tree().first_along(p, along_);
@@ -152,7 +152,7 @@ private:
         return found;
     }
 
-    /// Faces from a rim to the opposite end.
+    /// Extrude void faces from a rim to the opposite end.
     void hang(const Hanging& hanging)
     {
         const Rim& rim = hanging.rim;
@@ -160,7 +160,7 @@ private:
         Imprinted image;
         image.part = hanging.part;
         image.rim = rim;
-        std::map<Index, Index> above_of; // of each point of the rim
+        std::map<Index, Index> above_of; // by point of the rim
         const auto lift = [&](Index p) {
             const auto known = above_of.find(p);
             if (known != above_of.end()) return known->second;
@@ -169,7 +169,7 @@ private:
             if (!hit || (image.target.valid() && hit->face != image.target)) {
                 refuse("the rim of the step at " + name_of(model_, ends_[hanging.part].front()) +
                        (hit ? " lies below " + name_of(model_, image.target) + " and " +
-                                  name_of(model_, hit->face) + ": give the opposite end there as one face"
+                                  name_of(model_, hit->face) + "; give the opposite end there as one face"
                             : " does not lie below the opposite end everywhere"));
             }
             image.target = hit->face;
@@ -196,7 +196,7 @@ private:
             std::vector<Index> high;
             for (const Index p : low) high.push_back(lift(p));
             const VertexId from = use_from(model_, use), to = use_to(model_, use);
-            // A closed rim hangs as a ring of two loops, others as one face a side.
+            // A closed rim gives a ring face with two loops, other rims one face per side.
             const bool closed = rim.uses.size() == 1;
             add_void_edge(model_, vertex(from), vertex(to), high);
             if (!closed) {
@@ -215,7 +215,7 @@ private:
         images_.push_back(std::move(image));
     }
 
-    /// Cut a face of the opposite end along the rims laid onto it.
+    /// Split a face of the opposite end along the rims projected onto it.
     void split(FaceId id)
     {
         std::vector<Imprinted*> own;
@@ -225,8 +225,9 @@ private:
             regions_.push_back(id);
             return;
         }
-        std::vector<std::size_t> region; // of each ring: the one that lies within it
-        // All loops, the face's own first; each region lies within one and outside those right within it.
+        std::vector<std::size_t> region; // by ring: the region inside it
+        // All loops, the face's own first; each region is inside one loop and outside the loops directly
+        // within it.
         struct Ring {
             std::vector<Index> points;
             std::vector<Vec2> flat;
@@ -262,7 +263,7 @@ private:
         const bool turned = area.dot(along_) < 0;
         bool first = true;
         for (std::size_t outer = 0; outer < rings.size(); ++outer) {
-            // A hole of the face bounds no region of its own.
+            // A hole of the face bounds no region.
             if (outer < given && parents[outer] != rings.size()) continue;
             std::vector<std::vector<Index>> loops;
             std::vector<Vec2> flat_points;
@@ -283,10 +284,9 @@ private:
             geometry::Triangulation made;
             try {
                 made = geometry::triangulate(flat_points, loops, options, context_);
-            } catch (const InvalidInput& error) { // which knows loops and no faces
+            } catch (const InvalidInput& error) { // the error names loops, not faces
                 refuse(name_of(model_, id) +
-                       " cannot be split along the outlines of what stands on it or lies over it: " +
-                       error.what());
+                       " cannot be split along the projected outlines of the steps: " + error.what());
             }
             Face face = before;
             face.triangles.clear();
@@ -300,7 +300,7 @@ private:
                     const Vec3 from = made.points[p].x() * right_ + made.points[p].y() * up_ + far_back();
                     const std::optional<Hit> hit = above(from);
                     if (!hit)
-                        refuse(name_of(model_, id) + " folds back as seen along the sweep, and is not cut");
+                        refuse(name_of(model_, id) + " folds back as seen along the sweep and cannot be cut");
                     model_.points.push_back(hit->place);
                     uv_.insert_or_assign(points.back(), hit->uv);
                 }
@@ -337,7 +337,8 @@ private:
         return (least - volume_.model.diagonal) * along_;
     }
 
-    /// Surface parameters of the corners: those found on the way, and at the old rim those of its old facets.
+    /// Set the corners' surface parameters: those found by projection, and at the old rim those of the old
+    /// facets.
     void set_uv(const Face& before, Face& face) const
     {
         std::map<Index, Vec2> known(uv_.begin(), uv_.end());
@@ -350,7 +351,7 @@ private:
 
     std::vector<StepPiece> pieces()
     {
-        // Which part of the stepped end each region of the other lies over.
+        // Find the part of the stepped end below each region of the other end.
         std::vector<Triangle> triangles;
         std::vector<std::size_t> part;
         for (std::size_t p = 0; p < ends_.size(); ++p) {
@@ -361,7 +362,8 @@ private:
             }
         }
         const geometry::FacetTree ends(model_.points, triangles);
-        // Where nothing of the stepped end lies below, its face is missing: one more part, without faces.
+        // A region with no part of the stepped end below it belongs to a missing face: one more part, without
+        // faces.
         const std::size_t none = ends_.size();
         std::vector<std::size_t> part_of(regions_.size(), none);
         std::vector<std::vector<FaceId>> opposite(none + 1), walls(none + 1);
@@ -378,12 +380,12 @@ private:
             part_of[r] = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first;
             opposite[part_of[r]].push_back(regions_[r]);
         }
-        std::vector<std::size_t> below(none + 1, none); // the part round a part that hangs
+        std::vector<std::size_t> below(none + 1, none); // the part around an inner part
         for (const Imprinted& image : images_) {
             const std::size_t outer = part_beyond(image, part_of);
             if (outer == image.part)
-                refuse("what lies on both sides of the step at " + name_of(model_, ends_[outer].front()) +
-                       " has the same end below, seen along the sweep");
+                refuse("the faces on both sides of the step at " + name_of(model_, ends_[outer].front()) +
+                       " have the same end below, seen along the sweep");
             below[image.part] = outer;
             for (const std::size_t p : {image.part, outer})
                 walls[p].insert(walls[p].end(), image.curtain.begin(), image.curtain.end());
@@ -416,15 +418,15 @@ private:
         return result;
     }
 
-    /// The part on the other side of what hangs from a rim.
+    /// The part on the other side of the void faces below a rim.
     static std::size_t part_beyond(const Imprinted& image, const std::vector<std::size_t>& part_of)
     {
         const std::size_t inside = part_of[image.inside];
         return inside == image.part ? part_of[image.outside] : inside;
     }
 
-    /// The piece that walls are of: that of the part they go up from; else the one round the part they go
-    /// down from; else that of the opposite region they touch.
+    /// The piece that walls belong to: that of the part they lead up from; otherwise the one around the part
+    /// they lead down from; otherwise that of the opposite region they touch.
     [[nodiscard]] std::size_t part_with(const std::vector<FaceId>& faces,
                                         const std::vector<std::size_t>& part_of,
                                         const std::vector<std::vector<FaceId>>& opposite) const
@@ -459,33 +461,34 @@ private:
     Model model_;
     Role stepped_, other_;
     const RunContext& context_;
-    std::vector<std::vector<FaceId>> ends_; ///< parts that hang together, of the stepped end
+    std::vector<std::vector<FaceId>> ends_; ///< connected parts of the stepped end
     std::vector<Hanging> hanging_;
     Vec3 along_ = Vec3::Zero(), right_ = Vec3::Zero(), up_ = Vec3::Zero();
     std::vector<Imprinted> images_;
     std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
-    std::map<Index, Vec2> uv_;                          ///< of points laid onto the opposite end
-    std::optional<geometry::FacetTree> tree_;           ///< of the opposite end as it came
-    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< of each triangle of the tree
+    std::map<Index, Vec2> uv_;                          ///< of points projected onto the opposite end
+    std::optional<geometry::FacetTree> tree_;           ///< of the original opposite end
+    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree
 };
 
-/// The opposite end of steps, where it is missing and one open loop shows it: flat, or as its rim bends.
+/// Close a missing end opposite to steps from the only open loop: flat, or bent like its rim.
 void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
     const std::string step = name_of(volume.model,
                                      volume.model.faces.empty() ? FaceId() : steps.parts.back().front());
     if (open.size() != 1)
-        throw NotSweepable("closure.steps", "the steps at " + step +
-                                                " are cut towards the opposite end, which is missing, and " +
-                                                std::to_string(open.size()) +
-                                                " loops are open; give its face, or the other faces");
+        throw NotSweepable("closure.steps",
+                           "the steps at " + step +
+                               " are cut towards the opposite end, which is missing, and " +
+                               std::to_string(open.size()) +
+                               " loops are open instead of one; give its face, or the other missing faces");
     add_void_face(
         volume, fill(volume, {reversed(open.front())}, nullptr, "the end opposite " + step, context), other);
     build_loops(volume.model);
 }
 
-/// Cut a volume, and all pieces of it that are met, by the planes of some of its faces, one after the other.
+/// Cut a volume, and all resulting pieces that are hit, by the planes of some of its faces in turn.
 std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector<FaceId>& faces,
                                      const RunContext& context)
 {
@@ -498,11 +501,10 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                     cut.push_back(std::move(own));
             } catch (const NotSweepable& error) {
                 if (error.code() == "closure.cut_face")
-                    throw NotSweepable(
-                        "closure.steps",
-                        "the step at " + name_of(volume.model, face) +
-                            " is not flat, so that no plane goes on from it, and no face hangs "
-                            "from a closed rim there; cut the volume by cut{ plane = … }");
+                    throw NotSweepable("closure.steps",
+                                       "the step at " + name_of(volume.model, face) +
+                                           " is not flat, so it has no plane to cut by, and its rim is not "
+                                           "closed; cut the volume with cut{ plane = … }");
                 if (error.code() != "closure.cut_misses") throw;
                 cut.push_back(piece);
             }
@@ -512,7 +514,7 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
     return pieces;
 }
 
-/// The ends of a volume whose rims turn into the walls.
+/// The steps of the two ends of a volume.
 std::array<Steps, 2> steps_of(const OpenVolume& volume, const RunContext& context)
 {
     const std::vector<double> turns = concave_turns(volume, context);
@@ -524,7 +526,7 @@ void sort_by_level(std::vector<StepPiece>& pieces)
     std::ranges::stable_sort(pieces, {}, &StepPiece::level);
 }
 
-/// The way from source to target that their faces show, unit.
+/// The unit direction from source to target, from their faces.
 Vec3 sweep_way(const OpenVolume& volume)
 {
     Vec3 way = Vec3::Zero();
@@ -533,7 +535,7 @@ Vec3 sweep_way(const OpenVolume& volume)
     return way.stableNormalized();
 }
 
-/// Of pieces side by side the level of each: 0 for the longest along the way, then as many as are longer.
+/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of longer ones.
 std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Vec3& way)
 {
     std::vector<double> length;
@@ -564,7 +566,7 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     return levels;
 }
 
-/// Hang faces from closed rims, of one end after the other, until no piece has any.
+/// Extrude void faces from closed rims, one end after the other, until no piece has such a rim.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
     face_away(volume, context);
@@ -573,8 +575,7 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
         Steps& own = steps[end == Role::source ? 0 : 1];
         if (own.closed.empty()) continue;
         if (round == kRounds)
-            throw NotSweepable("closure.steps",
-                               "the volume has more steps than are cut; cut it by planes first");
+            throw NotSweepable("closure.steps", "the volume has too many steps; cut it by planes first");
         const Role other = end == Role::source ? Role::target : Role::source;
         if (volume.faces(other).empty()) cap_opposite(volume, other, own, context);
         std::vector<StepPiece> result;
@@ -589,13 +590,13 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const std::vector<std::vector<FaceId>>& parts = steps[end == Role::source ? 0 : 1].parts;
         if (parts.size() < 2) continue;
-        throw NotSweepable("closure.steps",
-                           std::string("the ") + (end == Role::source ? "source" : "target") +
-                               " lies apart in several places, as " +
-                               name_of(volume.model, parts[0].front()) + " and " +
-                               name_of(volume.model, parts[1].front()) +
-                               ", and no walls go down from one to the other; make two volumes "
-                               "of it, or cut it by cut{ plane = … }");
+        throw NotSweepable("closure.steps", std::string("the ") +
+                                                (end == Role::source ? "source" : "target") +
+                                                " has several separate parts, such as " +
+                                                name_of(volume.model, parts[0].front()) + " and " +
+                                                name_of(volume.model, parts[1].front()) +
+                                                ", and no walls lead from one to the other; make two volumes "
+                                                "of it, or cut it with cut{ plane = … }");
     }
     return {{std::move(volume), 0}};
 }
@@ -605,7 +606,7 @@ bool is_stepped(const Steps& steps)
     return steps.parts.size() > 1 || !steps.closed.empty() || !steps.risers.empty();
 }
 
-/// In the planes of all flat steps; `why` they are not hung from is what is said where that fails too.
+/// Cut in the planes of all flat steps. If that fails too, `why`, the error of the extrusion, is thrown.
 std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
                                      const std::exception_ptr& why, const RunContext& context)
 {
@@ -622,7 +623,7 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
         if (done) return pieces;
     } catch (const Cancelled&) {
         throw;
-    } catch (const Error&) { // what was wrong first says more
+    } catch (const Error&) { // the first error is more helpful
     }
     std::rethrow_exception(why);
 }
@@ -645,7 +646,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());
     std::vector<StepPiece> result;
     if (!risers.empty()) {
-        // Faces hang from what is left all round.
+        // The remaining steps have rims with such walls all round.
         const std::vector<StepPiece> cut = cut_by_planes(volume, risers, context);
         const std::vector<int> levels = levels_by_length(cut, sweep_way(volume));
         for (std::size_t p = 0; p < cut.size(); ++p) {

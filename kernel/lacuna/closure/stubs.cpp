@@ -19,7 +19,7 @@ std::set<EdgeId> rim_edges(const OpenVolume& volume, Role end)
     return edges;
 }
 
-/// How many of the part's rims lie wholly on the end's; -1 when one lies there only partly.
+/// Number of the part's rims that lie entirely on the end's; -1 if one lies there only partly.
 int whole_rims(const std::vector<Rim>& part, const std::set<EdgeId>& end)
 {
     int whole = 0;

@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Places on a rim that the plate goes through: teeth have several each. The work grows with its cube.
+/// Points of a rim that the plate interpolates: enough for several per tooth. The cost grows with the cube.
 constexpr std::size_t kPlaces = 256;
 
 Eigen::RowVectorXd terms_at(const ThinPlate& plate, const Vec2& place)

@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// A side of a patch: its points, and at which share of the side each stands.
+/// A side of a patch: its points, and their shares of the side's length.
 struct PatchSide {
     std::vector<Index> chain;
     std::vector<Vec3> points;
@@ -36,8 +36,8 @@ PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
     return side;
 }
 
-/// Stand the points of a rising side at their height on the walls, the way the follower counts it; a void
-/// edge was made at even heights.
+/// Place the points of a rising side by the follower's height on the walls, because void edges have points at
+/// even heights.
 void by_height(PatchSide& side, const Follower& follower, bool rising)
 {
     const std::size_t n = side.chain.size();
@@ -50,7 +50,7 @@ void by_height(PatchSide& side, const Follower& follower, bool rising)
     side.share.back() = 1;
 }
 
-/// Add a cell of a grid as two facets: diagonals by turns lean to neither side.
+/// Add a grid cell as two facets, with alternating diagonals to avoid a bias.
 void add_halves(geometry::Triangulation& grid, const Quad& q, std::size_t turn)
 {
     const std::size_t k = turn % 2;
@@ -58,8 +58,8 @@ void add_halves(geometry::Triangulation& grid, const Quad& q, std::size_t turn)
     grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
 }
 
-/// Facets of a rectangle whose opposite sides have as many points: the grid between them, so that no facet
-/// cuts a corner that the sides do not.
+/// Triangulate a rectangle with as many points on opposite sides: a grid between them, so that facets resolve
+/// corners as finely as the sides.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
                                      double width, double height)
 {
@@ -86,23 +86,23 @@ geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const
     return grid;
 }
 
-/// How far a patch between four straight sides would be off two flat facets [model length].
+/// Distance of a patch between four straight sides from two flat facets [model length].
 double twist_of(const std::array<PatchSide, 4>& side)
 {
     const auto corner = [&](std::size_t i) { return side[i].points.front(); };
     return (corner(0) - corner(1) + corner(2) - corner(3)).norm() / 4;
 }
 
-/// Facets of a rectangle whose patch is twisted or bent both ways: a grid inside, no coarser than the sides,
-/// and facets from it to the sides as they are.
-/// @param width, height  segments of the sides each way: their own size in the plane.
+/// Triangulate a rectangle whose patch is twisted or doubly curved: an inner grid at least as fine as the
+/// sides, and facets from it to the sides.
+/// @param width, height  segments of the sides in each direction, which are also the rectangle's size.
 geometry::Triangulation grid_within(const Outline& outline, double width, double height,
                                     const RunContext& context)
 {
-    // Cells each way: facets miss a twisted patch by 1/256 of what two of them do. Sides cut finer are bent,
-    // and facets inside are to be no coarser.
+    // Cells per direction: the facets' error on a twisted patch is then 1/256 of that of two facets. If the
+    // sides are finer, they are curved, and the grid is at least as fine.
     constexpr Index kCells = 16;
-    // Many cells: no closer than a scan's sides ask for, which a void face does not need. A choice.
+    // Upper bound of cells, for the sides of scans: a void face needs no such resolution. Rule of thumb.
     constexpr double kMostCells = 1e5;
     const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
     const Index across = std::max(kCells, static_cast<Index>(width / coarser));
@@ -141,8 +141,8 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
         by_height(side[1], *follower, true);
         by_height(side[3], *follower, false);
     }
-    // Cut a rectangle that counts the sides' own segments: facets are then as long each way as the sides,
-    // which were cut by their curvature, are that way.
+    // Measure the rectangle in segments of its sides: facets then have the sides' segment length in each
+    // direction, which depends on curvature.
     const auto segments = [&](std::size_t i, std::size_t j) {
         return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
     };
@@ -162,7 +162,7 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     }
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
-    // A few facets would stand for a twisted patch that the swept mesh follows.
+    // A twisted patch must not be represented by a few facets, because the swept mesh follows it.
     constexpr double kFewSegments = 8, kFlat = 1e-3;
     const double across = (side[0].points.front() - side[2].points.front()).norm();
     const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kFlat * across;

@@ -30,7 +30,7 @@ std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& f
     return facets;
 }
 
-/// Of each part, whether it lies within another.
+/// By part, whether it is inside another.
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                               const RunContext& context)
 {
@@ -47,7 +47,7 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
     return inner;
 }
 
-/// Whether facets face away from their middle.
+/// Whether facets face away from their centre.
 bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
 {
     Vec3 centre = Vec3::Zero();
@@ -66,11 +66,10 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
     return sum >= 0;
 }
 
-/// Facets of an end that are asked what lies over them, about so many.
+/// Approximate number of an end's facets from which rays are cast.
 constexpr std::size_t kAsked = 50;
 
-/// The facets of all parts of the skin, for what is seen along a ray of some of them. Made when first asked:
-/// most skins tell by their walls.
+/// The facets of all parts of the skin for ray casting. Built on demand: for most skins the walls suffice.
 class PartsSeen {
 public:
     PartsSeen(const Model& model, const std::vector<std::vector<FaceId>>& parts, const RunContext& context)
@@ -78,7 +77,7 @@ public:
     {
     }
 
-    /// The first face along a ray, of the part alone or of all others.
+    /// The first face along a ray, of one part or of all others.
     [[nodiscard]] std::optional<FaceId> first(const Vec3& origin, const Vec3& way, std::size_t part,
                                               bool others)
     {
@@ -113,13 +112,13 @@ private:
     const Model& model_;
     const std::vector<std::vector<FaceId>>& parts_;
     const RunContext& context_;
-    std::vector<FaceId> face_;      ///< of each facet
-    std::vector<std::size_t> part_; ///< of each facet
+    std::vector<FaceId> face_;      ///< by facet
+    std::vector<std::size_t> part_; ///< by facet
     std::optional<geometry::FacetTree> tree_;
 };
 
-/// Area of a part's ends that see the opposite end, its own or of other parts, on the side they face, less
-/// that of those that see it behind them: the void lies between a source and the target it looks at.
+/// Area of a part's ends that see the opposite end, their own or of other parts, on the side they face, minus
+/// the area of those that see it behind them: the void is between a source and the target it faces.
 double faces_opposite(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts, std::size_t p,
                       PartsSeen& seen, bool others)
 {
@@ -152,9 +151,9 @@ std::vector<char> points_on_edges(const Model& model)
     return on_edge;
 }
 
-/// How far the walls of a part leave its ends on the side those face, over all their common sides; negative
-/// where they leave behind, and 0 where some do this and some that, or it has not both ends. Walls between
-/// two ends run along the void, and only a step's leave it.
+/// How far the walls of a part lead off its ends on the side these face, summed over their common sides;
+/// negative if they lead off behind, and 0 if both occur or an end is missing. Walls between two ends run
+/// along the void; only those of a step lead off it.
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {
@@ -163,11 +162,11 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
     };
     if (!has(Role::source) || !has(Role::target)) return 0;
     const Model& model = volume.model;
-    // Faces share sides along edges alone.
+    // Faces share sides only along edges.
     const auto may_be_shared = [&](Index a, Index b) {
         return on_edge[index(a)] != 0 && on_edge[index(b)] != 0;
     };
-    std::unordered_map<std::uint64_t, Vec3> ends; // unit normal of an end's facet, of each of its sides
+    std::unordered_map<std::uint64_t, Vec3> ends; // by side: unit normal of an end's facet there
     for (const FaceId face : part) {
         if (volume.role[face.index()] == Role::wall) continue;
         for (const Triangle& t : model[face].triangles) {
@@ -196,10 +195,10 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
     return before > 0 && behind < 0 ? 0 : before + behind;
 }
 
-/// Of each part, whether its facets face the void. Of a part that lies within no other, walls that all leave
-/// its two ends to one side say so; else its ends, where they see the opposite end of another part or, of a
-/// part that lies within no other, its own; else facets face away from their middle, or towards it where the
-/// part lies within another.
+/// By part, whether its facets face the void. In a part inside no other, walls that all lead off its two ends
+/// to one side decide; otherwise its ends, if they see the opposite end of another part or, for a part inside
+/// no other, their own; otherwise facets face away from their centre, or towards it if the part is inside
+/// another.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                     const std::vector<char>& on_edge, const RunContext& context)
 {
@@ -227,7 +226,7 @@ std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& co
     const std::vector<std::vector<FaceId>> parts = parts_of(model);
     const std::vector<char> on_edge = points_on_edges(model);
     const std::vector<bool> facing = parts_facing_void(volume, parts, on_edge, context);
-    std::vector<double> away(model.faces.size(), 1); // from the void: +1 as the facets face
+    std::vector<double> away(model.faces.size(), 1); // away from the void: +1 along the facets' normals
     for (std::size_t p = 0; p < parts.size(); ++p) {
         for (const FaceId face : parts[p]) away[face.index()] = facing[p] ? -1 : 1;
     }
@@ -240,7 +239,7 @@ std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& co
         Vec3 normal;
         std::size_t face;
     };
-    std::unordered_map<std::uint64_t, Beside> beside; // of a directed side on an edge
+    std::unordered_map<std::uint64_t, Beside> beside; // by directed side on an edge
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         check_cancelled(context);
         for (const Triangle& t : model.faces[f].triangles) {
@@ -264,7 +263,8 @@ std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& co
             const Vec3 way = model.at(b) - model.at(a);
             const Vec3 turn = left->second.normal.cross(right->second.normal);
             const double angle = std::atan2(turn.norm(), left->second.normal.dot(right->second.normal));
-            // From the facet that runs with the edge to the other, a convex skin turns about the edge's way.
+            // Going from the facet that runs along the edge to the other, a convex skin turns about the
+            // edge's direction.
             const double convex = away[left->second.face] * (turn.dot(way) > 0 ? 1 : -1);
             sum -= way.norm() * convex * angle;
             length += way.norm();

@@ -21,13 +21,13 @@ using namespace topology;
 
 namespace {
 
-/// Segments of a void edge at most: a bend by 90° turns by less than 1.5° at each.
+/// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
-/// A smooth curve's tangents turn by 3/4 of a circle over the chord at most: its handles go to infinity at a
-/// full one. A choice, not a measurement.
+/// Maximum turn of a smooth curve's tangents, 3/4 of a circle: its handles become infinite at a full one.
+/// Rule of thumb.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
-/// The ends face each other if their normals lean towards each other by more than this share of the chords.
-/// A choice, not a measurement.
+/// The ends face each other if their normals point towards each other by more than this share of the chords.
+/// Rule of thumb.
 constexpr double kFacing = 1e-6;
 
 // --- gaps ---------------------------------------------------------------------------------------------
@@ -57,7 +57,7 @@ struct Spacing {
     [[nodiscard]] double mean() const { return segments > 0 ? length / static_cast<double>(segments) : 0; }
 };
 
-/// Count an edge at its ends.
+/// Add an edge to the spacing of its two ends.
 void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
 {
     const Edge& edge = model[id];
@@ -66,7 +66,7 @@ void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
     if (edge.to != edge.from) at[edge.to.index()].add(length, edge.points.size() - 1);
 }
 
-/// Of every vertex.
+/// Spacing at every vertex.
 std::vector<Spacing> spacing_of(const Model& model)
 {
     std::vector<Spacing> at(model.vertices.size());
@@ -74,7 +74,7 @@ std::vector<Spacing> spacing_of(const Model& model)
     return at;
 }
 
-/// @param spacing  of the facet points at the gap's start; 0: there are none.
+/// @param spacing  of the facet points at the gap's start; 0: unknown.
 std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spacing)
 {
     const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
@@ -89,7 +89,7 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     return points;
 }
 
-/// As the walls lead between the heights where the gap begins and ends, moved to meet its ends.
+/// Follow the walls between the heights of the gap's ends, shifted to meet the ends.
 std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Follower& follower)
 {
     const auto at = [&](VertexId v) { return model.at(model[v].point); };
@@ -114,7 +114,7 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     return points;
 }
 
-/// Normal of an end's faces at a vertex, by its facets' angles there; outward or inward as the faces are.
+/// Normal of an end at a vertex, weighted by the facets' angles; outward or inward like the faces.
 Vec3 normal_at(const OpenVolume& volume, Role end, VertexId vertex)
 {
     const Model& model = volume.model;
@@ -134,12 +134,12 @@ Vec3 normal_at(const OpenVolume& volume, Role end, VertexId vertex)
     return sum.stableNormalized();
 }
 
-/// Unit directions in which a smooth void edge leaves its first end and arrives at its last.
+/// Unit tangents of a smooth void edge at its first and last end.
 struct Tangents {
     Vec3 leave, arrive;
 };
 
-/// @param side  1 or -1: which side of the ends' faces the void is on.
+/// @param side  1 or -1: on which side of the ends' faces the void is.
 Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* walls, double side)
 {
     const Model& model = volume.model;
@@ -162,7 +162,7 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
     return result;
 }
 
-/// On which side of the ends' faces the void is: where the normals lean towards the other end.
+/// The side of the ends' faces on which the void is: where the normals point towards the other end.
 double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
 {
     const Model& model = volume.model;
@@ -184,8 +184,8 @@ double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, cons
         throw NotClosed("closure.no_side",
                         name_of(model, volume.faces(Role::source).front()) + " and " +
                             name_of(model, volume.faces(Role::target).front()) +
-                            " do not face each other, so smooth void edges could leave them to either side; "
-                            "give one by hand with close{ void_edges = … }");
+                            " do not face each other, so smooth void edges could leave on either side; "
+                            "give one with close{ void_edges = … }");
     }
     return lean < 0 ? -1 : 1;
 }
@@ -206,7 +206,7 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
     return points;
 }
 
-// --- given by hand --------------------------------------------------------------------------------------
+// --- given by the user ----------------------------------------------------------------------------------
 
 std::string named(const VoidEdge& edge)
 {
@@ -226,11 +226,11 @@ VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
     for (const Vertex& vertex : model.vertices) known = known || vertex.tag == tag;
     throw InvalidInput("closure.void_edge_vertex",
                        named(edge) + ": vertex " + std::to_string(tag) +
-                           (known ? " is on no free rim" : " is none of the volume's") +
+                           (known ? " is not on a free rim" : " is not in the volume") +
                            "; the vertices of the free rims are " + list);
 }
 
-/// The way of a void edge given by hand, its ends left out where the person gave them too.
+/// The course of a user's void edge, without its ends if the user gave them too.
 std::vector<Vec3> course_by_hand(const Model& model, const VoidEdge& edge, VertexId from, VertexId to)
 {
     std::vector<Vec3> points;
@@ -245,15 +245,16 @@ std::vector<Vec3> course_by_hand(const Model& model, const VoidEdge& edge, Verte
                             (i + 1 == edge.points.size() && (p - last).norm() <= model.tolerance);
         if (at_end) continue;
         if ((p - before).norm() <= model.tolerance || (p - last).norm() <= model.tolerance)
-            throw InvalidInput("closure.void_edge_point", named(edge) + ": point " + std::to_string(i + 1) +
-                                                              " lies on the one before or on an end");
+            throw InvalidInput("closure.void_edge_point",
+                               named(edge) + ": point " + std::to_string(i + 1) +
+                                   " coincides with the previous one or with an end");
         points.push_back(p);
         before = p;
     }
     return points;
 }
 
-/// @throw InvalidInput  the edge goes through a given face.
+/// @throw InvalidInput  the edge crosses a given face.
 void check_clear(const Model& model, const VoidEdge& edge, const std::vector<Vec3>& way,
                  const RunContext& context)
 {
@@ -269,14 +270,14 @@ void check_clear(const Model& model, const VoidEdge& edge, const std::vector<Vec
             if (hit.triangle < 0 || hit.t > end - start) continue;
             const Vec3 place = way[i] + (start + hit.t) * along;
             throw InvalidInput("closure.void_edge_crosses",
-                               named(edge) + " goes through " + name_of(model, FaceId(f)) + " at (" +
+                               named(edge) + " crosses " + name_of(model, FaceId(f)) + " at (" +
                                    std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
                                    std::to_string(place.z()) + ")");
         }
     }
 }
 
-/// Void edges being made.
+/// Creates the void edges.
 class Maker {
 public:
     Maker(OpenVolume& volume, std::vector<Gap> gaps, const RunContext& context)
@@ -330,9 +331,9 @@ private:
             for (const VertexId end : {from, to}) {
                 if (gap.from != end && gap.to != end) continue;
                 throw InvalidInput("closure.void_edge_contradicts",
-                                   named(edge) + ": " + name_of(model, end) + " goes to " +
+                                   named(edge) + ": " + name_of(model, end) + " is paired with " +
                                        name_of(model, gap.from == end ? gap.to : gap.from) +
-                                       " by the match; match the vertices anew with match{ vertices = … }");
+                                       " by the match; pair the vertices with match{ vertices = … }");
             }
         }
     }
@@ -354,7 +355,7 @@ private:
     OpenVolume& volume_;
     std::vector<Gap> gaps_;
     const RunContext& context_;
-    std::vector<Spacing> spacing_; ///< at each vertex
+    std::vector<Spacing> spacing_; ///< by vertex
     std::vector<EdgeId> made_;
     std::set<std::pair<VertexId, VertexId>> pairs_;
 };

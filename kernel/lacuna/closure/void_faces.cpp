@@ -31,7 +31,7 @@ public:
 
     [[nodiscard]] bool open(EdgeUse half) const { return halves_.contains(half); }
 
-    /// Walk from a half until it is reached again; nothing when the walk ends in a vertex with no way on.
+    /// Walk from a half-edge until it is reached again; empty if the walk reaches a dead end.
     [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse start, int depth) const
     {
         std::vector<EdgeUse> path{start};
@@ -70,7 +70,7 @@ private:
             if (next.edge == half.edge && next.reversed != half.reversed) continue;
             (made_.contains(next.edge) ? made : given).push_back(next);
         }
-        // A void edge is there to be turned into; after one, the rim goes on.
+        // Turn into a void edge where possible; after one, continue along the rim.
         const bool came_by_void = made_.contains(half.edge);
         std::vector<EdgeUse>& first = came_by_void ? given : made;
         return first.empty() ? (came_by_void ? made : given) : first;
@@ -91,7 +91,7 @@ private:
         return best;
     }
 
-    /// How many halves it takes from `from` to come to `goal`.
+    /// Number of half-edges from `from` to `goal`.
     std::optional<std::size_t> walk_to(EdgeUse from, EdgeUse goal, int depth) const
     {
         std::set<EdgeUse> on_path{from};
@@ -115,7 +115,7 @@ private:
     std::map<VertexId, std::vector<EdgeUse>> leaving_;
 };
 
-/// How many branchings ahead a walk looks. A choice, not a measurement.
+/// Number of branchings that a walk looks ahead. Rule of thumb.
 constexpr int kLookAhead = 3;
 
 } // namespace
@@ -147,9 +147,9 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
         if (!path) {
             throw NotClosed("closure.walk_open",
                             "the walk from free " + name_of(model, start.edge) +
-                                " does not come back to it: the free edges around it do not form a loop; "
+                                " does not return to it, so the free edges around it form no loop; "
                                 "check the faces next to it, "
-                                "or match the vertices by hand with match{ vertices = … }");
+                                "or pair the vertices with match{ vertices = … }");
         }
         walker.take(*path);
         loops.push_back({*path});

@@ -52,7 +52,8 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     return result;
 }
 
-/// Heights over the Newell plane, harmonic inside and `rim` at the outline's points, which come first.
+/// Heights over the Newell plane, harmonic inside and equal to `rim` at the outline's points, which come
+/// first.
 std::vector<double> harmonic_heights(const geometry::Triangulation& flat, const std::vector<double>& rim,
                                      const RunContext& context)
 {
@@ -78,7 +79,7 @@ std::vector<double> rim_heights(const Model& model, const NewellOutline& newell)
     return heights;
 }
 
-/// A place as what a quadratic height is linear in.
+/// The monomials of a quadratic height at a place.
 using Quadratic = Eigen::Matrix<double, 6, 1>;
 
 Quadratic powers_at(const Vec2& p)
@@ -88,10 +89,10 @@ Quadratic powers_at(const Vec2& p)
     return powers;
 }
 
-/// Heights over a plane, quadratic in the place.
+/// Heights over a plane, quadratic in the position.
 struct QuadraticHeight {
     Vec2 centre = Vec2::Zero();
-    Eigen::Matrix2d stretch = Eigen::Matrix2d::Identity(); ///< to the frame the coefficients are for
+    Eigen::Matrix2d stretch = Eigen::Matrix2d::Identity(); ///< to the coefficients' frame
     Quadratic coefficient = Quadratic::Zero();
 
     [[nodiscard]] double at(const Vec2& p) const
@@ -100,21 +101,22 @@ struct QuadraticHeight {
     }
 };
 
-/// The quadratic height a rim lies on, as that of a mouth in a shaft does; nothing where it lies on none, or
-/// on many: a conic's points leave open how high its inside is.
+/// The quadratic height through a rim, as for a mouth in a shaft; empty if there is none or many: points on a
+/// conic do not determine the height inside.
 std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
 {
-    // Share of the bulge that a rim may be off. Mouths of slots in shafts and balls of 1.6 to six times their
-    // reach: below 0.025; walls that are missing beside stubs of a bent prism: above 0.045.
+    // Tolerance as a share of the bulge. Mouths of slots in shafts and spheres of 1.6 to six times their
+    // radius are below 0.025; missing walls next to partial walls of a bent prism are above 0.045.
     constexpr double kOnIt = 0.03;
-    // Least eigenvalue to the largest. Ellipses: below 1e-4, slots half as long again as wide: 9e-4, longer
-    // ones: up to 5e-3.
+    // Least over largest eigenvalue. Ellipses are below 1e-4, slots 1.5 times as long as wide at 9e-4, longer
+    // ones up to 5e-3.
     constexpr double kManyConics = 7e-4;
     struct Sample {
         Vec2 place;
         double height, weight;
     };
-    std::vector<Sample> samples; // the middle of each segment too: what is straight is to be seen as straight
+    std::vector<Sample> samples; // includes the middle of each segment, so that straight ones count as
+                                 // straight
     double length = 0;
     for (const std::vector<Index>& loop : newell.outline.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -137,7 +139,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
         spread += s.weight / length * off * off.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    if (axes.eigenvalues()(0) <= 1e-12 * axes.eigenvalues()(1)) return std::nullopt; // a line
+    if (axes.eigenvalues()(0) <= 1e-12 * axes.eigenvalues()(1)) return std::nullopt; // collinear
     result.stretch = axes.operatorInverseSqrt();
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Quadratic right = Quadratic::Zero();
@@ -155,7 +157,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
     return on_it ? std::optional(result) : std::nullopt;
 }
 
-/// @param on  the quadratic height the rim lies on, if any
+/// @param on  the quadratic height of the rim, if there is one
 VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell,
                                  const std::optional<QuadraticHeight>& on, const RunContext& context)
 {
@@ -177,11 +179,11 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
     return result;
 }
 
-/// A void face on a sheet that its rim tells; nothing where that does not reach over it.
+/// A void face on a sheet given by its rim; empty if the sheet does not cover the face.
 std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline& newell,
                                          const QuadricSheet& sheet, const RunContext& context)
 {
-    // Facets are off the sheet by about a thousandth of its bulge. A choice.
+    // Resolution at which facets are off the sheet by about a thousandth of its bulge. Rule of thumb.
     constexpr double kFacets = 32;
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;
@@ -203,7 +205,7 @@ std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline
     return result;
 }
 
-/// A void face on the first sheet its rim tells that reaches over it.
+/// A void face on the first sheet of its rim that covers it.
 std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vector<Loop>& loops,
                                              const NewellOutline& newell, const RunContext& context)
 {
@@ -212,8 +214,8 @@ std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vect
     return std::nullopt;
 }
 
-/// Height of a surface over a place of a plane: where the plane's normal meets it, and beside its rim where
-/// it is closest. Nothing where it is met more than once.
+/// Height of a surface over a place of a plane: where the plane's normal meets it, or the closest point next
+/// to its rim. Empty if it is met more than once.
 std::optional<double> height_of(const geometry::FacetTree& shape, const geometry::Plane& plane,
                                 const Vec2& place, double tolerance)
 {
@@ -231,8 +233,7 @@ std::optional<double> height_of(const geometry::FacetTree& shape, const geometry
     return height ? *height : geometry::height(plane, shape.closest(foot).point);
 }
 
-/// A bent face between four corners, where straight lines lead over it or its rim lies on no quadratic
-/// height.
+/// A bent face between four corners, if it is ruled or its rim lies on no quadratic height.
 /// @param on_quadratic  whether the rim lies on one
 std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
                                                 bool on_quadratic, const RunContext& context)
@@ -244,7 +245,7 @@ std::optional<VoidFilling> fill_between_corners(const Model& model, const std::v
     try {
         return fill_transfinite(model, sides, nullptr, context);
     } catch (const InvalidInput&) {
-        return std::nullopt; // it folds
+        return std::nullopt; // the patch folds
     }
 }
 
@@ -263,9 +264,9 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
            edge_at(crossing.loop_b, crossing.segment_b);
 }
 
-// --- beyond the paper: least area ---------------------------------------------------------------------
+// --- not in the paper: least area ----------------------------------------------------------------------
 
-/// A face that folds in its Newell plane and has no four sides: a membrane over its loops.
+/// A face that folds in its Newell plane and does not have four sides: a membrane over its loops.
 VoidFilling fill_with_least_area(const Model& model, const std::vector<Loop>& loops,
                                  const std::string& crossing, const std::string& name,
                                  const RunContext& context)
@@ -285,10 +286,10 @@ VoidFilling fill_with_least_area(const Model& model, const std::vector<Loop>& lo
     try {
         membrane = geometry::minimal_area(points, cycles, {}, context);
     } catch (const InvalidInput& error) {
-        throw NotClosed("closure.outline_crosses",
-                        name + " cannot be laid out in a plane: " + crossing +
-                            " cross there; and no surface was found over its loops (" + error.what() +
-                            "); give a face for it, or split it by one more wall");
+        throw NotClosed("closure.outline_crosses", name + " cannot be projected to a plane: " + crossing +
+                                                       " cross there, and no minimal surface was found (" +
+                                                       error.what() +
+                                                       "); give this face, or split it by one more wall");
     }
     VoidFilling result;
     const auto base = static_cast<Index>(model.points.size());
@@ -359,9 +360,9 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
         try {
             result = fill_transfinite(model, sides, follower, context);
         } catch (const InvalidInput& error) {
-            throw NotClosed("closure.face_folds", name + ", with " +
-                                                      name_of(model, sides.front().front().edge) +
-                                                      ", folds where its sides lead: " + error.what());
+            throw NotClosed("closure.face_folds",
+                            name + ", with " + name_of(model, sides.front().front().edge) +
+                                ", folds when blended between its sides: " + error.what());
         }
     } else if (auto patch = flat ? std::nullopt
                                  : fill_between_corners(model, loops, told.has_value() || on.has_value(),
@@ -389,8 +390,8 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
     if (const auto crossing = geometry::find_crossing(outline.flat, outline.loops)) {
         throw NotClosed("closure.outline_crosses",
                         name +
-                            " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
-                            " cross there, so that it cannot be parallel to the given end");
+                            " cannot be projected to a plane: " + crossing_in_words(model, loops, *crossing) +
+                            " cross there, so it cannot be parallel to the given end; use cap = \"flat\"");
     }
     geometry::TriangulateOptions fine;
     fine.size = [=](const Vec2&) { return facet_size; };

@@ -20,10 +20,10 @@ using namespace topology;
 
 namespace {
 
-/// As many other ways to sweep a void are kept. A choice: each may cost as much as the first.
+/// Number of other sweep directions that are kept. Rule of thumb: each may cost as much as the first.
 constexpr std::size_t kMostOthers = 3;
 
-/// Whether a way over a closed skin can be swept in pieces, where an end lies at several heights.
+/// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
 bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
 {
     OpenVolume volume{skin, std::vector<Role>(skin.faces.size(), Role::wall), {}, false};
@@ -37,9 +37,9 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
     }
 }
 
-/// The faces of a sealed volume that were given, as the model knows them, and whether there are others.
+/// The given faces of a sealed volume, in the input model's numbering, and whether there are no others.
 struct GivenPart {
-    std::vector<FaceId> faces; ///< rising
+    std::vector<FaceId> faces; ///< ascending
     bool all = true;
 };
 
@@ -56,7 +56,7 @@ GivenPart given_part(const std::vector<FaceId>& faces, const std::vector<FaceId>
     return part;
 }
 
-/// The ends of a way over a sealed skin, as the model knows them.
+/// The ends of a sweep of a sealed skin, in the input model's numbering.
 struct Ends {
     GivenPart source, target;
 };
@@ -71,12 +71,11 @@ std::string ways_in_words(const Reading& reading)
 {
     if (reading.ways == 1) return {};
     return std::to_string(reading.ways) + " readings enclose the same volume, " +
-           with_digits(reading.enclosed, 4) +
-           "; of the likely ones this is swept with the fewest irregular nodes, " +
-           std::to_string(reading.roles.irregular) + " on its source at least, and the most even cells";
+           with_digits(reading.enclosed, 4) + "; this one is swept, with the fewest irregular nodes, " +
+           std::to_string(reading.roles.irregular) + " or more on its source, and the most even cells";
 }
 
-/// Open a volume by roles of the model's faces.
+/// Make the reading an open volume with these roles of the model's faces.
 void take_open(const Model& model, RoleCandidate roles, Reading& reading, const RunContext& context)
 {
     reading.volume = open_volume(model, roles.roles, context);
@@ -84,7 +83,7 @@ void take_open(const Model& model, RoleCandidate roles, Reading& reading, const 
     reading.roles = std::move(roles);
 }
 
-/// The way to sweep a sealed volume that its roles are.
+/// The current roles of a sealed volume as a candidate.
 RoleCandidate way_of(const OpenVolume& volume)
 {
     RoleCandidate way;
@@ -92,18 +91,18 @@ RoleCandidate way_of(const OpenVolume& volume)
     return way;
 }
 
-/// Whether a reading of the given faces has these ends, whichever is the source.
+/// Whether a candidate of the given faces has these ends, in either direction.
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
     for (const GivenPart* end : {&ends.source, &ends.target})
-        if (!end->all && !end->faces.empty()) return false; // given faces and others in one end
+        if (!end->all && !end->faces.empty()) return false; // given and new faces in one end
     const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
     return (s == ends.source.faces && t == ends.target.faces) ||
            (t == ends.source.faces && s == ends.target.faces);
 }
 
-/// Of sweeps as good as each other that with open ends first, both or one: what is missing is how one gets
-/// into a bore or a pocket. Then those whose ends were given, then those between faces that closing makes.
+/// Rank of equally good sweeps: first those with one or both ends open, because a bore or pocket is
+/// accessible there, then those with given ends, then those between faces that closing made.
 std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
 {
     const auto same = std::find_if(ways.begin(), ways.end(),
@@ -112,7 +111,7 @@ std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
     return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
 }
 
-/// Take the best of the ways to sweep a void out of the rest, which come first as they are the better.
+/// Remove and return the best sweep; the candidates are sorted by quality.
 RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
                         const std::function<Ends(const RoleCandidate&)>& ends_of,
                         const std::vector<RoleCandidate>& ways)
@@ -139,7 +138,7 @@ std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& cont
     std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), near, context);
     const bool any = !all.empty();
     std::erase_if(all, fails);
-    if (any && all.empty()) { // the likeliest cannot be swept; what comes after them may
+    if (any && all.empty()) { // the likeliest cannot be swept; less likely ones may
         RoleOptions far;
         far.margin = std::numeric_limits<double>::infinity();
         all = role_candidates(skin, all_faces(skin), far, context);
@@ -195,9 +194,10 @@ std::optional<Reading> leave_holes_open(const Model& model, const std::vector<Re
     std::ranges::copy_if(faces, std::back_inserter(roles.roles.walls),
                          [&](FaceId face) { return face != holed->holed; });
     roles.value = VolumeClass::IV;
-    roles.reasons.push_back(name_of(model, holed->holed) +
-                            " has holes without walls, and the end across from it is missing; close{ holes = "
-                            "\"cover\" } or close{ holes = \"through\" } says whether they go through");
+    roles.reasons.push_back(
+        name_of(model, holed->holed) +
+        " has holes without walls, and the opposite end is missing; choose close{ holes = "
+        "\"cover\" } or close{ holes = \"through\" }");
     Reading reading;
     reading.holed = holed->holed;
     take_open(model, std::move(roles), reading, context);
@@ -225,7 +225,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = as_named(first.roles);
     std::vector<RoleCandidate> sweeps;
-    // Two ends alone were given as such.
+    // A void with nothing but two ends was given as such.
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
     if (sweeps.empty() && !found.filled.empty()) sweeps.push_back(way_of(found.sealed.volume));
     if (sweeps.empty()) {
@@ -274,7 +274,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
         const std::string how = !found.filled.empty()
                                     ? found.filled
                                     : "sealed as " + in_words(model, first.roles, first.value);
-        reading.roles.reasons.push_back(how + ", and swept between faces that closing made");
+        reading.roles.reasons.push_back(how + ", and swept between void faces");
     }
     if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
     return reading;

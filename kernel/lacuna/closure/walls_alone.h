@@ -9,12 +9,11 @@
 
 namespace lacuna::closure {
 
-/// The one void that walls named alone are, where they are open and some that hang together are no tube with
-/// a free loop at either side, as what is missing between two ends needs: walls with a bottom, or with three
-/// mouths. A note says what they are read as.
-/// @param take_guess  also where its shape is a guess
-/// @return  nothing where they are tubes, where they have branches, which are cut, and where find_readings()
-///          has no or several readings of them.
+/// The only void enclosed by walls given without ends, if they are open and a connected part is no tube with
+/// a free loop on either side, such as walls with a bottom or with three mouths. A note reports the roles.
+/// @param take_guess  also if the shape is ambiguous
+/// @return  empty if all parts are tubes, if they have branches (which are cut instead), or if
+///          find_readings() finds none or several.
 /// @throw InvalidInput  as open_volume(). Cancelled.
 std::optional<Reading> read_walls_alone(const topology::Model& model, const std::vector<FaceId>& walls,
                                         bool take_guess, const RunContext& context = {});

@@ -9,25 +9,26 @@
 
 namespace lacuna::closure {
 
-/// A sealed volume whose bottom was parted from its walls.
+/// A sealed volume whose bottom was separated from its walls.
 struct Bowl {
     topology::OpenVolume volume; ///< with roles: the bottom is the source, the mouth the target
-    std::vector<FaceId> parent;  ///< of each of its faces: the one of the sealed volume it is part of
+    std::vector<FaceId> parent;  ///< by face: the face of the sealed volume that it is part of
     FaceId mouth;                ///< a face of the target
-    double depth = 0;            ///< of the parting plane below the mouth [model length]
+    double depth = 0;            ///< of the cutting plane below the mouth [model length]
 };
 
-/// Part the bottom of a hollow from its walls where one goes over into the other smoothly, as of a
-/// hemisphere, a bore with a round end or a pocket with a rounded floor.
+/// Separate the bottom of a hollow from its walls if they blend smoothly, as in a hemisphere, a bore with a
+/// round end or a pocket with a rounded floor.
 ///
-/// A flat face with all else behind it is the mouth. What lies behind it is sorted by height. The plane
-/// across is where the skin leans half as much as where it is steepest, found from the bottom up, so that
-/// quads of both parts meet at like angles. Faces are split there.
-/// @param sealed  watertight and oriented; its roles are not read.
-/// @return  nothing where no face is such a mouth, where the skin leans alike everywhere, as a cone does, or
-///          where the plane does not part it into one bottom and a ring of walls for each rim of the mouth.
+/// The mouth is a flat face with all other faces behind it. The cutting plane is at the lowest height where
+/// the skin is inclined half as much as at its steepest, so that quads on both sides meet at similar angles.
+/// Faces are split there.
+/// @param sealed  watertight and oriented; its roles are ignored.
+/// @return  empty if no face is such a mouth, if the inclination is the same everywhere, as on a cone, or if
+///          the plane does not separate the skin into one bottom and a ring of walls for each rim of the
+///          mouth.
 /// @throw Cancelled
-/// @note  O(facets) for each mouth that is tried; no more than four are.
+/// @note  O(facets) for each mouth tried, at most four.
 std::optional<Bowl> part_bowl(const topology::OpenVolume& sealed, const RunContext& context);
 
 } // namespace lacuna::closure

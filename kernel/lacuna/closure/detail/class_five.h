@@ -7,25 +7,25 @@
 
 namespace lacuna::closure {
 
-/// The loops of the two ends of a volume of walls alone.
+/// The loops of the two ends of a volume that has walls only.
 struct EndLoops {
-    std::vector<topology::Loop> source, target; ///< as the end faces use them; the outermost first
+    std::vector<topology::Loop> source, target; ///< oriented as in the end faces; the outermost first
 };
 
-/// The first connected part of the walls that has not two free loops, as a tube has; empty where all have.
+/// The first connected part of the walls that does not have two free loops; empty if all are tubes.
 std::vector<FaceId> no_tube(const topology::OpenVolume& volume);
 
-/// Steps 3 to 6 of the paper's Algorithm 11: sort the free loops into two subsets a sweeping distance apart.
+/// Steps 3 to 6 of the paper's Algorithm 11: sort the free loops into two sets a sweeping distance apart.
 ///
-/// Each connected part of the walls is a tube with a loop at either end. The largest tube says where the
-/// ends are; every other tube's loops go to the ends they are nearer to. Tubes that lie inside another are
-/// turned over, so that their wall faces the void.
-/// @throw NotClosed  a part with one loop or more than two, a tube that is as near to either end, tubes
+/// Each connected part of the walls is a tube with a loop at either end. The largest tube defines the two
+/// ends; the loops of every other tube go to the nearer end. Tubes inside another are reversed, so that their
+/// walls face the void.
+/// @throw NotClosed  a part with one loop or more than two, a tube that is equally close to both ends, tubes
 ///         side by side; names the walls.
 EndLoops group_loops(topology::OpenVolume& volume);
 
-/// Walls that are part of an end: flat faces that lie round one of its loops in the loop's own plane, and go
-/// on into other walls all round elsewhere, as the floor of a bore does round a narrower bore in it.
+/// Walls that are part of an end: flat faces in the plane of one of its loops that surround it and are
+/// connected to other walls all round, like the floor of a bore round a narrower bore.
 std::vector<FaceId> floors_round(const topology::OpenVolume& volume, const std::vector<topology::Loop>& end);
 
 } // namespace lacuna::closure

@@ -13,18 +13,18 @@ namespace lacuna::closure {
 /// Walks up wall edges from a rim.
 class Climber {
 public:
-    /// @param volume  referred to, not copied: must outlive the climber.
+    /// @param volume  is referenced and must outlive the climber.
     explicit Climber(const topology::OpenVolume& volume);
 
-    /// The edges from a rim vertex as far up as they go; the last may end on the other rim.
+    /// The chain of wall edges upward from a rim vertex as far as it goes; the last may end on the other rim.
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
-    /// Whether one way along a free loop, and one alone, leads from one vertex to another past no end: then
-    /// the walls' own rim is the side line there. Both ways do round a hole in the walls.
+    /// Whether exactly one of the two paths along a free loop joins the vertices without passing an end: the
+    /// rim of the walls is then the side line there. Round a hole in the walls both paths do.
     [[nodiscard]] bool joined(VertexId from, VertexId to, const std::vector<topology::Rim>& loops) const;
 
 private:
-    /// The mean way of the wall edges that leave a rim vertex.
+    /// The mean direction of the wall edges that leave a rim vertex.
     [[nodiscard]] Vec3 off_rim(VertexId at) const;
     [[nodiscard]] Vec3 start_of(topology::EdgeUse use) const;
     [[nodiscard]] std::optional<topology::EdgeUse> straightest(VertexId at, const Vec3& onward,

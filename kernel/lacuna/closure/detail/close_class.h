@@ -6,33 +6,33 @@
 
 #include <vector>
 
-/// How a volume of each class is closed, in one way to shape what is missing. Internal to this folder.
+/// Closing a volume of each class with one method for the missing shapes. Internal to this folder.
 namespace lacuna::closure {
 
-/// One way to shape what is missing.
+/// A method to shape the missing edges and faces.
 struct Way {
     EdgeShape edges = EdgeShape::straight; ///< not automatic
     Cap cap = Cap::flat;                   ///< not automatic
-    bool planes = false; ///< whether a missing end that lies in several planes is a flat face in each
+    bool planes = false; ///< whether a missing end in several planes gets a flat face in each
 };
 
-/// What every way of closing needs.
+/// Inputs of every closing method.
 struct Tools {
     Way way;
-    const Follower* follower; ///< null where the given walls lead nowhere
+    const Follower* follower; ///< null if the given walls define no motion
     const std::vector<VoidEdge>& by_hand;
     const RunContext& context;
 
-    /// What void faces bend along beside their edges; null: nothing.
+    /// The motion that void faces follow next to their edges; null: none.
     [[nodiscard]] const Follower* bending() const
     {
         return way.edges == EdgeShape::follow ? follower : nullptr;
     }
 };
 
-/// Close a volume as one of a class: what is missing is added to it, and faces are turned so that it encloses
-/// what is above 0. Whether it is sealed is not proved here.
-/// @throw NotClosed, or what shapes void faces throws
+/// Close a volume as one of a class: add the missing entities and orient the faces so that the enclosed
+/// volume is positive. Does not check that the volume is sealed.
+/// @throw NotClosed, or the errors of the face shapes
 Closure close_as(topology::OpenVolume& volume, const matching::Match& match, topology::VolumeClass value,
                  const Tools& tools);
 

@@ -6,27 +6,27 @@
 #include <optional>
 #include <vector>
 
-/// Holes of given ends that have no walls: whether they go through changes what is enclosed. Internal to this
+/// Holes of given ends that have no walls: extending them changes the enclosed volume. Internal to this
 /// folder.
 namespace lacuna::closure {
 
-/// A hole of a given end along whose rim no wall stands.
+/// A hole of a given end with no wall along its rim.
 struct EndHole {
     topology::Role end; ///< source or target
-    FaceId face;        ///< one beside it
+    FaceId face;        ///< an adjacent face
     topology::Rim rim;
 };
 
-/// The holes without walls of both ends. Of the rims of a connected part of an end the one that encloses most
-/// is its outline, and the others are its holes.
+/// The holes without walls of both ends. Of the rims of a connected part of an end, the one that encloses the
+/// largest area is its outline, and the others are holes.
 std::vector<EndHole> holes_without_walls(const topology::OpenVolume& volume);
 
-/// Give each hole a void face in the end's surface, which is a part of that end.
+/// Close each hole by a void face in the end's surface, which becomes part of that end.
 /// @throw NotClosed  no face fits a hole's rim.
 std::vector<FaceId> cover_holes(topology::OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context);
 
-/// What a volume without a target encloses [model length³]; nothing where it cannot be sealed so.
+/// Volume enclosed by a volume without a target [model length³]; empty if it cannot be sealed that way.
 struct HoleVolumes {
     std::optional<double> covered, through;
 };

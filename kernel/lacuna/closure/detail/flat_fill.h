@@ -9,38 +9,37 @@
 
 namespace lacuna::closure {
 
-/// A volume that its free loops tell how to seal: the given faces in their order, then those made, all of
-/// them walls.
+/// A volume sealed by its free loops alone: the given faces in their order, then the new ones, all with the
+/// role of walls.
 struct FlatFilling {
     topology::OpenVolume volume;
     Closure closure;
-    bool each_alone = true; ///< whether each loop is flat and has a face of its own
-    bool channel = false;   ///< whether a loop was parted where two ends are alike
+    bool each_alone = true; ///< whether each loop is planar and has its own face
+    bool channel = false;   ///< whether a loop was split at two congruent ends
 };
 
-/// Fill the free loops of some faces with flat faces. Loops in one plane that lie within each other bound one
-/// face with holes. A loop that lies in two planes, as where an end and a wall beside it are missing, is
-/// filled with two faces that meet in a straight void edge; that of a groove without its ends and its mouth
-/// with a face for each; that of a channel without its ends and a wall with flat ends and a wall that may
-/// bend.
-/// @return  nothing where a loop lies in other planes, or where the result is not sealed or crosses itself.
+/// Fill the free loops of some faces with flat faces. Coplanar nested loops bound one face with holes. A loop
+/// in two planes, as where an end and an adjacent wall are missing, is filled with two faces that meet in a
+/// straight void edge. The loop of a groove without ends and mouth gets a face for each; the loop of a
+/// channel without ends and one wall gets flat ends and a wall that may bend.
+/// @return  empty if a loop lies in other planes, or if the result is not sealed or crosses itself.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);
 
-/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. Of the faces made those that
-/// face away from the source, or slope by 60° at most, are the target, others are walls: risers, where the
-/// target lies at several heights.
+/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that face away
+/// from the source, or slope by at most 60°, are the target; the others are walls, the risers of a target at
+/// several heights.
 /// @param volume  out: sealed.
-/// @return  nothing where each loop is flat by itself, where one lies on a ball, a round cylinder or a cone,
-///          where what fills them is no flat face, and where the target has neither the source's loops nor
+/// @return  empty if each loop is planar by itself, if one lies on a sphere, a circular cylinder or a cone,
+///          if a filling face is not flat, or if the target has neither the source's number of loops nor
 ///          several heights.
 std::optional<Closure> fill_missing_end(topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.
 bool is_flat(const topology::Model& model, const topology::Rim& rim);
 
-/// Whether each of a face's loops is.
+/// Whether each loop of a face is flat.
 bool has_flat_loops(const topology::Model& model, FaceId face);
 
 } // namespace lacuna::closure

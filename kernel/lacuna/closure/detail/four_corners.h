@@ -7,25 +7,23 @@
 
 namespace lacuna::closure {
 
-/// Whether a loop turns sharply where one use goes over into the next.
+/// Whether a loop turns sharply from one use to the next.
 bool turns_sharply(const topology::Model& model, topology::EdgeUse before, topology::EdgeUse after);
 
-/// The uses of a loop that begin where it turns sharply, rising.
+/// Indices of the uses that begin at a sharp corner, ascending.
 std::vector<std::size_t> sharp_corners(const topology::Model& model, const topology::Loop& loop);
 
-/// The four sides of a loop that turns sharply at four of its vertices, in walking order; empty where it
-/// turns at more or fewer.
+/// The four sides of a loop with exactly four sharp corners, in walking order; otherwise empty.
 ///
-/// Of the two ways to pair them the one is taken by which a patch that is moved along the second and the
-/// fourth side brings the first nearest to the third: round an axis those two are arcs about it.
+/// Of the two ways to pair opposite sides, the one for which moving the first side along the second and
+/// fourth brings it closest to the third: round an axis, these two are then arcs about it.
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 
-/// Whether uses that go on from each other lie on one straight line.
+/// Whether consecutive uses lie on one straight line.
 bool is_straight(const topology::Model& model, const std::vector<topology::EdgeUse>& side);
 
-/// Whether two sides that face each other are straight, so that straight lines between the other two make
-/// the patch.
+/// Whether two opposite sides are straight, so that the patch is ruled between the other two.
 bool is_ruled(const topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& sides);
 
 } // namespace lacuna::closure

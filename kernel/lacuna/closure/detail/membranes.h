@@ -7,22 +7,21 @@
 
 namespace lacuna::closure {
 
-/// Those of some void faces that span a rim which lies in no plane as a membrane does: the rim leaves open
-/// how their inside bends. Not those between four sides, which lead from side to side, and not those that lie
-/// on a quadric that their rim tells, or on one quadratic height over their plane, as the mouth of a keyway
-/// does on its shaft.
+/// The membranes among some void faces: faces over a non-planar rim that does not determine their inside.
+/// Excluded are four-sided faces, which are blended from side to side, and faces on a quadric given by their
+/// rim or on one quadratic height over their plane, like the mouth of a keyway on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
-/// Whether a face over its rim's plane lies on no quadratic height, be it bent ever so little; or was made
-/// with least area.
+/// Whether a face is off every quadratic height over its rim's plane, however little it bends, or has minimal
+/// area.
 bool bends_off_quadratic(const topology::Model& model, FaceId face);
 
-/// Whether a face's rim lies on one quadric, or on a ball, a round cylinder, a cone or two planes among many,
-/// and its inside near it: then the rim tells how the face bends.
+/// Whether a face's rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two planes among
+/// many, and its inside lies near it: the rim then determines the bend.
 bool bends_as_rim(const topology::Model& model, FaceId face);
 
-/// Whether no point of a face is further off its plane than a small share of its extent.
+/// Whether all points of a face are within a small share of its extent of its plane.
 bool is_about_flat(const topology::Model& model, FaceId face);
 
 } // namespace lacuna::closure

@@ -8,14 +8,14 @@
 
 namespace lacuna::closure {
 
-/// Say why faces have no roles, and what to call instead; planes to cut by were tried.
-/// @throw InvalidInput  always: "topology.torus", "topology.sphere", "topology.cone" (one that runs to its
-///        tip), "topology.crossing_bores", else "topology.no_roles". Cancelled.
+/// Report why no roles were found and what to call instead, after trying planes to cut by.
+/// @throw InvalidInput  always: "topology.torus", "topology.sphere", "topology.cone" (one that includes its
+///        apex), "topology.crossing_bores", otherwise "topology.no_roles". Cancelled.
 [[noreturn]] void refuse_without_roles(const topology::Model& model, const std::vector<FaceId>& faces,
                                        const RunContext& context);
 
-/// @throw NotClosed "closure.tube_loops"  walls of a volume without ends that hang together and have not two
-///        free loops; says how they are opened or cut, as it was tried. InvalidInput
+/// @throw NotClosed "closure.tube_loops"  a connected part of walls in a volume without ends that does not
+///        have two free loops; reports a tested way to open or cut it. InvalidInput
 ///        "topology.crossing_bores". Cancelled.
 void check_tubes(const topology::OpenVolume& volume, const RunContext& context);
 

@@ -8,14 +8,14 @@
 
 namespace lacuna::closure {
 
-/// Boundary points of the face in the plane it is triangulated in; a seam's points stand twice.
+/// Boundary points of a face in its triangulation plane; the points of a seam are listed twice.
 struct Outline {
     std::vector<Index> model_point;
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
 };
 
-/// Turn a triangulation of an outline into a filling; `lift` gives the place of an added point.
+/// Convert the triangulation of an outline to a filling; `lift` returns the position of an added point.
 template <class Lift>
 VoidFilling filling_of(const topology::Model& model, const Outline& outline,
                        const geometry::Triangulation& flat, const Lift& lift)

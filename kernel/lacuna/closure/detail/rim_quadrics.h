@@ -12,37 +12,37 @@
 
 namespace lacuna::closure {
 
-/// A surface of second order, in a frame of its own: (p − centre) / unit.
+/// A quadric surface in its own frame: (p − centre) / unit.
 struct Quadric {
     Vec3 centre = Vec3::Zero();
     double unit = 1;                                ///< [model length]
-    Eigen::Matrix4d form = Eigen::Matrix4d::Zero(); ///< zero at (x, y, z, 1) where the surface is
+    Eigen::Matrix4d form = Eigen::Matrix4d::Zero(); ///< zero at (x, y, z, 1) on the surface
 };
 
-/// The sheet of a quadric that a rim lies on, as heights over a plane.
+/// The sheet of a quadric that contains a rim, as heights over a plane.
 struct QuadricSheet {
     Quadric quadric;
     geometry::Plane plane;
-    double side = 1; ///< whether the form rises or falls along the plane's normal: 1 or -1
+    double side = 1; ///< sign of the form's slope along the plane's normal: 1 or -1
 
-    /// @return  nothing where the quadric does not reach the place [model length].
+    /// @return  empty if the quadric has no point over the place [model length].
     [[nodiscard]] std::optional<double> height(const Vec2& place) const;
 };
 
 bool is_pair_of_planes(const Quadric& quadric);
 
-/// What a rim that lies in no plane says of the face within.
+/// Shapes of a face that follow from its non-planar rim.
 struct RimShapes {
-    /// Sheets on which the face lies: the only quadric the rim is on, or, where it is on many, as where a
-    /// round tube ends on something, the balls, round cylinders and cones and pairs of planes among them. No
-    /// planes of given faces at the rim.
+    /// Sheets that the face lies on: the only quadric through the rim or, if there are many, as at the end of
+    /// a circular tube, the spheres, circular cylinders, cones and pairs of planes among them. Planes of
+    /// given faces at the rim are excluded.
     std::vector<QuadricSheet> told;
-    /// Other cylinders that such a rim is on: it may belong to each.
+    /// Other cylinders through such a rim: the face may lie on any of them.
     std::vector<QuadricSheet> possible;
 };
 
-/// @param plane  over which the face within the loops is to lie.
-/// @return  no sheets where the rim is on no quadric, or has too few points to tell.
+/// @param plane  base plane of the face's heights.
+/// @return  no sheets if the rim is on no quadric, or has too few points to decide.
 RimShapes shapes_of_rim(const topology::Model& model, const std::vector<topology::Loop>& loops,
                         const geometry::Plane& plane);
 

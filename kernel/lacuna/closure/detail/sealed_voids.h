@@ -10,62 +10,63 @@
 
 namespace lacuna::closure {
 
-/// A reading of the given faces, sealed.
+/// A sealed role candidate of the given faces.
 struct Sealed : SealedVolume {
     double enclosed = 0; ///< [model length³]
 };
 
-/// One void, and the readings that enclose it.
+/// One void, and the role candidates that enclose it.
 struct Void {
-    double cost = 0;                           ///< of its likeliest reading, and of what closing bends
-    topology::RoleCandidate first;             ///< by which it was sealed
-    Sealed sealed;                             ///< as that seals it
-    std::vector<topology::RoleCandidate> ways; ///< the likeliest first
-    std::vector<topology::RoleCandidate> bent; ///< others, by which it would bend as nothing given tells
-    bool untold = false;                       ///< whether a void face bends as nothing given tells
-    bool fills_flat_loops = false;             ///< all that is missing
+    double cost = 0;                           ///< of its likeliest candidate, plus the cost of bent void
+                                               ///< faces
+    topology::RoleCandidate first;             ///< the candidate it was sealed with
+    Sealed sealed;                             ///< the result of sealing with `first`
+    std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
+    std::vector<topology::RoleCandidate> bent; ///< other candidates, which would need an ambiguous bend
+    bool untold = false;                       ///< whether a void face has an ambiguous bend
+    bool fills_flat_loops = false;             ///< only flat free loops were missing
     FaceId through;                            ///< an end that was moved with its holes without walls
-    bool channel = false;                      ///< whether it was sealed by two ends that are alike
-    std::string filled;                        ///< how it was sealed where that was by no roles, in words
+    bool channel = false;                      ///< whether it was sealed by two congruent ends
+    std::string filled;                        ///< how it was sealed without roles, for the user
 };
 
-/// Some faces sealed by their roles; nothing where that cannot be done.
+/// Some faces sealed with given roles; empty if that fails.
 /// @throw Cancelled
 std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
                            const RunContext& context);
 
-/// Whether volumes are about as large: what chords leave out of round faces, and more, is no difference.
+/// Whether volumes are about equal: allows for the sag of facets, and more.
 bool same_volume(double a, double b);
 
-/// Whether a void face leaves open how its inside bends.
+/// Whether a void face has a membrane shape.
 bool has_membranes(const Sealed& sealed);
 
-/// Whether what is missing may bend otherwise: a void face leaves open how its inside does, or an end that
-/// lies in no plane was closed without anything that says how it bends.
+/// Whether the missing faces may bend differently: there is a membrane, or a non-planar end was closed
+/// without walls that determine its bend.
 bool leaves_open(const Sealed& sealed);
 
-/// The faces of the model in the order that a volume with these roles has them.
+/// The faces of the model in the order of a volume with these roles.
 std::vector<FaceId> as_named(const topology::Roles& roles);
 
-/// Readings of the given faces, sealed and sorted by what they enclose.
-/// @param most     as many are sealed
-/// @param settled  leave out those that close with a membrane, and count those that do not seal too
+/// The candidates, sealed and grouped by the volume they enclose.
+/// @param most     number of candidates to seal
+/// @param settled  exclude those that close with a membrane; those that do not seal count towards `most`
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, bool settled, const RunContext& context);
 
-/// The one void that readings without steps enclose, however unlikely, closed without a membrane; what of
-/// several is meant, nobody knows. Only where both ends reach the rim of what is missing do they say how that
-/// bends.
+/// The only void that step-free candidates, however unlikely, close without a membrane; empty if there are
+/// several. Only candidates whose two ends reach the rim of the missing face count, because only they
+/// determine its bend.
 std::optional<Void> settled_void(const topology::Model& model, const std::vector<FaceId>& faces,
                                  std::vector<topology::RoleCandidate> candidates, const RunContext& context);
 
-/// Take the voids that a given end tells when it is moved to where the other is missing: where readings found
-/// one of these that stays, else the moved ones do.
+/// Use the voids that follow from moving a given end to the missing one: keep those that candidates found
+/// too, otherwise the moved ones.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 
-/// Add a void that flat faces close, unless it is one of those known: then that is closed by the fewer faces.
-/// Only those about as likely as the likeliest stay.
+/// Add a void closed by flat faces, unless it is known: then the closing with fewer faces is kept. Only the
+/// about likeliest voids remain.
 void add_filled(std::vector<Void>& found, Void filled);
 
 } // namespace lacuna::closure

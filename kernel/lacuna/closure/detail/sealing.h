@@ -9,11 +9,11 @@
 
 namespace lacuna::closure {
 
-/// A void face and another face (void or given) whose facets cross.
+/// A void face and another face (void or given) with crossing facets.
 using FaceCrossing = std::pair<FaceId, FaceId>;
 
-/// The first facet of a void face that crosses another face; nothing when none does. Facets that only touch
-/// along the points they share do not cross.
+/// The first facet of a void face that crosses another face; empty if none does. Facets that only touch at
+/// shared points do not cross.
 std::optional<FaceCrossing> first_crossing(const topology::OpenVolume& volume, const RunContext& context);
 
 } // namespace lacuna::closure

@@ -8,16 +8,16 @@
 
 namespace lacuna::closure {
 
-/// A free loop as those of the faces that are missing there.
+/// A free loop, split into the loops of the faces that are missing there.
 struct SplitLoop {
-    std::vector<topology::Loop> parts; ///< all but the last flat
-    bool channel = false;              ///< whether the first two are ends that are alike
+    std::vector<topology::Loop> parts; ///< all but the last planar
+    bool channel = false;              ///< whether the first two are congruent ends
 };
 
-/// Part a free loop that lies in no plane, by straight void edges: where it lies in two planes into two flat
-/// parts; that of a groove without its ends and its mouth into theirs; that of a channel without its ends and
-/// a wall into the ends', which lie in planes and are alike, and the wall's.
-/// @return  nothing where it is none of these.
+/// Split a non-planar free loop by straight void edges: a loop in two planes into two planar parts; the loop
+/// of a groove without ends and mouth into theirs; the loop of a channel without ends and one wall into two
+/// planar congruent ends and the wall.
+/// @return  empty for any other loop.
 std::optional<SplitLoop> split_loop(topology::Model& model, const topology::Rim& rim);
 
 } // namespace lacuna::closure

@@ -7,12 +7,12 @@
 
 namespace lacuna::closure {
 
-/// Wall parts that ring a whole loop of one end and stop short of the other: the lowest or the topmost
-/// faces of a stack whose middle is missing.
+/// Wall parts that surround a whole loop of one end and do not reach the other: the lowest or topmost faces
+/// of a stack whose middle is missing.
 ///
-/// While the volume is being closed they count as part of that end, so that its open loop is the stub's;
-/// what is missing between the ends is then closed as between any source and target.
-/// @return  the faces whose role was changed; set them back to Role::wall when the volume is closed.
+/// During closing they count as part of that end, so that its open loop is their free rim; the gap is then
+/// closed as between any source and target.
+/// @return  the faces whose role changed; set them back to Role::wall after closing.
 std::vector<FaceId> lend_stubs_to_ends(topology::OpenVolume& volume);
 
 } // namespace lacuna::closure

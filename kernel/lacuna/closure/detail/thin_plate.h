@@ -10,19 +10,19 @@
 
 namespace lacuna::closure {
 
-/// The surface of least bending through a rim, as heights over a plane: a thin-plate spline, a sum of
-/// r² log r round places on the rim, and a plane. A membrane is the surface of least stretching. Both are as
-/// smooth as their rim, and where they differ the rim leaves open how the inside bends.
+/// The surface of least bending energy through a rim, as heights over a plane: a thin-plate spline, a sum of
+/// r² log r terms centred on the rim plus a plane. A membrane minimises area instead. Both are as smooth as
+/// their rim; where they differ, the rim does not determine the inside.
 struct ThinPlate {
     std::vector<Vec2> places; ///< divided by `unit`
     double unit = 1;          ///< [model length]
-    Eigen::VectorXd weight;   ///< of each place, then of 1, x and y
+    Eigen::VectorXd weight;   ///< of each place, then of the terms 1, x and y
 
-    /// Over a place of the plane [model length].
+    /// Height at a place of the plane [model length].
     [[nodiscard]] double height(const Vec2& place) const;
 };
 
-/// The plate through places on some loops.
+/// The thin plate through sample points of some loops.
 ThinPlate plate_over(const geometry::Plane& plane, const topology::Model& model,
                      const std::vector<topology::Loop>& loops);
 

@@ -7,9 +7,9 @@
 
 namespace lacuna::closure {
 
-/// Algorithm 6, or 5 where two sides are one closed edge: a bilinear Coons patch over arc length.
+/// Algorithm 6, or 5 if two sides are one closed edge: a bilinear Coons patch over arc length.
 /// @param sides     four, in walking order
-/// @param follower  null, or what the patch follows instead, as `fill()` says.
+/// @param follower  null, or the motion that the patch follows, see `fill()`.
 /// @throw InvalidInput  the patch folds.
 VoidFilling fill_transfinite(const topology::Model& model,
                              const std::vector<std::vector<topology::EdgeUse>>& sides,

@@ -9,19 +9,19 @@
 
 namespace lacuna::closure {
 
-/// An end has a rim with its walls where they meet at more than half of a right angle [radians].
+/// An end has a rim where it meets its walls at more than 45° [radians].
 inline constexpr double kRimTurn = std::numbers::pi / 4;
 
-/// By how much the skin turns towards the void over each edge between two faces, on average along it
-/// [radians]: positive where the void has more than a straight angle there, 0 for free edges and seams.
+/// Mean turn of the skin towards the void at each edge between two faces [radians]: positive if the interior
+/// angle of the void exceeds 180°, 0 for free edges and seams.
 ///
-/// Which side the void is on is told of each connected part of the skin by itself: the ends of a part see
-/// the opposite end of another part or, where it lies within none, its own; else the facets face away from
-/// their middle, or towards it where the part lies within another.
+/// The side of the void is found for each connected part of the skin: its ends face the opposite end of
+/// another part or, if the part is inside no other, its own opposite end; otherwise the facets face away from
+/// their centre, or towards it if the part is inside another.
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
-/// Turn the parts of the skin so that they face away from the void.
+/// Orient the parts of the skin so that they face away from the void.
 void face_away(topology::OpenVolume& volume, const RunContext& context);
 
 } // namespace lacuna::closure
