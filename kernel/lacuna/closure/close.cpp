@@ -82,8 +82,7 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
                                  " are both given");
 }
 
-/// Angle between the two ends of a volume, 0 if they face each other squarely [radian]; also 0 if one faces
-/// away from the other or has no area vector.
+/// Angle between the normals of the two ends, both taken in the direction from source to target [radian].
 double lean_of(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -500,7 +499,7 @@ Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, c
     Closure closure = close_rest(volume, match, whole, options, context);
     if (volumes)
         assume(closure, "closure.hole_through",
-               in_words(volume.model, holes, *volumes) + "; they are extended",
+               in_words(volume.model, holes, *volumes) + "; here they are extended",
                share_between(enclosed_volume(volume), volumes->covered));
     return closure;
 }

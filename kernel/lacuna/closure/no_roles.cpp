@@ -190,9 +190,8 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
     std::vector<Reading> readings = find_readings(model, walls, context);
     if (readings.size() != 1 || !(take_guess || readings.front().guess.empty())) return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
-    log_line(context,
-             "note: the walls, named without ends, are no tube between two missing ends; their roles are " +
-                 in_words(model, roles.roles, roles.value));
+    log_line(context, "note: the walls, named without ends, are no tube between two missing ends; taken as " +
+                          in_words(model, roles.roles, roles.value));
     return std::move(readings.front());
 }
 
