@@ -177,11 +177,7 @@ int faces(lua_State* L)
     read_selector(L, 2, "faces", selector);
     auto& found = temporary<std::vector<FaceId>>(L);
     guard(L, [&] { found = select(state->model, selector); });
-    lua_createtable(L, static_cast<int>(found.size()), 0);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        push_face(L, state, found[i]);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_array(L, found, [&](const auto& item) { push_face(L, state, item); });
     if (found.empty() && lua_istable(L, 2)) mark_found_nothing(L, 2);
     return 1;
 }
@@ -373,11 +369,7 @@ int face_neighbours(lua_State* L)
         const auto facts = topology::face_facts(held.model);
         for (const FaceId other : facts[held.face.index()].neighbours) tags.push_back(held.model[other].tag);
     });
-    lua_createtable(L, static_cast<int>(tags.size()), 0);
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-        lua_pushinteger(L, tags[i]);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_array(L, tags, [&](const auto& item) { lua_pushinteger(L, item); });
     return 1;
 }
 

@@ -46,7 +46,6 @@ struct CloseOptions {
     std::vector<VoidEdge> void_edges{}; ///< given by hand, with those of the match that are not
     Cap cap = Cap::automatic;
     Holes holes = Holes::automatic;
-    bool hints = true; ///< whether a refusal says what would seal, which takes as long as sealing once more
     bool take_guess = false; ///< take what nothing given tells as it closes; an option above takes it as well
 };
 
@@ -86,8 +85,7 @@ struct Closure {
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});
 
-/// Hand a closure's notes to the log, those of assumptions as `note: … [code]`. close() does so unless it is
-/// a trial, without hints.
+/// Hand a closure's notes to the log, those of assumptions as `note: … [code]`, as close() does.
 void log_notes(const Closure& closure, const RunContext& context);
 
 /// The void edges given by hand that join the rims of source and target, as pairs (source, target) of vertex

@@ -3,9 +3,9 @@
 
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
-#include <lacuna/cad/left_out.h>
 #include <lacuna/geometry/exact.h>
 #include <lacuna/geometry/plain_curve.h>
+#include <lacuna/topology/left_out.h>
 
 #include <cstdint>
 #include <memory>
@@ -90,11 +90,11 @@ private:
 };
 
 /// A curve of a loaded model.
-class CadCurve final : public geometry::ExactCurve {
+class CadCurve final : public geometry::ExactCurve, public topology::BesideLeftOut {
 public:
     /// @param plain  the same curve, where it is so plain that the CAD process need not be asked.
     CadCurve(std::shared_ptr<const CadSource> source, int tag, geometry::PlainCurve plain,
-             std::vector<LeftOutFace> left_out)
+             std::vector<topology::LeftOutFace> left_out)
         : source_(std::move(source)), tag_(tag), plain_(std::move(plain)), left_out_(std::move(left_out))
     {
     }
@@ -103,14 +103,13 @@ public:
 
     [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
     [[nodiscard]] int tag() const { return tag_; } ///< in the source
-    /// Faces of the source left out that had the edge this curve is of.
-    [[nodiscard]] const std::vector<LeftOutFace>& left_out() const { return left_out_; }
+    [[nodiscard]] const std::vector<topology::LeftOutFace>& left_out() const override { return left_out_; }
 
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
     geometry::PlainCurve plain_;
-    std::vector<LeftOutFace> left_out_;
+    std::vector<topology::LeftOutFace> left_out_;
 };
 
 } // namespace lacuna::cad

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/cad/left_out.h>
+#include <lacuna/topology/left_out.h>
 
-#include <lacuna/cad/detail/exact_geometry.h>
 #include <lacuna/core/error.h>
 
 #include <algorithm>
 
-namespace lacuna::cad {
+namespace lacuna::topology {
 
 namespace {
 
@@ -16,35 +15,34 @@ std::string name_of(const LeftOutFace& face)
 }
 
 /// Void faces with one of the edges.
-std::string void_faces_along(const topology::Model& model, const std::vector<EdgeId>& edges)
+std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
 {
     std::string names;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const topology::Face& face = model.faces[f];
-        if (face.origin != topology::Origin::made_void) continue;
-        const bool along = std::ranges::any_of(face.loops, [&](const topology::Loop& loop) {
-            return std::ranges::any_of(loop.uses, [&](const topology::EdgeUse& use) {
-                return std::ranges::binary_search(edges, use.edge);
-            });
+        const Face& face = model.faces[f];
+        if (face.origin != Origin::made_void) continue;
+        const bool along = std::ranges::any_of(face.loops, [&](const Loop& loop) {
+            return std::ranges::any_of(
+                loop.uses, [&](const EdgeUse& use) { return std::ranges::binary_search(edges, use.edge); });
         });
-        if (along) names += (names.empty() ? "" : ", ") + topology::name_of(model, FaceId(f));
+        if (along) names += (names.empty() ? "" : ", ") + name_of(model, FaceId(f));
     }
     return names;
 }
 
 } // namespace
 
-std::vector<LeftOutBeside> left_out_beside(const topology::Model& model, const std::vector<FaceId>& faces)
+std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector<FaceId>& faces)
 {
     std::vector<int> uses(model.edges.size(), 0);
     for (const FaceId face : faces) {
-        for (const topology::Loop& loop : model[face].loops)
-            for (const topology::EdgeUse& use : loop.uses) ++uses[use.edge.index()];
+        for (const Loop& loop : model[face].loops)
+            for (const EdgeUse& use : loop.uses) ++uses[use.edge.index()];
     }
     std::vector<LeftOutBeside> found;
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         if (uses[e] != 1) continue;
-        const auto* curve = dynamic_cast<const CadCurve*>(model.edges[e].curve.get());
+        const auto* curve = dynamic_cast<const BesideLeftOut*>(model.edges[e].curve.get());
         if (curve == nullptr) continue;
         for (const LeftOutFace& face : curve->left_out()) {
             auto at = std::ranges::find(found, face, &LeftOutBeside::face);
@@ -55,8 +53,7 @@ std::vector<LeftOutBeside> left_out_beside(const topology::Model& model, const s
     return found;
 }
 
-void require_none_left_out(const topology::Model& model, const std::vector<FaceId>& faces,
-                           const std::string& found)
+void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, const std::string& found)
 {
     const std::vector<LeftOutBeside> missing = left_out_beside(model, faces);
     if (missing.empty()) return;
@@ -65,21 +62,20 @@ void require_none_left_out(const topology::Model& model, const std::vector<FaceI
     for (std::size_t i = 1; i < missing.size(); ++i)
         others += (i > 1 ? ", " : "") + std::to_string(missing[i].face.tag);
     throw InvalidInput("cad.face_left_out",
-                       name_of(first.face) + " is missing beside " +
-                           topology::name_of(model, first.edges.front()) + " of the volume: it " +
-                           first.face.why + (others.empty() ? "" : "; missing are too: " + others) +
-                           "; with " + found +
+                       name_of(first.face) + " is missing beside " + name_of(model, first.edges.front()) +
+                           " of the volume: it " + first.face.why +
+                           (others.empty() ? "" : "; missing are too: " + others) + "; with " + found +
                            " found, its place would be closed as a part of the void; repair it in the CAD "
                            "system, or name source, target and walls by their faces: a void face then takes "
                            "its place");
 }
 
-std::vector<std::string> left_out_in_words(const topology::OpenVolume& volume)
+std::vector<std::string> left_out_in_words(const OpenVolume& volume)
 {
-    const topology::Model& model = volume.model;
+    const Model& model = volume.model;
     std::vector<FaceId> given;
     for (std::size_t f = 0; f < model.faces.size(); ++f)
-        if (model.faces[f].origin == topology::Origin::given) given.emplace_back(f);
+        if (model.faces[f].origin == Origin::given) given.emplace_back(f);
     std::vector<std::string> words;
     for (const LeftOutBeside& missing : left_out_beside(model, given)) {
         const std::string stands = void_faces_along(model, missing.edges);
@@ -89,4 +85,4 @@ std::vector<std::string> left_out_in_words(const topology::OpenVolume& volume)
     return words;
 }
 
-} // namespace lacuna::cad
+} // namespace lacuna::topology
