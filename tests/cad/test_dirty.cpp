@@ -231,7 +231,7 @@ TEST_CASE("edges that part between their ends are not sewn in silence")
         const std::vector<int> uses = test::uses_of_edges(model);
         CHECK(std::count(uses.begin(), uses.end(), 2) == (bulge < 1 ? 1 : 0));
         REQUIRE(model.notes.size() == (bulge < 1 ? 0U : 1U));
-        if (bulge > 1) CHECK(model.notes[0].find("part by 0.005") != std::string::npos);
+        if (bulge > 1) CHECK(model.notes[0].find("a gap of 0.005") != std::string::npos);
     }
 }
 

@@ -117,7 +117,7 @@ TEST_CASE(
         topology::orient_consistently(skin);
         CHECK(test::enclosed_volume(skin) == doctest::Approx(size.prod()).epsilon(4 * share));
         const auto sewn = [](const std::string& line) {
-            return line.find("were sewn along the first") != line.npos;
+            return line.find("were merged along the first") != line.npos;
         };
         const auto notes = std::ranges::count_if(model.notes, sewn);
         CHECK(notes > 6);
@@ -139,7 +139,7 @@ TEST_CASE(
     const topology::Model wide = cad::load({path});
     CHECK(wide.edges.size() > 18);
     CHECK(std::ranges::any_of(
-        wide.notes, [](const std::string& note) { return note.find("a gap stays there") != note.npos; }));
+        wide.notes, [](const std::string& note) { return note.find("to close it") != note.npos; }));
 }
 
 TEST_CASE("two edges of one thin face, and three edges between the same ends, are not sewn by their vertices")

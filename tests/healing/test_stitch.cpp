@@ -407,7 +407,7 @@ TEST_CASE("edges that part between their ends merge below the tolerance and stay
             REQUIRE(report.notes.size() == 1);
             CHECK(report.notes[0].find("edge 2 of face 1") != std::string::npos);
             CHECK(report.notes[0].find("edge 8 of face 2") != std::string::npos);
-            CHECK(report.notes[0].find("part by") != std::string::npos);
+            CHECK(report.notes[0].find("a gap of") != std::string::npos);
         }
     }
 }

@@ -90,7 +90,7 @@ do
   check.that(side ~= skin and top.area > 0)
   check.fails(function() model:face_from { angle = 3 } end, "near")
   check.fails(function() model:face_from { near = { 0, 0, 0 }, angle = 181 } end, "angle")
-  check.fails(function() model:face_from { near = { 0, 0, 0 }, region = "none" } end, "say less")
+  check.fails(function() model:face_from { near = { 0, 0, 0 }, region = "none" } end, "fewer conditions")
   check.fails(function() model:face_from { near = { 0, 0, 0 }, regoin = "none" } end, "region")
   check.fails(function() lacuna.model():face_from { near = { 0, 0, 0 } } end, "loaded")
   -- The bottom of the hole and one wall as one, where a volume takes them like any other.

@@ -11,11 +11,10 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Places of a face, with the parameters of its surface there: corners and centres of its facets, on its
-/// exact surface where it has one.
+/// Sample points of a face: corners and centres of its facets, projected on its exact surface if it has one.
 struct Samples {
     std::vector<Vec3> points;
-    double sagitta = 0; ///< how far facets are from the surface
+    double sagitta = 0; ///< largest distance from facets to the surface
 };
 
 Samples samples_of(const topology::Model& model, const topology::Face& face, const RunContext& context)
@@ -38,7 +37,8 @@ Samples samples_of(const topology::Model& model, const topology::Face& face, con
     return samples;
 }
 
-/// Are the samples within `reach` of the facets and, with an exact surface, within the tolerance of that?
+/// Are the samples within `reach` of the facets and, if there is an exact surface, within the tolerance of
+/// it?
 bool lie_on(const Samples& samples, const topology::Model& model, const topology::Face& face, double reach,
             double tolerance, const RunContext& context)
 {
@@ -68,7 +68,7 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
     const bool exact = a.surface && b.surface && a.uv.size() == a.triangles.size() &&
                        b.uv.size() == b.triangles.size();
     if (!exact && (a.surface || b.surface)) {
-        // Facets and a surface: the facets of both are what can be compared.
+        // Only one face has an exact surface: compare the facets of both.
         topology::Face plain_a = a;
         topology::Face plain_b = b;
         plain_a.surface = plain_b.surface = nullptr;
@@ -82,7 +82,7 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
         return lie_on(of_a, model, b, reach, tolerance, context) &&
                lie_on(of_b, model, a, reach, tolerance, context);
     } catch (const BackendError&) {
-        return false; // a surface that cannot be projected on proves nothing
+        return false; // projection failed: not shown to coincide
     }
 }
 

@@ -16,7 +16,7 @@
 namespace lacuna::healing {
 namespace {
 
-/// A triangle, whose fourth corner is -1, or a given quad.
+/// A triangle (fourth corner -1) or a given quad.
 struct Cell {
     Quad corners;
     Index face;
@@ -29,8 +29,7 @@ std::array<Index, 3> rising(Triangle t)
     return t;
 }
 
-/// The quads of a face and its triangles that are no halves of these. The triangle each cell was met with
-/// first goes to `cell_of`.
+/// Add the face's quads, and its triangles that are not halves of these. `cell_of` maps triangles to cells.
 void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cells,
                std::vector<Index>& cell_of)
 {
@@ -52,7 +51,7 @@ class Grower {
 public:
     Grower(const topology::Model& model, double angle) : model_(model)
     {
-        constexpr double kSlack = 1e-6; // as where facets are cut: files of 32-bit floats are no finer
+        constexpr double kSlack = 1e-6; // as in split_facets(): 32-bit coordinates give angles no finer
         least_cosine_ = std::cos(std::min(angle * std::numbers::pi / 180 + kSlack, std::numbers::pi));
         for (std::size_t f = 0; f < model.faces.size(); ++f)
             add_cells(model.faces[f], static_cast<Index>(f), cells_, cell_of_triangle_);
@@ -63,7 +62,7 @@ public:
 
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
-    /// Whether each cell was grown.
+    /// Flags the cells that were grown.
     std::vector<bool> grow(const Vec3& near, std::span<const FaceId> among, const RunContext& context)
     {
         std::vector<bool> may(model_.faces.size(), false);
@@ -72,7 +71,7 @@ public:
         std::vector<Index> front{nearest(near, may)};
         grown[index(front[0])] = true;
         for (std::size_t i = 0; i < front.size(); ++i) {
-            if (i % 4096 == 0) check_cancelled(context); // often enough to be felt as at once
+            if (i % 4096 == 0) check_cancelled(context); // cancels without noticeable delay
             const Index from = front[i];
             for (std::size_t k = 0; k < cells_[index(from)].count(); ++k) {
                 const std::vector<Index>& here = users_.at(key(cells_[index(from)], k));
@@ -133,12 +132,12 @@ private:
     const topology::Model& model_;
     double least_cosine_ = 0;
     std::vector<Cell> cells_;
-    std::vector<Index> cell_of_triangle_; ///< face after face
+    std::vector<Index> cell_of_triangle_; ///< in the order of the faces
     std::unordered_map<std::uint64_t, std::vector<Index>> users_;
     Index seed_ = -1;
 };
 
-/// The facets as a soup whose labels are the faces, and one more the grown cells.
+/// The cells as a soup: one label per face, and one more for the grown cells.
 FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
                   const std::vector<bool>& grown)
 {
@@ -164,12 +163,12 @@ FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
     return soup;
 }
 
-/// Put the faces in the order of those before, the others behind, and give them what they had.
+/// Restore the previous order of faces, new ones last, and their tags, names and groups.
 void arrange(const topology::Model& before, Index seed, GrownFace& found)
 {
     topology::Model& model = found.model;
     const std::size_t count = before.faces.size();
-    std::vector<std::vector<std::size_t>> parts(count + 1); // of each label, the largest first
+    std::vector<std::vector<std::size_t>> parts(count + 1); // by label, the largest first
     for (std::size_t f = 0; f < model.faces.size(); ++f) parts[std::stoul(model.faces[f].name)].push_back(f);
     for (std::vector<std::size_t>& of : parts)
         std::ranges::stable_sort(of, std::greater{},
@@ -210,16 +209,16 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
         throw InvalidInput("topology.bad_angle", "the angle is " + std::to_string(options.angle) +
                                                      " degrees; it must be above 0 and at most 180");
     if (among.empty())
-        throw InvalidInput("healing.nothing_to_grow", "no face fits what is asked for; say less");
+        throw InvalidInput("healing.nothing_to_grow", "no face matches the selection; give fewer conditions");
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (model.faces[f].surface)
             throw InvalidInput("healing.exact_faces", topology::name_of(model, FaceId(f)) +
-                                                          " is a surface of CAD, and a part of it would be "
-                                                          "none; faces are grown in meshes");
+                                                          " is an exact CAD surface, which cannot be "
+                                                          "cut; faces are grown in meshes only");
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();
-    // A face as it is.
+    // Is the result exactly one existing face?
     bool same = true;
     for (std::size_t c = 0; c < grown.size(); ++c)
         same = same && grown[c] == (grower.cells()[c].face == seed);

@@ -22,8 +22,8 @@ bool repeats(std::span<const Index> corners)
     return false;
 }
 
-/// Facets of a face that are each other's back: what a facet no wider than the tolerance leaves. Both go.
-/// @return did any?
+/// Remove pairs of facets that lie back to back, which a facet no wider than the tolerance leaves.
+/// @return were any removed?
 bool drop_folds(topology::Face& face)
 {
     std::map<Triangle, std::vector<std::size_t>> alike;
@@ -113,7 +113,7 @@ void LooseModel::join(VertexId gone, VertexId stays)
     vertex_joined_[gone.index()] = stays;
 }
 
-/// Drop the facets of a face that shrank. @return is any left?
+/// Remove the collapsed facets of a face. @return is any left?
 bool LooseModel::shrink(FaceId f)
 {
     topology::Face& face = model_[f];
@@ -230,8 +230,8 @@ void LooseModel::remove(FaceId f)
     for (std::vector<FaceId>& users : users_) std::erase(users, f);
 }
 
-/// A facet side inside one face between the ends of another's edge of a single side would pass for that edge:
-/// it gets a point in its middle.
+/// Split a facet side inside a face that connects the ends of another face's one-sided edge: it would be
+/// taken for that edge.
 void LooseModel::part_shortcuts()
 {
     std::map<std::pair<Index, Index>, std::vector<FaceId>> single;
@@ -270,7 +270,7 @@ void LooseModel::part_shortcuts()
     }
 }
 
-/// Surface parameters at corners whose points are new or were moved.
+/// Recompute surface parameters at corners whose points are new or were moved.
 void LooseModel::renew_parameters(const RunContext& context)
 {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
@@ -292,11 +292,11 @@ void LooseModel::renew_parameters(const RunContext& context)
         try {
             face.surface->project(at, uv, context);
         } catch (const BackendError&) {
-            continue; // what lies between the neighbours' parameters is close enough to start from
+            continue; // keep the interpolated parameters as a start value
         }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [t, k] = corners[i];
-            // At a seam the projection may answer with the parameters of the other side.
+            // At a seam the projection may return the parameters of the other side.
             for (int axis = 0; axis < 2; ++axis) {
                 const auto [low, high] = std::minmax(
                     {face.uv[t][0][axis], face.uv[t][1][axis], face.uv[t][2][axis]});
@@ -309,7 +309,7 @@ void LooseModel::renew_parameters(const RunContext& context)
     }
 }
 
-/// Edges whose facets all went with folds.
+/// Remove edges that lost all their facets.
 void LooseModel::drop_bare_edges()
 {
     std::set<std::pair<Index, Index>> sides;

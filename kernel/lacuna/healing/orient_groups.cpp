@@ -7,7 +7,7 @@ namespace lacuna::healing {
 
 namespace {
 
-/// A side of a face's border, as a facet runs along it.
+/// A side on a face's border, in the direction of its facet.
 struct BorderUse {
     std::size_t face;
     bool forward;
@@ -18,7 +18,7 @@ Borders borders_of(const topology::Model& model, const std::vector<std::size_t>&
 {
     Borders borders;
     for (const std::size_t f : group) {
-        // Sides inside a face come once each way and cancel; what is left is its border.
+        // Sides inside a face occur once in each direction and cancel; the border remains.
         std::map<std::pair<Index, Index>, int> net;
         for (const Triangle& t : model.faces[f].triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -50,7 +50,7 @@ double six_volumes(const topology::Model& model, const topology::Face& face, con
     return sum;
 }
 
-/// The faces of a group that hang together, each with whether it must turn to agree with the first.
+/// Connected faces of a group, each with a flag whether it must be reversed to agree with the first.
 struct Part {
     std::vector<std::size_t> faces;
     bool agrees = true;
@@ -67,7 +67,7 @@ Part flood(std::size_t start,
         const auto found = neighbours.find(part.faces[i]);
         if (found == neighbours.end()) continue;
         for (const auto& [other, alike] : found->second) {
-            // Facets that agree run along a shared side in opposite directions.
+            // Consistently oriented facets traverse a shared side in opposite directions.
             const bool turn = alike != turned[part.faces[i]];
             const auto [place, fresh] = turned.try_emplace(other, turn);
             if (fresh) {

@@ -13,7 +13,7 @@ template <std::size_t N>
 std::vector<bool> repeated(std::span<const std::array<Index, N>> cells, std::span<const int> labels)
 {
     if (cells.empty()) return {};
-    // Cells by their least corner, then, in each small heap, by the others.
+    // Bucket cells by their lowest corner, then sort each small bucket by the others.
     std::vector<std::array<Index, N>> sorted(cells.begin(), cells.end());
     Index most = -1;
     for (std::array<Index, N>& cell : sorted) {

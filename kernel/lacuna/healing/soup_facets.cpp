@@ -37,7 +37,7 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
     }
 }
 
-/// The two halves of a quad, cut along the diagonal whose worse half is the better shaped.
+/// Split a quad along the diagonal whose worse half is better shaped.
 std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
 {
     const std::array<std::array<Triangle, 2>, 2> choices{
@@ -56,18 +56,18 @@ std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q
     return choices[worst[1] > worst[0] ? 1 : 0];
 }
 
-/// Squares of areas must be numbers, those of facets a millionth of the diagonal long too.
+/// Squared areas must be representable, also for facets of a millionth of the diagonal.
 void check_size(const Vec3& low, const Vec3& high, double diagonal)
 {
-    constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are far within a double's range
+    constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
     if (low == high || (diagonal > kLeast && diagonal < kMost)) return;
     std::ostringstream words;
     words << "the facets lie between (" << low.transpose() << ") and (" << high.transpose()
-          << "): no areas can be computed of a model that small or large; give another scale";
+          << "): areas overflow or underflow at this size; load with another scale";
     throw InvalidInput("topology.size", words.str());
 }
 
-/// Keep the points in use, weld them, and number those that remain as they are first met.
+/// Weld the used points and number the remaining ones in order of first use.
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
 {
@@ -77,7 +77,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     for (const Quad& q : soup.quads)
         for (const Index p : q) used[index(p)] = true;
     std::vector<Index> number(soup.points.size(), -1);
-    std::vector<Vec3> some; // those in use, where not all are
+    std::vector<Vec3> some; // the used points, if not all are used
     const auto count = static_cast<std::size_t>(std::ranges::count(used, true));
     if (count < used.size()) some.reserve(count);
     Index next = 0;
@@ -112,7 +112,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     return number;
 }
 
-/// Leave out points that only facets dropped used.
+/// Remove points that only dropped facets used.
 void drop_unused_points(Facets& facets)
 {
     std::vector<Index> number(facets.points.size(), -1);
@@ -131,7 +131,7 @@ void drop_unused_points(Facets& facets)
         for (Index& p : q) p = number[index(p)];
 }
 
-/// Leave out what is listed twice: halves of quads go with their quads.
+/// Remove duplicates; halves of quads are removed with their quads.
 void drop_repeated(Facets& facets)
 {
     std::vector<int> quad_label(facets.quads.size(), 0);
@@ -160,7 +160,7 @@ void drop_repeated(Facets& facets)
     std::size_t next = 0;
     for (std::size_t f = 0; f < facets.corner.size(); ++f) {
         if (gone_with_quad(f)) continue;
-        // Half a quad stays with its quad, whatever triangle lies on it.
+        // Half a quad is kept with its quad even if a triangle coincides with it.
         if (repeated[next++] && facets.quad[f] < 0) continue;
         facets.corner[kept] = facets.corner[f];
         facets.label[kept] = facets.label[f];
@@ -192,7 +192,7 @@ void close_tees(Facets& facets, const RunContext& context)
     }
 }
 
-/// The point that is furthest from where the middle of all is along each axis.
+/// The point furthest from the median position.
 Vec3 point_far_from_others(const std::vector<Vec3>& points)
 {
     Vec3 middle;
@@ -207,7 +207,7 @@ Vec3 point_far_from_others(const std::vector<Vec3>& points)
                                      [&](const Vec3& p) { return (p - middle).cwiseAbs().maxCoeff(); });
 }
 
-/// Whether the corners of a cell lie at three places or more.
+/// Do the corners of a cell lie at three or more distinct points?
 bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> corners)
 {
     std::size_t places = 0;
@@ -219,9 +219,9 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
     return places >= 3;
 }
 
-/// A tolerance that nobody gave goes by how far the points reach: one point astray, or two parts far from
-/// each other, and it is larger than the facets.
-/// @param given  the tolerance, 0 for none.
+/// Without a tolerance the default depends on the extent of all points, so one stray point or two distant
+/// parts can make it larger than the facets.
+/// @param given  the user's tolerance, 0: none.
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {
     if (facets.count() > 0 && (given > 0 || facets.shrunk <= facets.count())) return;
@@ -232,9 +232,9 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
     const Vec3 far = point_far_from_others(soup.points);
     throw InvalidInput(facets.count() == 0 ? "topology.no_facets" : "topology.small_facets",
                        given > 0 ? what + "; give a smaller one"
-                                 : what + ": it goes by how far the points reach; mend the file if " +
+                                 : what + ": it depends on the extent of all points; remove the point at " +
                                        place_with_digits(far, 4) +
-                                       " is no point of the shape, or give a tolerance");
+                                       " if it is not part of the shape, or give a tolerance");
 }
 
 Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)

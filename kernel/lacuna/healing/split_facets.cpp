@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// split_facets(): points are welded, sides of facets matched, facets flooded into faces, and the segments
-// where faces end strung into edges. Segments are the undirected sides of facets, numbered by their points.
+// split_facets(): weld points, match facet sides, flood facets into faces, and chain the segments between
+// faces into edges. Segments are the undirected sides of facets, numbered by their points.
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/model.h>
 
@@ -20,10 +20,10 @@
 namespace lacuna::healing {
 namespace {
 
-// A turn of exactly the feature angle must fall on one side everywhere; files of 32-bit floats give angles
-// no finer than this [radians].
+// A turn of exactly the feature angle must be classified the same way everywhere; 32-bit coordinates give
+// angles no finer than this [radians].
 constexpr double kAngleSlack = 1e-6;
-/// Facets between two looks at the context. A choice, not a measurement.
+/// Facets between two cancellation checks. Rule of thumb.
 constexpr std::size_t kFacetsBetweenPolls = 4096;
 
 std::string place(const Vec3& p)
@@ -36,7 +36,7 @@ class Sides {
 public:
     explicit Sides(const Facets& facets) : facets_(facets), segment_(3 * facets.count())
     {
-        // Sides by their lesser point, then, in each small heap, by the other: linear in the facets.
+        // Bucket sides by their lower point, then sort each small bucket by the other: linear in the facets.
         std::vector<Index> start(facets.points.size() + 1, 0);
         const auto count = static_cast<Index>(segment_.size());
         for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
@@ -67,14 +67,14 @@ public:
     }
     [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
     [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
-    /// The sides that lie on a segment, in order of facet.
+    /// The sides on a segment, in order of facet.
     [[nodiscard]] std::span<const Index> on(Index segment) const
     {
         const auto begin = index(first_[index(segment)]);
         return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
     }
-    /// The one other side with the same label on the side's segment; -1 where there is none or several,
-    /// or where a facet of another label branches off.
+    /// The only other side of the same label on the side's segment; -1 if there is none, there are several,
+    /// or a facet of another label branches off.
     [[nodiscard]] Index partner(Index side) const
     {
         Index found = -1;
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    /// Have two facets, or the quads they are of, the same corners?
+    /// Do two facets, or the quads they belong to, have the same corners?
     [[nodiscard]] bool on_each_other(Index f, Index g) const
     {
         const Index p = facets_.quad[index(f)];
@@ -110,12 +110,12 @@ private:
 
     const Facets& facets_;
     std::vector<Index> segment_; ///< of each side
-    std::vector<Index> sides_;   ///< by segment
-    std::vector<Index> first_;   ///< of each segment, in sides_
+    std::vector<Index> sides_;   ///< grouped by segment
+    std::vector<Index> first_;   ///< start of each segment in sides_
 };
 
-/// Unit normals as given. A facet so thin that moving its points by the tolerance could turn it by the
-/// feature angle has no normal of its own: it takes that of its neighbour across its longest side.
+/// Unit normals. A facet so thin that moving its points by the tolerance could turn it by the feature angle
+/// takes the normal of its neighbour across its longest side.
 std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double feature,
                              const RunContext& context)
 {
@@ -139,7 +139,7 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
         else
             thin.push_back(static_cast<Index>(f));
     }
-    // Thin facets may lie side by side: go on while some learn.
+    // Thin facets may be adjacent: repeat while some get a normal.
     for (bool learnt = true; learnt && !thin.empty();) {
         check_cancelled(context);
         learnt = false;
@@ -159,7 +159,7 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
 
 struct Flood {
     std::vector<Index> face;   ///< of each facet
-    std::vector<bool> flipped; ///< facets that run against their face
+    std::vector<bool> flipped; ///< facets oriented against their face
     Index faces = 0;
 };
 
@@ -174,7 +174,7 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature, cons
         const Index face = flood.faces++;
         flood.face[seed] = face;
         front.assign(1, static_cast<Index>(seed));
-        double as_given = 0; // area that keeps the direction it was given, less what is turned
+        double as_given = 0; // area that keeps its given orientation, minus the area that is reversed
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (i % kFacetsBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];
@@ -199,7 +199,7 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature, cons
                                        "face " + std::to_string(face + 1) +
                                            " is one-sided, as a Möbius band is: facets at " +
                                            place(facets.points[index(sides.from(side))]) +
-                                           " cannot run alike; give its parts labels of their own");
+                                           " cannot be oriented; give its parts different labels");
                 }
             }
         }
@@ -256,7 +256,7 @@ void add_faces(topology::Model& model, const Facets& facets, const Flood& flood,
     }
 }
 
-/// Strings the segments where faces end into edges.
+/// Chains the segments between faces into edges.
 class Chains {
 public:
     Chains(topology::Model& model, const Sides& sides, const Flood& flood, double feature,
@@ -276,7 +276,7 @@ public:
             is_vertex_[p] = ends_chains(static_cast<Index>(p));
     }
 
-    /// Add the edges to the model in the order faces are met, each with the face that met it on its left.
+    /// Add the edges in the order of faces, each with the face that came first on its left.
     void add_edges(const Flood& flood)
     {
         std::vector<Index> order(flood.face.size());
@@ -295,7 +295,8 @@ public:
     }
 
 private:
-    /// A segment is of an edge unless every face at it has two facets there. Its kind stands for the faces.
+    /// A segment belongs to an edge unless every face at it has two facets there. Segments of the same faces
+    /// have one kind.
     void find_borders(const Flood& flood)
     {
         std::map<std::vector<Index>, Index> kinds;
@@ -362,7 +363,7 @@ private:
         return id;
     }
 
-    /// Points from `point` along `segment` and on, up to a vertex or round to the start.
+    /// Points from `point` along `segment` up to a vertex, or round to the start.
     std::vector<Index> walk(Index segment, Index point)
     {
         std::vector<Index> points{point};
@@ -381,7 +382,7 @@ private:
         std::vector<Index> points = walk(segment, start);
         const bool closed = points.front() == points.back();
         if (!is_vertex_[index(start)] && !closed) {
-            // Met in the middle: what lies before, turned round, comes first.
+            // Started in the middle: prepend the other half, reversed.
             const auto here = segments_at(start);
             std::vector<Index> before = walk(here[0] == segment ? here[1] : here[0], start);
             std::reverse(before.begin(), before.end());
@@ -405,7 +406,7 @@ private:
     const RunContext& context_;
     double least_cosine_;
     std::vector<Index> kind_;       ///< of each segment; -1 within a face
-    std::vector<bool> done_;        ///< segments strung
+    std::vector<bool> done_;        ///< segments already chained
     std::vector<Index> first_, at_; ///< edge segments at each point
     std::vector<bool> is_vertex_;
     std::vector<VertexId> vertex_at_;
@@ -437,7 +438,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     if (facets.repeated > 0) {
         model.notes.push_back(std::to_string(facets.repeated) +
                               (facets.repeated == 1 ? " facet was" : " facets were") +
-                              " listed twice; one of each stays");
+                              " listed twice; one of each is kept");
     }
     if (facets.shrunk > 0) {
         model.notes.push_back(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// stitch(): vertices join, short edges collapse, T-junctions are split, edges that lie on each other merge
-// with all their points, and what is left over twice goes. Each step collects first and changes the model
-// then, so that the order of entities decides nothing but who keeps its tag.
+// stitch(): merge vertices, collapse short edges, split T-junctions, merge coincident edges with all their
+// points, and remove duplicates. Each step collects its changes before it makes them, so that the order of
+// entities decides only which tag is kept.
 #include <lacuna/healing/stitch.h>
 
 #include <lacuna/core/error.h>
@@ -22,7 +22,7 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Points on an exact curve closer than this part of a side become one: facets between them would be slivers.
+/// Points on an exact curve closer than this share of a side merge: facets between them would be slivers.
 constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
@@ -49,24 +49,23 @@ private:
     struct Stop {
         VertexId vertex;
         EdgeTrack::EdgePosition place;
-        std::size_t node =
-            0; ///< the point of the edge it becomes one with; 0: none, it gets a place of its own
+        std::size_t node = 0; ///< point of the edge to merge with; 0: none, a point is inserted
     };
     /// A point of a merged edge.
     struct Node {
-        double s = 0, param = 0; ///< on the edge that lends its shape
+        double s = 0, param = 0; ///< on the edge that gives the shape
         Index point = -1;
     };
-    /// An edge that becomes another, and the nodes its points become.
+    /// An edge merged into another, and the nodes that its points become.
     struct MergedEdge {
         EdgeId edge;
         std::vector<std::size_t> nodes;
     };
-    /// Edges that lie on each other.
+    /// Coincident edges.
     struct Bundle {
-        EdgeId first; ///< lends shape and tag
+        EdgeId first; ///< gives shape and tag
         std::vector<Node> nodes;
-        std::vector<std::size_t> order; ///< of the nodes along the edge
+        std::vector<std::size_t> order; ///< nodes in order along the edge
         std::vector<MergedEdge> merged;
         bool keeps_mesh = false;
     };
@@ -102,7 +101,7 @@ private:
     double tolerance_, share_;
     const RunContext& context_;
     StitchReport report_;
-    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< of edges as they are now
+    std::map<EdgeId, std::optional<EdgeTrack>> tracks_; ///< cache; entries of changed edges are dropped
 };
 
 // --- vertices and short edges ------------------------------------------------------------------------------
@@ -133,10 +132,10 @@ void Stitcher::join_vertices()
         far = v;
     }
     if (furthest > 2 * tolerance_) {
-        report_.notes.push_back("vertices stand closer than the tolerance of " + in_words(tolerance_) +
+        report_.notes.push_back("vertices are closer than the tolerance of " + in_words(tolerance_) +
                                 " in a chain; all became one, and vertex " +
                                 std::to_string(model().vertices[far].tag) + " moved by " +
-                                in_words(furthest) + "; give a smaller tolerance if they are to stay apart");
+                                in_words(furthest) + "; give a smaller tolerance to keep them apart");
     }
     settle_points();
     collapse_short_edges();
@@ -170,7 +169,7 @@ void Stitcher::settle_points()
         ++report_.faces_left_out;
         report_.notes.push_back(name_of(model(), f) + " is no wider than the tolerance of " +
                                 in_words(tolerance_) +
-                                " and is left out; give a smaller tolerance if it is to stay");
+                                " and is left out; give a smaller tolerance to keep it");
     }
     for (const FaceId f : shrunk.meshes) {
         report_.notes.push_back("the mesh of " + name_of(model(), f) +
@@ -221,7 +220,7 @@ void Stitcher::split_at_vertices()
     tracks_.clear();
 }
 
-/// Vertices on the inside of edges, where the edge or one at the vertex is free.
+/// Find vertices on the inside of edges, where the edge or an edge at the vertex is free.
 std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
 {
     std::vector<bool> at_free(model().vertices.size(), false);
@@ -247,7 +246,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     double sagitta = 0;
     for (std::size_t e = 0; e < model().edges.size(); ++e) {
         if (loose_.is_gone(EdgeId(e))) continue;
-        // What lies along a seam has its own border there; the face needs no cut.
+        // An edge along a seam has its own border there; the face needs no cut.
         if (loose_.is_seam(EdgeId(e))) continue;
         const EdgeTrack& on = track(EdgeId(e));
         sagitta = std::max(sagitta, on.sagitta());
@@ -283,7 +282,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     return stops;
 }
 
-/// Say which stops take the place of a point of the edge; drop those that a kept mesh has no place for.
+/// Assign each stop to a point of the edge if one is near; drop stops that a kept mesh has no node for.
 void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
 {
     const topology::Edge& edge = model()[e];
@@ -305,20 +304,20 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                 stop.node = taken = near;
         }
         if (stop.node == 0 && keeps_mesh) {
-            report_.notes.push_back(
-                "vertex " + std::to_string(model()[stop.vertex].tag) + " lies on " + edge_name(e) +
-                " between two nodes of a mesh that is kept; the faces there stay apart; load "
-                "with keep_mesh = false, or mesh them alike");
+            report_.notes.push_back("vertex " + std::to_string(model()[stop.vertex].tag) + " lies on " +
+                                    edge_name(e) +
+                                    " between two nodes of a kept mesh, so the faces there stay apart; load "
+                                    "with keep_mesh = false, or make the meshes match");
             continue;
         }
-        // A stop before the point another took would fold the edge back.
+        // A stop before an occupied point would fold the edge back.
         if (stop.node == 0) stop.place.s = std::max(stop.place.s, static_cast<double>(taken));
         placed.push_back(stop);
     }
     stops = std::move(placed);
 }
 
-/// Closed polylines whose vertex means nothing begin at a vertex that was found on them. @return which.
+/// Closed polylines with an arbitrary vertex start at a vertex found on them. @return edge → vertex.
 std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
 {
     std::vector<int> edges_at(model().vertices.size(), 0);
@@ -348,7 +347,7 @@ std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vecto
     return begins;
 }
 
-/// Put the stops among the edge's points, turn it to where it is to begin, and divide it there.
+/// Insert the stops into the edge, rotate it to its new start, and split it there.
 void Stitcher::insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin)
 {
     topology::Edge edge = model()[e];
@@ -396,7 +395,8 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // First the sides that get points, by the points as they were; joined ones go by what they become.
+    // Collect the sides that get points first, with the points before merging and the numbers they merge
+    // into.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;
@@ -443,7 +443,7 @@ void Stitcher::merge_edges()
 
 std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
 {
-    // Exact curves first, so that polylines follow them.
+    // Exact curves first: polylines then take their shape.
     std::stable_sort(group.begin(), group.end(),
                      [&](EdgeId a, EdgeId b) { return track(a).exact() && !track(b).exact(); });
     std::vector<Bundle> bundles;
@@ -465,7 +465,7 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
     return bundles;
 }
 
-/// Two free edges further apart than the tolerance are one where they are near each other for their length.
+/// Merge two free edges further apart than the tolerance if they are close relative to their length.
 void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
 {
     std::vector<Bundle*> free;
@@ -478,16 +478,17 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     if (face_a == face_b || model()[a].from == model()[a].to) return;
     const double reach = share_ * std::min(track(a).length(), track(b).length());
     if (!try_add(*free[0], b, reach)) return;
-    report_.notes.push_back(edge_name(a) + " of " + name_of(model(), face_a) + " and " + edge_name(b) +
-                            " of " + name_of(model(), face_b) + " have the same ends and are up to " +
-                            in_words(greatest_gap(track(a), track(b), tolerance_, context_)) +
-                            " apart between them; they were sewn along the first; give a tolerance to decide "
-                            "it yourself");
+    report_.notes.push_back(
+        edge_name(a) + " of " + name_of(model(), face_a) + " and " + edge_name(b) + " of " +
+        name_of(model(), face_b) + " have the same ends and are up to " +
+        in_words(greatest_gap(track(a), track(b), tolerance_, context_)) +
+        " apart between them; they were merged along the first; give a tolerance to decide "
+        "it yourself");
     report_.sewn.push_back(report_.notes.back());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 
-/// @param tolerance  how far apart edges may be that become one.
+/// @param tolerance  largest distance between edges that merge.
 bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
 {
     const topology::Edge& first = model()[bundle.first];
@@ -513,7 +514,7 @@ bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
     return false;
 }
 
-/// Let each point of the edge become a node of the bundle, or a new one where none is near.
+/// Each point of the edge becomes a node of the bundle; a new node is added if none is near.
 bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
                          const std::vector<EdgeTrack::EdgePosition>& places)
 {
@@ -526,7 +527,7 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     std::vector<Node> nodes = bundle.nodes;
     std::vector<std::size_t> order = bundle.order;
     std::vector<std::size_t> become{order.front()};
-    std::size_t last = 0; // in the order
+    std::size_t last = 0; // position in the order
     bool fits = true;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
         const double s = places[i].s;
@@ -556,9 +557,10 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
     if (!fits) {
         report_.notes.push_back(
+
             edge_name(bundle.first) + " and " + edge_name(e) +
-            " lie on each other, but a mesh that is kept has other nodes there; the faces stay "
-            "apart; load with keep_mesh = false, or mesh them alike");
+            " coincide, but a kept mesh has other nodes there, so the faces stay "
+            "apart; load with keep_mesh = false, or make the meshes match");
         return false;
     }
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -594,7 +596,7 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
 {
     if (!(tolerance > 0)) {
         throw InvalidInput("topology.bad_tolerance",
-                           "the tolerance to stitch by is " + in_words(tolerance) + "; it must be above 0");
+                           "the stitching tolerance is " + in_words(tolerance) + "; it must be above 0");
     }
     const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
                                        [](const topology::Face& face) { return !face.loops.empty(); });

@@ -14,8 +14,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Two free edges with the same ends look like a gap where they are no further apart than this part of the
-/// shorter one. The half circles round a hole are 0.45 of their length apart.
+/// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
+/// one. The half circles round a hole are 0.45 of their length apart.
 constexpr double kLooksLikeGap = 0.25;
 
 std::string edge_name(const topology::Model& model, EdgeId e)
@@ -33,7 +33,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
         std::set<int> others;
         for (const FaceId f : loose.users(e))
             if (class_of[f.index()] != own) others.insert(class_of[f.index()]);
-        if (others.size() > 1) stay = 2; // each of two has a face that goes on from it
+        if (others.size() > 1) stay = 2; // both are needed: each has a face connected to it
     }
     const auto worth = [&](FaceId f) {
         return (model[f].given_quads.empty() ? 0 : 2) + (model[f].surface ? 1 : 0);
@@ -42,7 +42,7 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
     std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });
     for (std::size_t i = stay; i < order.size(); ++i) {
         report.notes.push_back(name_of(model, order[i]) + " lies on " + name_of(model, order[0]) +
-                               " everywhere: one face is listed twice, and " + name_of(model, order[i]) +
+                               " everywhere: the face is listed twice, and " + name_of(model, order[i]) +
                                " is left out");
         ++report.faces_left_out;
         loose.remove(order[i]);
@@ -71,8 +71,7 @@ void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& rep
         const bool empty = model[face].triangles.empty();
         if (!empty && (!folded || topology::face_area(model, face) > tolerance * border)) continue;
         report.notes.push_back(name_of(model, face) + " is no wider than the tolerance of " +
-                               in_words(tolerance) +
-                               " and is left out; give a smaller tolerance if it is to stay");
+                               in_words(tolerance) + " and is left out; give a smaller tolerance to keep it");
         ++report.faces_left_out;
         loose.remove(face);
     }
@@ -86,8 +85,8 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
     std::map<std::vector<EdgeId>, std::vector<FaceId>> by_border;
     for (std::size_t f = 0; f < edges.size(); ++f)
         if (!loose.is_gone(FaceId(f))) by_border[edges[f]].emplace_back(f);
-    // Many faces may have no border at all: spheres here and there. Their boxes tell most of them apart;
-    // those of other facets of the same surface differ by far less than a tenth.
+    // Many faces may have no border, such as spheres. Their boxes tell most of them apart; boxes of different
+    // facets of the same surface differ by far less than a tenth.
     std::map<FaceId, Eigen::AlignedBox3d> boxes;
     const auto box_of = [&](FaceId f) -> const Eigen::AlignedBox3d& {
         auto [box, fresh] = boxes.try_emplace(f);
@@ -102,7 +101,7 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
         const double apart = std::max((of_a.min() - of_b.min()).norm(), (of_a.max() - of_b.max()).norm());
         return apart <= tolerance + of_a.diagonal().norm() / 10;
     };
-    // Faces that lie on each other are of one class.
+    // Coincident faces are in one class.
     std::vector<int> class_of(edges.size(), -1);
     std::vector<std::vector<FaceId>> classes;
     for (std::size_t f = 0; f < edges.size(); ++f) {
@@ -142,9 +141,8 @@ void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, 
                 report.notes.push_back(
                     edge_name(model, group[i]) + " of " + name_of(model, loose.users(group[i])[0]) + " and " +
                     edge_name(model, group[k]) + " of " + name_of(model, loose.users(group[k])[0]) +
-                    " have the same ends and part by " + in_words(gap) +
-                    " between them, more than the tolerance of " + in_words(tolerance) +
-                    "; a gap stays there; give a larger tolerance to close it");
+                    " have the same ends and a gap of " + in_words(gap) + ", more than the tolerance of " +
+                    in_words(tolerance) + "; give a larger tolerance to close it");
             }
         }
     }

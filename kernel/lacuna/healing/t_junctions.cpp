@@ -10,15 +10,15 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Facets between two looks at the context. A choice, not a measurement.
+/// Facets between two cancellation checks. Rule of thumb.
 constexpr std::size_t kCutBetweenPolls = 4096;
 
-/// Sides used once, 3·facet + k from corner k to the next, in order.
+/// Sides used once, in order: 3·facet + k runs from corner k to the next.
 std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t points)
 {
     const auto from = [&](Index s) { return facets[index(s) / 3][index(s) % 3]; };
     const auto to = [&](Index s) { return facets[index(s) / 3][(index(s) + 1) % 3]; };
-    // Sides by their lesser point, then, in each small heap, by the other.
+    // Bucket sides by their lower point, then sort each small bucket by the other.
     std::vector<Index> start(points + 1, 0);
     const auto count = static_cast<Index>(3 * facets.size());
     for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
@@ -53,7 +53,7 @@ std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::sp
     std::vector<Index> candidates;
     std::vector<Vec3> at;
     std::vector<std::array<Vec3, 2>> segments;
-    std::vector<std::array<Index, 3>> ends; // and the corner opposite
+    std::vector<std::array<Index, 3>> ends; // with the opposite corner
     for (const Index s : free) {
         const Triangle& f = facets[index(s) / 3];
         const std::size_t k = index(s) % 3;

@@ -27,10 +27,10 @@ std::uint64_t hash_of(const Cell& cell)
     return h;
 }
 
-/// Points by the cell they lie in, chained where hashes fall together.
+/// Hash table of points by grid cell, with chaining.
 class CellTable {
 public:
-    /// @param points  numbers lie in [0, points). @param cells  about as many are expected to be taken
+    /// @param points  point numbers lie in [0, points). @param cells  expected number of occupied cells
     CellTable(std::size_t points, std::size_t cells)
         : first_(std::bit_ceil(cells + cells / 2 + 1), -1), next_(points, -1)
     {
@@ -54,16 +54,17 @@ private:
     std::vector<Index> first_, next_;
 };
 
-/// Join equal points: facets as STL holds them repeat each about six times, and this is the cheap way.
+/// Merge equal points first: an STL file repeats each about six times, and this is cheaper than the search.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
-    constexpr std::size_t kRepeats = 4; // a choice: where nothing repeats, four points share a slot
+    constexpr std::size_t kRepeats = 4; // rule of thumb: if nothing repeats, four points share a slot
     std::vector<Index> result(points.size());
     CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {
         Cell bits;
         for (std::size_t k = 0; k < 3; ++k) {
-            bits[k] = std::bit_cast<std::int64_t>(points[i][static_cast<Eigen::Index>(k)] + 0.0); // −0 as 0
+            bits[k] = std::bit_cast<std::int64_t>(points[i][static_cast<Eigen::Index>(k)] + 0.0); // −0 hashes
+                                                                                                  // like 0
         }
         Index same = -1;
         table.each_near(bits, [&](Index p) {
@@ -75,10 +76,10 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     return result;
 }
 
-/// Cells this many tolerances wide: most points then need to look into no neighbour, and few points share
-/// one. A choice, which changes nothing but time.
+/// Cell width in tolerances: most points then search no neighbour cell, and few share a cell. Rule of thumb;
+/// it changes run time only.
 constexpr double kCellWidth = 32;
-/// Points between two looks at the context. A choice, not a measurement.
+/// Points between two cancellation checks. Rule of thumb.
 constexpr std::size_t kPointsBetweenPolls = 4096;
 
 } // namespace
@@ -93,7 +94,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
-    // A tolerance below what the coordinates resolve would overflow the cells' numbers; such cells may be
+    // A tolerance below the resolution of the coordinates would overflow the cell numbers; cells are then
     // wider.
     const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
     std::size_t different = 0;

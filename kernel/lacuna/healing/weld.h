@@ -9,14 +9,14 @@
 
 namespace lacuna::healing {
 
-/// For each point the number of the point it becomes: itself, or an earlier one within `tolerance`.
+/// For each point the number of the point it merges into: itself, or an earlier one within `tolerance`.
 ///
-/// Points are met in order; each joins the nearest earlier one that was kept and is within tolerance, the
-/// first of equals, else is kept. So result[result[i]] == result[i] <= i, and points kept are further apart
-/// than the tolerance. Equal points all become the same.
+/// Points are taken in order. Each merges into the nearest kept point within tolerance (the first of equals);
+/// without one it is kept. So result[result[i]] == result[i] <= i, and kept points are further apart than the
+/// tolerance. Equal points always merge.
 /// @pre  every coordinate is finite; tolerance >= 0.
 /// @throw Cancelled.
-/// @note O(n) where points kept are not much closer to each other than the tolerance.
+/// @note O(n) unless kept points are much closer to each other than the tolerance.
 std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const RunContext& context = {});
 
 } // namespace lacuna::healing

@@ -13,15 +13,15 @@ namespace lacuna::matching {
 
 namespace {
 
-/// What a turn of 180° counts in a score, against a residual as large as the loop: small, so that it only
-/// decides between fits that are about as good. A choice, not a measurement.
+/// Score of a rotation by 180°, relative to a residual as large as the loop. Small, so that it only decides
+/// between fits of about the same residual. Rule of thumb.
 constexpr double kTurnWeight = 0.1;
-/// Steps of a golden section: to a millionth of a sample.
+/// Golden-section steps: converges to a millionth of a sample distance.
 constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
-/// True when the hard pairs of two loops with as many vertices allow the alignment.
+/// True if the hard pairs of two loops with as many vertices allow the alignment.
 bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target, std::size_t shift,
              bool backward)
 {
@@ -35,8 +35,8 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-/// How much two aligned loops look opposite ways along the line between them, 0…1: a plain
-/// sweep goes into both alike.
+/// How far the normals of two aligned loops are reversed relative to the line between them, 0…1; 0 in a plain
+/// sweep.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();
@@ -45,7 +45,7 @@ double overturned(const LoopShape& source, const LoopShape& target, bool backwar
     return low * high < 0 ? std::min(std::abs(low), std::abs(high)) : 0;
 }
 
-/// Fit and score of an alignment whose target samples are given. A turn is a guess only where no wall leads.
+/// Fit and rate an alignment whose target samples are given. Rotation is penalised only if no wall fixes it.
 void rate(Alignment& alignment, const Problem& problem, const LoopShape& source, const LoopShape& target,
           const std::vector<Vec3>& from, std::vector<Vec3> to, const PointPairs& known, bool with_scale)
 {
@@ -88,7 +88,7 @@ std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard
     return sorted(std::move(result));
 }
 
-/// Places where the source's start may lie on a loop paired by length: nodes, where sides are given.
+/// Number of possible starts on a loop paired by length: its given nodes, or samples.
 std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
 
 std::vector<Alignment> alignments_by_length(const Problem& problem, const LoopShape& source,
@@ -136,13 +136,12 @@ Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape&
         }
     }
     const Alignment& best = a.score <= b.score ? a : b;
-    // A fit that the place on the facets alone decides is no better: stay with the even one.
+    // If only the position on the facets improves the fit, keep the evenly sampled start.
     const Alignment start = at(alignment.offset);
     return best.score < start.score ? best : start;
 }
 
-/// How much the vertex pairs of an alignment are turned against one by length, in the mean, as a share of
-/// the loop.
+/// Mean shift between an alignment's vertex pairs and an alignment by length, as a share of the loop.
 double mean_twist(const LoopShape& source, const LoopShape& target, const Alignment& by_vertices,
                   const Alignment& by_length)
 {
@@ -172,7 +171,7 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = alignments_by_vertices(problem, problem.hard, source, target, true,
                                                                 problem.led);
-    // Pairs that only the recipe asks for are no reason to cut edges: they are refused.
+    // Do not split edges because of the user's pairs alone: if they contradict, they are refused.
     if (found.empty())
         return alignments_by_vertices(problem, problem.walls, source, target, true, {}).empty();
     if (low == all && high == all) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything is counted in shares of the source: a target vertex stands where the stretch between the loops
-// takes it.
+// All positions are shares of the source loop; target vertices are mapped to them by the scaling between
+// pairs.
 #include <lacuna/matching/detail/arc_pairs.h>
 
 #include <algorithm>
@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Corners further apart than this share of a side are nearer to another place than to each other.
+/// Corners further apart than this share of a side are not paired if another corner is closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices nearer than this share of the side beside them are paired, rather than a piece that short cut
-/// off. A choice, not a measurement.
+/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge.
+/// Rule of thumb.
 constexpr double kNear = 0.25;
 
 double share(double x)
 {
     const double s = x - std::floor(x);
-    return s < 1 ? s : 0; // of a tiny negative number
+    return s < 1 ? s : 0; // floor() rounds for tiny negative numbers
 }
 
 double round_distance(double a, double b)
@@ -35,8 +35,7 @@ double round_distance(double a, double b)
     return std::min(apart, 1 - apart);
 }
 
-/// A map of the circle that takes the target's shares to the source's: piecewise linear between pairs, a turn
-/// without them.
+/// Map from the target's shares to the source's: piecewise linear between pairs, a rotation without pairs.
 class ShareMap {
 public:
     ShareMap(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
@@ -52,7 +51,7 @@ public:
 private:
     [[nodiscard]] double turned(double t) const { return share(sign_ * (t - offset_)); }
 
-    /// From the target's turned shares to the source's, or back.
+    /// From the target's shares, after `turned()`, to the source's, or back.
     [[nodiscard]] double between(double x, bool from_target) const
     {
         if (knots_.empty()) return share(x);
@@ -77,9 +76,9 @@ private:
     std::vector<std::pair<double, double>> knots_; ///< (source, turned target)
 };
 
-/// Give each of `few` one of `many`, both rising, none crossing, with the least sum of squared distances. As
-/// many at most.
-/// @return which, and the sum.
+/// Assign each of `few` one of `many`, at least as many, both ascending, in order, with the least sum of
+/// squared distances.
+/// @return the assignment and its sum.
 std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& few,
                                                     const std::vector<double>& many)
 {
@@ -98,7 +97,7 @@ std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& f
     return {chosen, cost[n][m]};
 }
 
-/// The same on a circle: wherever the first one goes, the others follow in line.
+/// The same on a circle: try every partner of the first one and assign the others in order.
 std::vector<std::size_t> round_about(const std::vector<double>& few, const std::vector<double>& many)
 {
     std::vector<std::size_t> best;
@@ -119,7 +118,7 @@ std::vector<std::size_t> round_about(const std::vector<double>& few, const std::
     return best;
 }
 
-/// The two loops while they are being paired.
+/// The state of pairing two loops.
 class Pairing {
 public:
     Pairing(const ArcLoop& source, const ArcLoop& target, double offset, bool backward, double most_twist)
@@ -144,7 +143,7 @@ public:
         if (i < partner_.size() && j < taken_.size()) pair(i, j);
     }
 
-    /// The places of the target by the pairs there are.
+    /// Map the target's vertices with the current pairs.
     void fit_shares()
     {
         std::vector<std::pair<double, double>> knots;
@@ -223,7 +222,7 @@ private:
         return loop.open[i] && partner[i] == kNone;
     }
 
-    /// The shorter or the longer of the sides beside a vertex.
+    /// The shorter or the longer of the sides next to a vertex.
     static double side(const ArcLoop& loop, std::size_t i, bool shorter)
     {
         const std::size_t n = loop.at.size();
@@ -233,7 +232,7 @@ private:
         return shorter ? std::min(before, after) : std::max(before, after);
     }
 
-    /// Corners within a segment of the loops. Those on walls too: a wall may stop short of the other end.
+    /// Pair corners within a segment of the loops, also those on walls: a wall may end before the other end.
     void pair_corners(double from, double run, bool whole)
     {
         std::vector<std::pair<double, std::size_t>> low, high;
@@ -268,7 +267,7 @@ private:
         }
     }
 
-    /// A loop is connected by one void edge at least.
+    /// A loop needs at least one void edge.
     void add_one(ArcPairs& found) const
     {
         std::size_t best = kNone;

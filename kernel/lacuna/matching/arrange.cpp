@@ -17,16 +17,16 @@ double relative(double a, double b)
     return most > 0 ? std::abs(a - b) / most : 0;
 }
 
-/// How far a loop's middle lands from another's once the source has been moved by `fit`.
+/// Distance between the centroids of two loops after the source is moved by `fit`.
 double misfit(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
               double reach)
 {
     return (fit(problem.source[s].centroid) - problem.target[t].centroid).norm() / reach;
 }
 
-/// What it costs to send loop s to loop t once the source has been moved by `fit`.
-/// @param scale  by which loops are taken to grow: that of the anchor's length, and not of the fit, which is
-///               smaller the worse it fits. Another loop's size would choose how the anchor lies.
+/// Cost of sending loop s to loop t after the source is moved by `fit`.
+/// @param scale  of loop sizes: the ratio of the anchor loops' lengths. The scale of the fit is smaller the
+///               worse the fit, so the size of another loop would then decide the anchor's alignment.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {
@@ -42,7 +42,7 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
            relative(a.area.norm() * scale * scale, b.area.norm()) + counts;
 }
 
-/// The arrangement that an alignment of the anchor leads to; nothing where no complete one is cheaper than
+/// The arrangement that an alignment of the anchor leads to; empty if no complete one is cheaper than
 /// `limit`.
 std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
                                           const Alignment& alignment, double scale, double reach,
@@ -58,7 +58,7 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
                                        : loop_cost(problem, i, j, alignment.fit, scale, reach);
         }
     }
-    // However the loops are paired, each costs its least: most alignments are out before they are assigned.
+    // Lower bound: each row's least cost. Most alignments are rejected before the assignment is solved.
     if (!(alignment.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit))
         return std::nullopt;
     Arrangement result{assign(cost), static_cast<int>(anchor), alignment, {}, alignment.score};
@@ -72,8 +72,7 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
     return result.score < limit ? std::optional(result) : std::nullopt;
 }
 
-/// Keep the two best arrangements with different pairs, and of the alignments of each the two best that
-/// differ.
+/// Keep the two best arrangements with different pairs and, for each, the two best alignments that differ.
 void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
 {
     const auto same = std::find_if(
@@ -118,7 +117,7 @@ std::vector<Arrangement> arrange(const Problem& problem)
             const double scale = with_scale && low > 0 ? high / low : 1;
             for (const Alignment& alignment : alignments_of(problem, anchor, t, with_scale)) {
                 check_cancelled(problem.context);
-                // With loops to spare for a second arrangement nothing worse than it matters.
+                // With three loops or more, only arrangements better than the second best matter.
                 const double limit = n > 2 && best.size() > 1 ? best.back().score
                                                               : std::numeric_limits<double>::infinity();
                 auto found = arrangement_of(problem, anchor, t, alignment, scale, reach, limit);

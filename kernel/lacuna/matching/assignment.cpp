@@ -13,7 +13,7 @@ std::vector<int> assign(const Eigen::MatrixXd& cost)
     for (Eigen::Index i = 0; i < cost.size(); ++i) {
         if (std::isfinite(cost(i))) finite_sum += std::abs(cost(i));
     }
-    // A pair that may not be costs more than all the others together.
+    // A forbidden pair costs more than all the others together.
     const auto price = [&](int row, int column) {
         const double c = cost(row, column);
         return std::isfinite(c) ? c : finite_sum;

@@ -13,9 +13,9 @@ using namespace topology;
 
 namespace {
 
-/// A bend of a walk that a node must keep [degrees]. A choice, not a measurement.
+/// Smallest turn of a loop at a corner, where a node must be [degrees]. Rule of thumb.
 constexpr double kCornerAngle = 15;
-/// How much more than its facets next to it a corner turns. A choice, not a measurement.
+/// A corner turns by this factor more than its adjacent facets. Rule of thumb.
 constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)
@@ -23,7 +23,7 @@ double turn(const Vec3& in, const Vec3& out)
     return geometry::angle_between(in, out) * 180 / std::numbers::pi;
 }
 
-/// The turn of a chain from its first side to its second, or from its last but one to its last [degrees].
+/// Turn between the first two sides of a chain, or the last two [degrees].
 double bend_at_end(const Model& model, const std::vector<Index>& points, bool first)
 {
     if (points.size() < 3) return 0;

@@ -24,27 +24,27 @@ using namespace topology;
 
 namespace {
 
-/// Points between two side lines that a section is sampled at, and round a closed section without any.
-/// Choices, not measurements: an affine fit needs four points, the rest evens out facets.
+/// Samples of a section between two side lines, and of a closed section without any. Rules of thumb: an
+/// affine fit needs four points, more average out the facets.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
-/// How close to the rims the first and the last section are cut: no facet is crossed at a corner there.
+/// Offset of the first and last level from the rims, so that no level passes through a facet corner there.
 constexpr double kRim = 1e-12;
 
 using FacetSide = std::pair<Index, Index>;
 
 FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A level line over the facets of one wall part.
+/// A level line on the facets of one wall part.
 struct LevelLine {
     std::vector<Vec3> points;
-    std::vector<FacetSide> sides;                             ///< that each point lies on
-    std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in walking order
+    std::vector<FacetSide> sides;                             ///< side that each point lies on
+    std::vector<std::pair<std::size_t, std::size_t>> anchors; ///< (point, side line) in traversal order
     bool closed = false;
-    Vec3 rise{0, 0, 0}; ///< the way straight up, summed along the line
+    Vec3 rise{0, 0, 0}; ///< upward direction, summed along the line
 };
 
-/// The mean way straight up the walls at each model point. Facets' own ways would jump from row to row.
+/// Mean upward direction on the walls at each model point. Directions per facet would jump from row to row.
 std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& heights)
 {
     const Model& model = volume.model;
@@ -65,8 +65,8 @@ std::vector<Vec3> ways_up(const OpenVolume& volume, const std::vector<double>& h
     return sum;
 }
 
-/// The facets that each level passes through, in their order; nothing where some facet has no height. Near
-/// linear in the facets and in what is found.
+/// The facets that each level passes through, in their order; empty if some facet has no height. Near linear
+/// in the facets and in the output.
 std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVolume& volume,
                                                                    const std::vector<FaceId>& part,
                                                                    const std::vector<double>& heights,
@@ -82,7 +82,7 @@ std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVol
                 least = std::min(least, height);
                 most = std::max(most, height);
             }
-            // A corner at a level is above it: those above the lowest corner and not above the highest.
+            // A corner exactly at a level counts as above it.
             for (auto level = std::upper_bound(levels.begin(), levels.end(), least);
                  level != levels.end() && *level <= most; ++level)
                 found[static_cast<std::size_t>(level - levels.begin())].push_back(t);
@@ -91,7 +91,7 @@ std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVol
     return found;
 }
 
-/// The only level line at height t; nothing where there are several or none.
+/// The only level line at height t; empty if there are several or none.
 /// @param triangles  those that the level passes through
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
@@ -150,13 +150,13 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
     return line;
 }
 
-/// A side of facets on an exact surface.
+/// A facet side on an exact surface.
 struct ExactSide {
     FaceId face;
-    Vec2 first, second; ///< parameters at its ends, the lower point first
+    Vec2 first, second; ///< parameters at the ends, the lower point first
 };
 
-/// Those of a wall part that have one.
+/// The sides of a wall part that lie on an exact surface.
 std::map<FacetSide, ExactSide> exact_sides(const Model& model, const std::vector<FaceId>& part)
 {
     std::map<FacetSide, ExactSide> found;
@@ -176,9 +176,9 @@ std::map<FacetSide, ExactSide> exact_sides(const Model& model, const std::vector
     return found;
 }
 
-/// Move the points of level lines from the facets to the exact surfaces these were cut from: beside a thin
-/// void the facets' sag is large. Points that would go further than their side is long stay, as do those of a
-/// surface that cannot be projected on.
+/// Project the points of level lines from the facets onto their exact surfaces, because next to a thin void
+/// the facets' sag is large. A point stays if it would move further than its side's length or cannot be
+/// projected.
 void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::vector<LevelLine>& lines,
                      const RunContext& context)
 {
@@ -217,7 +217,7 @@ void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::v
     }
 }
 
-/// Begin a closed line at its anchor with the lowest side line.
+/// Rotate a closed line to start at its anchor with the lowest side line.
 void start_at_first_anchor(LevelLine& line)
 {
     if (!line.closed || line.anchors.empty()) return;
@@ -240,7 +240,7 @@ std::vector<std::size_t> anchor_lines(const LevelLine& line)
     return numbers;
 }
 
-/// @param start  where a closed line without anchors begins [running length].
+/// @param start  start of a closed line without anchors [running length].
 std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
 {
     const std::vector<double> arc = geometry::arc_lengths(line.points);
@@ -261,7 +261,7 @@ std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
     return samples;
 }
 
-/// Which way the line through the sections' middles goes at each of them.
+/// Direction of the line through the sections' centroids at each section.
 std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
 {
     std::vector<Vec3> middles;
@@ -273,11 +273,11 @@ std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
     return geometry::ways_along(middles, widths);
 }
 
-/// A closed section that starts where it lies on the one below with the least turn: at the best sample, and
-/// from there as far along as the samples' distances still have a part along the line. A start at a sample
-/// would turn each section by up to half a step.
-/// @param onward  the turn of the way from the section below: without it levels that lean would be turned a
-///                little against each other at every step of a bend.
+/// A closed section whose start has the least twist against the section below: the best sample, then refined
+/// until the mean offset along the line is zero. Starting at a sample would twist each section by up to half
+/// a step.
+/// @param onward  rotation of the sweep direction from the section below. Without it, inclined levels would
+///                twist a little against each other at every step of a bend.
 std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
                           const Eigen::Matrix3d& onward)
 {
@@ -316,12 +316,11 @@ struct PartSections {
     bool closed = false;
 };
 
-/// The area of a section, along the way up whichever side of the wall the void is on, so that those of
-/// several parts add up.
+/// Complete a section for the fit. Its area vector points up the wall, whichever side the void is
+/// on, so that the areas of several parts add up.
 ///
-/// A section that does not close says little of the void beside it; a straight one leaves open how it is
-/// turned. The way up the wall says the rest: two points off the wall and an area are added, as large as a
-/// round section's that is as long as the gap.
+/// An open section does not fix the void next to it, and a straight one not even its rotation. So two points
+/// off the wall, and the area of a circular section as long as the gap, are added along the upward direction.
 Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 {
     const Vec3 area = geometry::newell_vector(section);
@@ -335,13 +334,13 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
     return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;
 }
 
-/// Points that `complete()` adds to an open section.
+/// Number of points that `complete()` adds to an open section.
 constexpr std::size_t kAdded = 2;
-/// Open walls say how the rest of their loop goes where they reach off their gap by this share of what the
-/// loop does: a mistake in the fit is then at most about doubled there. A choice, not a measurement.
+/// Open walls are extrapolated to the rest of their loop if they reach off their own chord by this share of
+/// the loop's reach: an error of the fit is then about doubled at most. Rule of thumb.
 constexpr double kReach = 0.5;
 
-/// @param section  of open walls at the rim, without what `complete()` adds. @param rim  the whole loop
+/// @param section  of open walls at the rim, without the points of `complete()`. @param rim  the whole loop
 bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
 {
     const Vec3 from = section.front(), gap = (section.back() - from).stableNormalized();
@@ -354,16 +353,15 @@ bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
     return reach > 0 && reach >= kReach * furthest(rim);
 }
 
-/// True where the ends of an open line lie on side lines.
+/// For each end of an open line, whether it lies on a side line.
 std::pair<bool, bool> ends_anchored(const LevelLine& line)
 {
     if (line.anchors.empty()) return {false, false};
     return {line.anchors.front().first == 0, line.anchors.back().first + 1 == line.points.size()};
 }
 
-/// Walls that go only part of the way lengthen some open lines at one end: leave all of them between the side
-/// lines that they share.
-/// @return  false where the lines end in unlike ways and share no two side lines.
+/// Trim open lines, which walls that end between the rims lengthen, to the side lines that all of them share.
+/// @return  false if the lines end differently and share fewer than two side lines.
 bool cut_to_shared(std::vector<LevelLine>& lines)
 {
     const bool alike = std::all_of(lines.begin(), lines.end(), [&](const LevelLine& line) {
@@ -380,7 +378,7 @@ bool cut_to_shared(std::vector<LevelLine>& lines)
     return true;
 }
 
-/// Sections of one wall part; empty when some level is not one line like the others.
+/// Sections of one wall part; empty if some level is not a single line like the others.
 PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& part,
                          const std::vector<double>& heights, const std::vector<Vec3>& up,
                          const std::map<FacetSide, std::size_t>& on_line, int count,
@@ -423,8 +421,8 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     return result;
 }
 
-/// The points of the source's loop that a wall part stands on, and its sections there; those of parts on one
-/// loop together.
+/// The points of the source loop that a wall part touches, and its sections there; parts on one loop are
+/// merged.
 void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, const PartSections& sections,
                   std::vector<LoopSections>& loops)
 {
@@ -477,7 +475,7 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     }
     const std::vector<std::vector<FaceId>> walls = connected_parts(model, volume.faces(Role::wall));
     std::vector<PartSections> parts(walls.size());
-    // Exact surfaces are asked by one thread at a time.
+    // Exact surfaces must be evaluated by one thread at a time.
     RunContext threads = context;
     if (std::ranges::any_of(volume.faces(Role::wall), [&](FaceId f) { return model[f].surface != nullptr; }))
         threads.threads = 1;
@@ -492,7 +490,7 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     }
     if (!parts.empty()) result.areas.assign(result.levels.size(), Vec3::Zero());
     for (const PartSections& part : parts) {
-        if (result.closed && !part.closed) continue; // it guesses what the closed ones know
+        if (result.closed && !part.closed) continue; // closed sections need no extrapolation; skip open ones
         for (std::size_t k = 0; k < part.points.size(); ++k) {
             result.areas[k] += part.areas[k];
             result.levels[k].insert(result.levels[k].end(), part.points[k].begin(), part.points[k].end());

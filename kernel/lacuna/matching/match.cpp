@@ -20,23 +20,23 @@ using namespace topology;
 
 namespace {
 
-/// Confidence below which the second best is named beside the best: it fits within a quarter as well.
-/// A choice, not a measurement.
+/// Below this confidence the second best alignment is reported too: its residual is within a third of the
+/// best. Rule of thumb.
 constexpr double kUnsure = 0.25;
-/// Confidence below which given sides that agree outweigh a better fit, 2.5 times as good, that turns as much
-/// or more. Ends that are sectors of rings, the one eight times as far out as the other, need it.
+/// Below this confidence, matching numbers of given sides outweigh a fit 2.5 times as good that rotates as
+/// much or more. Ring sectors need it where the outer end is eight times as far out as the inner.
 constexpr double kUnsureBesideSides = 0.6;
-/// Confidence below which they outweigh one that turns less, and the share of a half turn that is no more: a
-/// plain prism is not twisted for its target's mesh. Choices, not measurements.
+/// Below this confidence they outweigh a fit that rotates less, and the share of half a turn that counts as
+/// equal: a plain prism is not twisted to suit its target mesh. Rules of thumb.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
-/// How sure an alignment is, against another.
+/// Confidence in an alignment compared to another.
 double sureness(const Alignment& best, const Alignment& second)
 {
     return 1 - std::min(1.0, std::max(best.score, 1e-12) / std::max(second.score, 1e-12));
 }
 
-/// Where another alignment of a loop fits about as well, say which two there are: the recipe can choose.
+/// Report a second alignment that fits about as well, so that the user can choose.
 void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const Alignment& best,
                      const Alignment& second, Match& match)
 {
@@ -47,14 +47,14 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
         return "vertex " + std::to_string(model[problem.target[t].vertices[alignment.shift]].tag);
     };
     match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " +
-                          std::to_string(model[problem.source[s].vertices.front()].tag) + " was laid on " +
+                          std::to_string(model[problem.source[s].vertices.front()].tag) + " was matched to " +
                           start_on(best) + ", and " +
-                          (best.shift == second.shift ? "the other way round" : start_on(second)) +
+                          (best.shift == second.shift ? "the reverse direction" : start_on(second)) +
                           " fits about as well; choose with match{ vertices = … }" +
                           (best.backward == second.backward ? "" : " or match{ flip = … }"));
 }
 
-/// Aligns every loop, and pairs vertices by that.
+/// Aligns every loop and pairs its vertices accordingly.
 class LoopAligner {
 public:
     LoopAligner(const Problem& problem, Match& match)
@@ -106,21 +106,20 @@ private:
         }
         if (found.empty()) {
             throw NotClosed("matching.vertices_contradict",
-                            "no way to lay source loop " + std::to_string(s + 1) + " on target loop " +
+                            "no alignment of source loop " + std::to_string(s + 1) + " with target loop " +
                                 std::to_string(t + 1) +
-                                " keeps the vertex pairs that the walls or the recipe fix" +
+                                " keeps the vertex pairs fixed by the walls or the recipe" +
                                 fixed_in_words(s));
         }
         const Alignment& best = chosen_[s] = found.front();
-        // A loop turned round by hand says nothing of how the others run.
+        // A loop reversed by the user does not give the direction of the other loops.
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
         known_.add(samples(problem_, s, t, best));
     }
 
-    /// Where the shape of a loop leaves open how it lies, ends that came with meshes are laid so that both
-    /// can stay.
+    /// If the shape does not decide the alignment, prefer the one under which both given meshes can be kept.
     void prefer_given_sides(std::size_t s, std::size_t t, std::vector<Alignment>& found) const
     {
         std::size_t least = unlike_sides(problem_, s, t, found.front());
@@ -137,10 +136,10 @@ private:
         if (!differ(problem_, s, t, found.front(), likeliest)) return;
         match_.notes.push_back(
             "source loop " + std::to_string(s + 1) +
-            " was laid on the target so that given sides agree; its shape alone fits better otherwise");
+            " was aligned so that the given meshes agree; by shape alone another alignment fits better");
     }
 
-    /// How sure an alignment is, against the next one. One hard pair settles all of a loop.
+    /// Set the confidence of an alignment against the next one. One hard pair fixes the whole loop.
     void rate(std::size_t s, const std::vector<Alignment>& found)
     {
         const std::size_t t = target(s);
@@ -149,15 +148,14 @@ private:
             return differ(problem_, s, t, best, other);
         });
         if (second == found.end() || problem_.has_hard(s)) return;
-        // The pairs of the loops may have been chosen for their shapes, and not be the best by where they
-        // land.
+        // Loop pairs may have been chosen by shape and need not be the best by position.
         const double sure = sureness(best, *second);
         match_.confidence = std::min(match_.confidence, sure);
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Samples lie where they happen to, unless they are nodes: slide a loop that goes by length to where all
-    /// the others want it. Those that can slide themselves count by their middles, as much as the loop.
+    /// Shift a loop paired by length to the best fit of all the others, unless its samples are given nodes.
+    /// Other loops that can still shift count by their centroids, weighted like a loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);
@@ -201,7 +199,7 @@ private:
         }
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             throw NotClosed("matching.vertices_contradict",
-                            "the vertex pairs that the walls or the recipe fix on source loop " +
+                            "the vertex pairs fixed by the walls or the recipe on source loop " +
                                 std::to_string(s + 1) + " cross" + fixed_in_words(s));
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
@@ -231,8 +229,8 @@ private:
         };
         match_.notes.push_back(
             "source loop " + std::to_string(s + 1) + " has " + vertices(low) + ", target loop " +
-            std::to_string(t + 1) + " has " + vertices(high) + ": paired by how far along they stand" +
-            (splits == 0 ? "" : ", with " + vertices(splits) + " more on edges that are split"));
+            std::to_string(t + 1) + " has " + vertices(high) + ": paired by arc length" +
+            (splits == 0 ? "" : ", with " + vertices(splits) + " added by splitting edges"));
     }
 
     void add_pair(VertexId source, VertexId to)
@@ -242,7 +240,7 @@ private:
         match_.hard.push_back(known != problem_.hard.end() && known->second == to);
     }
 
-    /// Vertices on walls want no split: they have the partners that walls give them, or corners find.
+    /// Vertices on walls are not split: walls or corners give them partners.
     [[nodiscard]] ArcLoop arc_loop(const LoopShape& shape) const
     {
         ArcLoop loop{shape.vertices, shape.vertex_arc, shape.corner, {}};
@@ -271,7 +269,7 @@ private:
     std::optional<bool> backward_;
 };
 
-/// The paper's own way.
+/// The paper's own method.
 void by_nearest(const Problem& problem, Match& match)
 {
     NearestInput input{match.source_loops,
@@ -289,7 +287,7 @@ void by_nearest(const Problem& problem, Match& match)
     for (const auto& pair : match.vertices) match.hard.push_back(problem.hard.contains(pair.first));
 }
 
-/// Numbers as the recipe counts them, from 1.
+/// Loop numbers as in the recipe, from 1.
 std::string numbers(const std::vector<int>& list)
 {
     return full_list(list, [](int i) { return std::to_string(i + 1); });
@@ -300,7 +298,7 @@ std::string loops_in_words(std::size_t count)
     return std::to_string(count) + (count == 1 ? " loop" : " loops");
 }
 
-/// Whether the other method matches what nearest vertices do not.
+/// Whether the other method succeeds where `nearest` failed.
 bool can_be_aligned(const OpenVolume& volume, MatchOptions options, const RunContext& context)
 {
     options.method = Method::aligned;
@@ -325,15 +323,14 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     result.target_loops = rims(model, volume.faces(Role::target));
     if (result.source_loops.empty() || result.target_loops.empty()) {
         const bool source = result.source_loops.empty();
-        throw NotClosed("matching.no_rim",
-                        std::string("the ") + (source ? "source" : "target") +
-                            " has no rim to match: it is missing, or it is a closed surface");
+        throw NotClosed("matching.no_rim", std::string("the ") + (source ? "source" : "target") +
+                                               " has no rim: it is missing, or it is a closed surface");
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed("matching.loop_counts",
                         "the source has " + loops_in_words(result.source_loops.size()) +
                             " and the target has " + loops_in_words(result.target_loops.size()) +
-                            "; a sweep needs as many on both ends");
+                            "; both ends of a sweep need the same number");
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
@@ -341,7 +338,8 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
             by_nearest(problem, result);
         } catch (const NotClosed& error) {
             if (!can_be_aligned(volume, options, context)) throw;
-            throw NotClosed(error.code(), std::string(error.what()) + "; method = \"aligned\" matches them");
+            throw NotClosed(error.code(),
+                            std::string(error.what()) + "; try method = \"aligned\", which matches them");
         }
         return result;
     }
@@ -349,7 +347,8 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     choose_how(problem);
     const std::vector<Arrangement> found = arrange(problem);
     if (found.empty()) {
-        throw NotClosed("matching.no_pairs", "no pairing of the loops keeps what walls and recipe fix");
+        throw NotClosed("matching.no_pairs",
+                        "no pairing of the loops keeps the pairs fixed by walls and recipe");
     }
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)
@@ -358,7 +357,7 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     if (open && found.size() > 1) {
         result.confidence = 1 - std::max(found[0].score, 1e-12) / std::max(found[1].score, 1e-12);
         if (result.confidence < kUnsure) {
-            result.notes.push_back("the source's loops were sent, in their order, to target loops " +
+            result.notes.push_back("the source loops were paired, in order, with target loops " +
                                    numbers(found[0].target) + ", and " + numbers(found[1].target) +
                                    " fits about as well; choose with match{ loops = … }");
         }

@@ -14,63 +14,63 @@ namespace lacuna::matching {
 
 enum class Method { aligned, nearest };
 
-/// Parts of a match a person forces; what is left empty is found. Numbers count from 0.
+/// Parts of a match that the user fixes; empty parts are computed. Numbers count from 0.
 struct MatchOptions {
     Method method = Method::aligned;
     std::vector<std::pair<int, int>> vertices; ///< (source, target) vertex tags
     std::vector<std::pair<int, int>> loops;    ///< (source, target) loop numbers
-    std::vector<int> flip;                     ///< source loops whose direction on the target is turned round
+    std::vector<int> flip;                     ///< source loops whose direction on the target is reversed
     friend bool operator==(const MatchOptions&, const MatchOptions&) = default;
 };
 
 /// A source loop and the target loop it is swept to.
 struct LoopPair {
     int source = -1, target = -1;
-    bool flipped = false; ///< the target loop has to be walked against its own direction
+    bool flipped = false; ///< the target loop is traversed against its own direction
 };
 
-/// A vertex of one end that has no partner on the other: an edge there is to be split to make one.
+/// A vertex of one end without a partner on the other end: an edge there is split to make one.
 struct Split {
     VertexId vertex;
-    bool on_target = true; ///< the edge is the target's, the vertex the source's; else the other way round
+    bool on_target = true; ///< the edge is the target's and the vertex the source's; otherwise the reverse
     EdgeId edge;
-    double fraction = 0; ///< of the edge's length, as it runs
+    double fraction = 0; ///< of the edge's length, in the direction of the edge
 };
 
-/// Which loop and vertex of the source goes to which of the target (Algorithm 1).
+/// Correspondence of loops and vertices between source and target (Algorithm 1).
 struct Match {
     std::vector<topology::Rim> source_loops, target_loops;
     std::vector<LoopPair> loops;
     std::vector<std::pair<VertexId, VertexId>>
         vertices;              ///< (source, target), source loop by source loop in walking order
-    std::vector<bool> hard;    ///< of each vertex pair: joined by a chain of wall edges
-    std::vector<Split> splits; ///< vertices still to be made: apply_splits()
+    std::vector<bool> hard;    ///< by vertex pair: joined by a chain of wall edges
+    std::vector<Split> splits; ///< vertices still to be created by apply_splits()
     std::string method;
-    double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 where nothing had to be guessed
+    double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 if there was only one possibility
     std::vector<std::string> notes;
-    /// side_lines() of the volume as it was matched; nothing where the match was not found by match().
+    /// side_lines() of the volume when it was matched; empty if match() did not make this match.
     std::optional<std::vector<SideLine>> side_lines;
 };
 
 /// Match the rims of source and target.
 ///
-/// Algorithm: paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment,
-/// vertices by the rigid fit of every cyclic shift and direction. `nearest`: the paper's own vertex
-/// distances.
+/// Algorithm: the paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment,
+/// vertices by the best rigid fit over all cyclic shifts and both directions. `nearest`: the paper's own
+/// vertex distances.
 ///
-/// `aligned` pairs vertices by how far along the loops they stand, pair_by_arc(), where the vertices
-/// themselves do not tell: loops with unlike numbers of them, closed edges, loops without corners whose
-/// vertices would turn the void edges by more than 1/32 of the loop, and those where a corner would meet no
-/// corner; choose_how(). Real corners get a partner always, by a split of the other loop if need be; a vertex
-/// that only says where a smooth run was cut may stay alone.
-/// @throw InvalidInput   a forced part that contradicts the faces.
-/// @throw NotClosed      loops that differ in number; forced parts that contradict each other; names them.
+/// `aligned` pairs vertices by arc length, pair_by_arc(), where a vertex-to-vertex pairing is not reliable:
+/// loops with different numbers of vertices, loops with one vertex, loops without corners whose vertices
+/// would twist the void edges by more than 1/32 of the loop, and loops where a corner would be paired with a
+/// smooth vertex; see choose_how(). Corners always get a partner, if necessary by splitting an edge of the
+/// other loop; a vertex on a smooth run may stay without one.
+/// @throw InvalidInput   a pair or loop fixed by the user that contradicts the faces.
+/// @throw NotClosed      different numbers of loops; fixed parts that contradict each other; names them.
 /// @throw Cancelled
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {},
             const RunContext& context = {});
 
-/// Make the splits a match wants, by topology::split_edge(): its pairs and loops are whole then, and no
-/// splits are left. A place on an edge with a wall is passed over, with a note.
+/// Make the splits of a match by topology::split_edge(). Its pairs and loops are then complete and `splits`
+/// is empty. A split on an edge with a wall is skipped, with a note.
 /// @pre the match is of this volume.
 void apply_splits(topology::OpenVolume& volume, Match& match);
 

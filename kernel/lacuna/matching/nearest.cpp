@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices are counted through, loop by loop in walking order: `Ends` says which loop and which place a
-// number stands for.
+// Vertices are numbered through all loops in traversal order; `Ends` gives the loop and position of a number.
 #include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
@@ -21,8 +20,8 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Step 7: matches within this many standard deviations of the mean are no outliers, and this share of them
-/// must be none. Both are the paper's.
+/// Step 7: distances within this many standard deviations of the mean are no outliers, and at least this
+/// share must be none. Both are the paper's.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -31,13 +30,13 @@ struct Ends {
     std::vector<VertexId> vertex;
     std::vector<Vec3> at;
     std::vector<std::size_t> loop;  ///< of each vertex
-    std::vector<std::size_t> first; ///< vertex of each loop, and the number of all at last
+    std::vector<std::size_t> first; ///< first vertex of each loop, then the total
     std::vector<Vec3> area;         ///< of each loop
 
     [[nodiscard]] std::size_t count(std::size_t l) const { return first[l + 1] - first[l]; }
 };
 
-/// Step 3: where the vertices of each loop are.
+/// Step 3: positions of the vertices of each loop.
 Ends ends_of(const Model& model, const std::vector<Rim>& loops)
 {
     Ends ends;
@@ -92,11 +91,11 @@ public:
     }
 
 private:
-    /// One alignment of a loop with another: source place i on target place (shift ± i).
+    /// An alignment of two loops: source place i on target place (shift ± i).
     struct Way {
         std::size_t shift = 0;
         bool backward = true;
-        std::size_t agree = 0;       ///< vertices whose own match it keeps
+        std::size_t agree = 0;       ///< vertices whose own match agrees
         double distance = kInfinity; ///< sum over the loop
     };
 
@@ -105,7 +104,7 @@ private:
         return (source_.at[s] - target_.at[t]).norm();
     }
 
-    /// Settled pairs leave others no choice.
+    /// Fixed pairs exclude other partners.
     [[nodiscard]] bool may(std::size_t s, std::size_t t) const
     {
         if (fixed_[s] != kNone) return fixed_[s] == t;
@@ -146,15 +145,15 @@ private:
     const NearestInput& input_;
     Ends source_, target_;
     std::vector<std::size_t> partner_;           ///< target of each source vertex
-    std::vector<std::size_t> fixed_;             ///< target of each source vertex that is settled
+    std::vector<std::size_t> fixed_;             ///< target of each fixed source vertex
     std::vector<std::size_t> nearest_to_source_; ///< step 4 i, kept for messages
     std::vector<std::size_t> loop_;              ///< target loop of each source loop
-    bool backward_ = true;                       ///< target loops are walked against their own direction
+    bool backward_ = true;                       ///< target loops are traversed against their own direction
     NearestMatch result_;
 };
 
-/// Steps 4 and 5: the nearest target vertex of each source vertex; where the map is not unique, the nearest
-/// source vertex of each target vertex that was met not at all or more than once.
+/// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the nearest
+/// source vertex of each target vertex that has no partner or several.
 void Nearest::match_vertices()
 {
     std::vector<int> met(target_.vertex.size(), 0);
@@ -184,7 +183,7 @@ void Nearest::match_vertices()
     }
 }
 
-/// Step 6: a loop goes where most of its vertices go.
+/// Step 6: a loop is paired with the loop that most of its vertices vote for.
 void Nearest::match_loops()
 {
     const std::size_t n = input_.source_loops.size();
@@ -202,7 +201,7 @@ void Nearest::match_loops()
         } else {
             if (*most == 0) refuse_loop(l, "none of its vertices is the nearest to one of the target");
             if (std::count(votes.begin(), votes.end(), *most) > 1)
-                refuse_loop(l, "its vertices are as near to several target loops");
+                refuse_loop(l, "its vertices are equally close to several target loops");
             loop_[l] = static_cast<std::size_t>(most - votes.begin());
         }
         const std::size_t other = std::exchange(claimed[loop_[l]], l);
@@ -220,7 +219,7 @@ void Nearest::match_loops()
     }
 }
 
-/// Step 7: matches far from the mean distance are given up, to be matched better.
+/// Step 7: matches far from the mean distance are dropped and paired again.
 void Nearest::validate()
 {
     for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) {
@@ -239,7 +238,7 @@ void Nearest::validate()
         const double mean = sum / count;
         double squares = 0;
         for (const std::size_t s : matched) squares += std::pow(distance(s, partner_[s]) - mean, 2);
-        // Equal distances differ by rounding: that is no deviation.
+        // Equal distances differ by rounding, which is no deviation.
         const double reach = kDeviations * std::sqrt(squares / count) + model_.tolerance;
         std::size_t within = 0;
         for (const std::size_t s : matched) {
@@ -275,7 +274,7 @@ std::vector<Nearest::Way> Nearest::ways(std::size_t l, std::size_t m) const
     return result;
 }
 
-/// The way that most vertices agree on, the nearer of equals.
+/// The alignment that most vertices agree on; of equal ones the nearest.
 Nearest::Way Nearest::best_of(const std::vector<Way>& list)
 {
     return *std::min_element(list.begin(), list.end(), [](const Way& a, const Way& b) {
@@ -283,8 +282,8 @@ Nearest::Way Nearest::best_of(const std::vector<Way>& list)
     });
 }
 
-/// Step 6, the direction: one for all loops, as both ends are seen from one side. The order of one or two
-/// vertices says nothing of it; where no other loop does, the sides the ends are seen from count.
+/// Step 6, the direction: one for all loops, as both ends are seen from one side. Loops of one or two
+/// vertices do not determine it; if no other loop does, the area vectors decide.
 void Nearest::find_direction()
 {
     std::size_t backward = 0, forward = 0;
@@ -305,17 +304,17 @@ void Nearest::find_direction()
         backward_ = backward == forward ? low.dot(high) < 0 : backward > forward;
 }
 
-/// Lay a loop the way its matches agree on: those given up and those left over follow the others.
+/// Align a loop as its matches agree; dropped and unpaired vertices follow the others.
 void Nearest::align(std::size_t l)
 {
     const std::size_t m = loop_[l], n = source_.count(l);
     std::vector<Way> found = ways(l, m);
     std::erase_if(found, [&](const Way& other) { return other.backward != backward_; });
     if (found.empty())
-        refuse_loop(l, "no way to lay it on target loop " + std::to_string(m + 1) +
-                           " keeps the vertex pairs that are fixed");
+        refuse_loop(l, "no alignment with target loop " + std::to_string(m + 1) +
+                           " keeps its fixed vertex pairs");
     Way way = best_of(found);
-    // A settled pair leaves one way only.
+    // A fixed pair leaves one alignment only.
     const auto first = fixed_.begin() + static_cast<std::ptrdiff_t>(source_.first[l]);
     const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
                                      [](std::size_t t) { return t != kNone; });
@@ -330,8 +329,8 @@ void Nearest::align(std::size_t l)
                 list += (list.empty() ? "" : ", ") + tag(source_.vertex[source_.first[l] + i]);
         }
         result_.notes.push_back("source loop " + std::to_string(l + 1) +
-                                ": the nearest target vertex of vertices " + list +
-                                " is not one of their own; they follow the other vertices of the loop");
+                                ": the target vertices nearest to vertices " + list +
+                                " are taken by others; they follow the other vertices of the loop");
         result_.confidence = std::min(result_.confidence,
                                       static_cast<double>(way.agree) / static_cast<double>(n));
     }
@@ -339,7 +338,7 @@ void Nearest::align(std::size_t l)
         std::vector<Way> turned = ways(l, m);
         std::erase_if(turned, [&](const Way& other) { return other.backward == way.backward; });
         if (turned.empty())
-            refuse_loop(l, "turned round as the recipe asks, it cannot keep the vertex pairs that are fixed");
+            refuse_loop(l, "reversed by match{ flip = … }, it cannot keep its fixed vertex pairs");
         way = *std::min_element(turned.begin(), turned.end(),
                                 [](const Way& a, const Way& b) { return a.distance < b.distance; });
     }
@@ -351,7 +350,7 @@ void Nearest::align(std::size_t l)
     }
 }
 
-/// How much nearer the vertices matched are than the next ones of their loop.
+/// How much closer the matched vertices are than the second closest of their loop.
 double Nearest::clearness() const
 {
     double matched = 0, second = 0;
@@ -366,7 +365,7 @@ double Nearest::clearness() const
     return second > 0 ? std::clamp(1 - matched / second, 0.0, 1.0) : 1;
 }
 
-/// The vertices of a loop that want the same target vertex, in words.
+/// The vertices of a loop that share a nearest target vertex, for messages.
 std::string Nearest::clashes(std::size_t l) const
 {
     for (std::size_t a = source_.first[l]; a < source_.first[l + 1]; ++a) {

@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Loop that holds a vertex; -1 for none.
+/// Number of the loop with a vertex; -1: none.
 int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
 {
     for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -30,14 +30,14 @@ void force(Problem& problem, int s, int t, const std::string& because)
     int& now = problem.forced[static_cast<std::size_t>(s)];
     if (now >= 0 && now != t) {
         throw NotClosed("matching.loops_contradict", "source loop " + std::to_string(s + 1) +
-                                                         " would go to target loop " +
+                                                         " is paired with target loop " +
                                                          std::to_string(now + 1) + " and, " + because +
-                                                         ", to target loop " + std::to_string(t + 1));
+                                                         ", with target loop " + std::to_string(t + 1));
     }
     now = t;
 }
 
-/// Walls settle loops and vertices before anything is guessed.
+/// Fix the loops and vertices that walls join.
 void read_walls(Problem& problem, const std::vector<SideLine>& lines)
 {
     const OpenVolume& volume = problem.volume;
@@ -60,16 +60,17 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
             }
         }
         if (!s.empty() && !t.empty())
-            problem.backward = true; // oriented through the walls: the rims run opposite ways
+            problem.backward = true; // the rims run in opposite directions, as the walls orient them
         if (s.size() == 1 && t.size() == 1)
             force(problem, s.front(), t.front(), "by " + name_of(model, part.front()));
     }
 }
 
-/// Levels that walls are cut at on the way from rim to rim: a bend turns by less than 6° between two.
+/// Levels between the rims: a bend turns by less than 6° between two.
 constexpr int kLevels = 64;
 
-/// A loop without walls goes where the others' walls lead: rims alone leave open how a bend turns them.
+/// Points of loops without walls and their images under the given walls. Rims alone do not fix the rotation
+/// of a bend.
 PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lines)
 {
     const bool bare = std::any_of(problem.source.begin(), problem.source.end(), [&](const LoopShape& loop) {
@@ -113,13 +114,14 @@ void read_options(Problem& problem)
                                                             "}: the loops are numbered from 1 to " +
                                                             std::to_string(problem.source.size()));
         }
-        force(problem, s, t, "as the recipe asks");
+        force(problem, s, t, "by match{ loops = … }");
         for (int other = 0; other < static_cast<int>(problem.source.size()); ++other) {
             if (other == s || problem.forced[static_cast<std::size_t>(other)] != t) continue;
             throw NotClosed("matching.loops_contradict",
                             "source loops " + std::to_string(std::min(s, other) + 1) + " and " +
-                                std::to_string(std::max(s, other) + 1) + " would both go to target loop " +
-                                std::to_string(t + 1) + "; give each its own in match{ loops = … }");
+                                std::to_string(std::max(s, other) + 1) +
+                                " are both paired with target loop " + std::to_string(t + 1) +
+                                "; give each its own in match{ loops = … }");
         }
     }
     for (const auto& [s, t] : problem.options.vertices) {
@@ -127,12 +129,12 @@ void read_options(Problem& problem)
         const VertexId to = vertex_with_tag(model, problem.target, t, "target");
         const auto known = problem.hard.find(from);
         if (known != problem.hard.end() && known->second != to) {
-            throw InvalidInput(
-                "matching.vertices_contradict",
-                "vertex " + std::to_string(s) +
-                    (problem.walls.contains(from) ? " is joined by walls" : " goes by the recipe") +
-                    " to vertex " + std::to_string(model[known->second].tag) + " and cannot go to vertex " +
-                    std::to_string(t));
+            throw InvalidInput("matching.vertices_contradict",
+                               "vertex " + std::to_string(s) +
+                                   (problem.walls.contains(from) ? " is paired by walls"
+                                                                 : " is paired by match{ vertices = … }") +
+                                   " with vertex " + std::to_string(model[known->second].tag) +
+                                   " and cannot be paired with vertex " + std::to_string(t));
         }
         const auto taken = std::find_if(problem.hard.begin(), problem.hard.end(), [&](const auto& pair) {
             return pair.second == to && pair.first != from;
@@ -141,15 +143,15 @@ void read_options(Problem& problem)
             throw InvalidInput(
                 "matching.vertices_contradict",
                 "vertices " + std::to_string(model[taken->first].tag) + " and " + std::to_string(s) +
-                    " of the source cannot both go to vertex " + std::to_string(t) +
-                    (problem.walls.contains(taken->first) ? ", which walls join to the first" : ""));
+                    " of the source cannot both be paired with vertex " + std::to_string(t) +
+                    (problem.walls.contains(taken->first) ? ", which walls pair with the first" : ""));
         }
         problem.hard[from] = to;
         force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
     }
 }
 
-/// Loops that all came with sides, as many on both ends, are measured by them: nodes meet nodes then.
+/// Loops with given sides throughout, as many on both ends, are measured in sides, so that nodes correspond.
 void count_given_sides(Problem& problem)
 {
     const auto sides_of = [](const std::vector<LoopShape>& loops) {

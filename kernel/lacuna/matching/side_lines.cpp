@@ -21,8 +21,8 @@ using namespace topology;
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Below this climb an edge runs along the wall more than up it (60° from the steepest way).
-/// A choice, not a measurement.
+/// Below this climb an edge runs more along the wall than up it (60° from the steepest direction). Rule of
+/// thumb.
 constexpr double kLevel = 0.5;
 
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
@@ -50,7 +50,7 @@ std::set<EdgeId> edges_of(const OpenVolume& volume, Role role)
     return edges;
 }
 
-/// Share of the length of its side line below each point between the rims.
+/// Share of its side line's length below each point between the rims.
 std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
 {
     std::map<Index, double> heights;
@@ -62,7 +62,7 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
     return heights;
 }
 
-/// The points that triangles use, rising, each numbered in `local`.
+/// The points of triangles, ascending, each numbered in `local`.
 std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
 {
     std::vector<Index> used;
@@ -80,13 +80,13 @@ std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector
 
 enum class Digits { all, nine };
 
-/// A wall part as one to find heights in.
+/// The height problem on one wall part.
 struct PartHeights {
-    std::vector<Index> used;         ///< points of the model, rising
-    std::vector<Triangle> triangles; ///< numbered as `used`
-    std::vector<Index> fixed;        ///< of `used`
+    std::vector<Index> used;         ///< points of the model, ascending
+    std::vector<Triangle> triangles; ///< in indices of `used`
+    std::vector<Index> fixed;        ///< indices of `used`
     std::vector<double> values;      ///< their heights
-    bool joins = false;              ///< both rims: else there are no heights
+    bool joins = false;              ///< joins both rims; otherwise there are no heights
 };
 
 /// @param local  -1 for every point of the model, before and after
@@ -120,7 +120,7 @@ PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, co
     return result;
 }
 
-/// wall_heights() of some parts of the walls.
+/// wall_heights() of some wall parts.
 std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                const std::vector<SideLine>& lines, Digits digits, const RunContext& context)
 {
@@ -129,7 +129,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     const std::vector<Index> low = rim_points(model, volume.faces(Role::source));
     const std::vector<Index> high = rim_points(model, volume.faces(Role::target));
     const std::map<Index, double> on_lines = heights_along(model, lines);
-    std::vector<Index> local(model.points.size(), -1); // of each point, its number in the part at hand
+    std::vector<Index> local(model.points.size(), -1); // by point, its number in the current part
     std::vector<PartHeights> found;
     found.reserve(parts.size());
     for (const std::vector<FaceId>& part : parts)
@@ -158,7 +158,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     return heights;
 }
 
-/// Edges that climb, by the vertex they leave.
+/// Climbing edges, grouped by their lower vertex.
 struct Rise {
     EdgeUse use;
     VertexId to;
@@ -166,7 +166,7 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-/// Edges between walls that may climb.
+/// Edges between two walls that may climb.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
     std::set<EdgeId> between = edges_of(volume, Role::wall);
@@ -184,8 +184,8 @@ std::set<VertexId> rim_vertices(const OpenVolume& volume, Role role)
     return vertices;
 }
 
-/// Whether some vertex has more than one way up or down, so that it counts which one is the shortest: an
-/// inner one with more than two edges, one of a rim with more than one.
+/// Whether some vertex allows several paths up or down, so that the shortest must be found: an inner vertex
+/// with more than two edges, or a rim vertex with more than one.
 bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
     std::map<VertexId, int> room;
@@ -200,7 +200,7 @@ bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
     return false;
 }
 
-/// The parts of the walls that have some of these edges: heights of the others tell nothing of them.
+/// The wall parts that have some of these edges; heights of other parts are not needed.
 std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
     const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
@@ -214,7 +214,7 @@ std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const
     return parts;
 }
 
-/// How steeply each of some edges climbs.
+/// Climb of each of some edges.
 std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edges,
                            const std::vector<double>& heights)
 {
@@ -226,8 +226,8 @@ std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edg
 
 Rises rises(const OpenVolume& volume, const RunContext& context)
 {
-    // Heights of nine digits leave no doubt about what climbs but this near to it. A choice: they give the
-    // climb to six digits.
+    // Heights with nine digits give the climb to six digits; nearer than this to the threshold they are
+    // recomputed. Rule of thumb.
     constexpr double kDoubt = 1e-3;
     const Model& model = volume.model;
     const std::set<EdgeId> between = edges_between(volume);
@@ -247,7 +247,7 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     for (const EdgeId edge : between) {
         double own = *climb++;
         const Edge& e = model[edge];
-        // A void edge from end to end joins matched vertices, however far it leans.
+        // A void edge from end to end joins matched vertices, so it is a side line however inclined it is.
         if (e.origin == Origin::made_void && !(std::abs(own) > kLevel))
             own = spans(e.from, e.to) - spans(e.to, e.from);
         if (!(std::abs(own) > kLevel)) continue;
@@ -263,7 +263,7 @@ struct Path {
     double cost = 0;
 };
 
-/// Cheapest rise from one vertex to any target vertex, around the vertices taken.
+/// Cheapest path from one vertex up to any target vertex, avoiding the vertices taken.
 std::optional<Path> climb_from(VertexId start, const Rises& graph, const std::set<VertexId>& targets,
                                const std::set<VertexId>& taken, const Model& model)
 {
@@ -354,7 +354,7 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
     const Model& model = volume.model;
     const Rises graph = rises(volume, context);
     const std::set<VertexId> targets = rim_vertices(volume, Role::target);
-    std::vector<Path> waiting; // the cheapest rise of each vertex of the source, by vertex
+    std::vector<Path> waiting; // the cheapest path of each source vertex
     std::set<VertexId> taken;
     for (const VertexId start : rim_vertices(volume, Role::source)) {
         check_cancelled(context);
@@ -365,12 +365,12 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
         check_cancelled(context);
         const auto best = std::min_element(waiting.begin(), waiting.end(),
                                            [](const Path& a, const Path& b) { return a.cost < b.cost; });
-        std::set<VertexId> gone; // what this line takes from others
+        std::set<VertexId> gone; // vertices that this line takes from others
         for (const EdgeUse& use : best->line.uses) gone.insert(use_to(model, use));
         taken.insert(gone.begin(), gone.end());
         lines.push_back(std::move(best->line));
         waiting.erase(best);
-        // A rise that does not lose a vertex stays the cheapest.
+        // A path that loses no vertex is still the cheapest.
         std::erase_if(waiting, [&](Path& path) {
             const bool loses = std::any_of(path.line.uses.begin(), path.line.uses.end(),
                                            [&](EdgeUse use) { return gone.contains(use_to(model, use)); });

@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// A walk goes on over both parts of an edge that was split.
+/// Replace a split edge in all loops by its two parts.
 void go_on(std::vector<Rim>& rims, EdgeId edge, EdgeId behind)
 {
     for (Rim& rim : rims) {
@@ -29,7 +29,7 @@ void go_on(std::vector<Rim>& rims, EdgeId edge, EdgeId behind)
     }
 }
 
-/// Pairs in walking order of the source's loops, their flags with them.
+/// Sort the pairs, with their flags, in the order of the source's loops.
 void sort_pairs(const Model& model, Match& match)
 {
     std::map<VertexId, std::size_t> place;
@@ -50,7 +50,7 @@ void sort_pairs(const Model& model, Match& match)
     match.hard = std::move(sorted.hard);
 }
 
-/// Length along a loop of a place that may be counted by sides.
+/// Length along a loop at a position that may be counted in sides.
 double length_at(const LoopShape& shape, double place)
 {
     if (!shape.by_sides) return place;
@@ -82,7 +82,7 @@ void apply_splits(OpenVolume& volume, Match& match)
     if (match.splits.empty()) return;
     Model& model = volume.model;
     const auto uses = edge_uses(model);
-    // From the end of each edge, so that the part in front of a split stays the edge's own.
+    // Split each edge from its end, so that the part before a split keeps the edge's id.
     std::vector<Split> splits = std::move(match.splits);
     match.splits.clear();
     std::stable_sort(splits.begin(), splits.end(),
@@ -92,7 +92,7 @@ void apply_splits(OpenVolume& volume, Match& match)
     for (const Split& split : splits) {
         const double wanted = split.fraction * length[split.edge];
         const bool on_wall = uses[split.edge.index()].size() != 1;
-        // An edge that keeps its nodes is split at one of them: what is in front may end below this.
+        // An edge that keeps its nodes is split at a node, so the part before may be shorter than this.
         const double in_front = edge_length(model, split.edge);
         const bool at_end = std::min(wanted, in_front - wanted) <= model.tolerance;
         const bool no_node = model[split.edge].points.size() == 2 &&
@@ -100,11 +100,11 @@ void apply_splits(OpenVolume& volume, Match& match)
                                  return !model[use.face].given_quads.empty();
                              });
         if (on_wall || at_end || no_node) {
-            match.notes.push_back(name_of(model, split.vertex) + " has no partner: its place is on " +
+            match.notes.push_back(name_of(model, split.vertex) + " has no partner: its position is on " +
                                   name_of(model, split.edge) +
                                   (on_wall  ? ", which has a wall"
-                                   : at_end ? ", at an end of it that has another partner"
-                                            : ", one side of a quad that the face came with"));
+                                   : at_end ? ", at an end that has another partner"
+                                            : ", inside a quad side of a given mesh"));
             continue;
         }
         const EdgeSplit made = split_edge(model, split.edge, wanted / in_front);

@@ -10,8 +10,8 @@
 
 namespace lacuna::healing {
 
-/// A model while it is being stitched: entities go, points join and sides of facets get points, so that at
-/// any time edges, the faces that use them and facets agree; loops do not, until `settled()`.
+/// A model during stitching: entities are removed, points merge, and facet sides get points. Edges, their
+/// faces and facets are consistent at any time; loops only after `settled()`.
 class LooseModel {
 public:
     /// @pre the model's loops are set.
@@ -21,23 +21,23 @@ public:
     [[nodiscard]] topology::Edge& edge(EdgeId e) { return model_[e]; }
     [[nodiscard]] bool is_gone(EdgeId e) const { return edge_gone_[e.index()]; }
     [[nodiscard]] bool is_gone(FaceId f) const { return face_gone_[f.index()]; }
-    /// The faces at an edge, once a use.
+    /// The faces at an edge; a face that uses it twice is listed twice.
     [[nodiscard]] const std::vector<FaceId>& users(EdgeId e) const { return users_[e.index()]; }
     [[nodiscard]] bool is_free(EdgeId e) const { return !is_gone(e) && users_[e.index()].size() == 1; }
-    /// Is it where one face meets itself?
+    /// Is the edge used twice by the same face?
     [[nodiscard]] bool is_seam(EdgeId e) const
     {
         return users(e).size() == 2 && users(e).front() == users(e).back();
     }
-    /// Has a face at the edge a mesh that must stay?
+    /// Has a face at the edge a mesh that must be kept?
     [[nodiscard]] bool keeps_mesh(EdgeId e) const;
-    /// Edges of each face, once a use, in order.
+    /// Edges of each face in loop order, one entry per use.
     [[nodiscard]] std::vector<std::vector<EdgeId>> edges_of_faces() const;
 
-    /// Let `gone` be `stays` from the next `settle_points()` on. Nodes of kept meshes do not move: where only
-    /// the first is one, the second takes its place.
+    /// Merge point `gone` into `stays` at the next `settle_points()`. Nodes of kept meshes do not move: if
+    /// only `gone` is such a node, `stays` moves to it.
     void join(Index gone, Index stays);
-    /// Let vertex `gone` be `stays`, and their points join. @pre `stays` is joined to none.
+    /// Merge vertex `gone` into `stays`, with their points. @pre `stays` is not merged into another.
     void join(VertexId gone, VertexId stays);
     void move(Index p, const Vec3& to)
     {
@@ -45,22 +45,22 @@ public:
         touched_[index(p)] = true;
     }
     struct Shrunk {
-        std::vector<FaceId> faces;  ///< went
-        std::vector<FaceId> meshes; ///< whose given quads went, since some shrank
+        std::vector<FaceId> faces;  ///< faces that collapsed
+        std::vector<FaceId> meshes; ///< faces that lost their given quads, because some collapsed
     };
-    /// Renumber what was joined; facets, edges and faces that shrank to nothing go.
+    /// Apply the point merges and remove facets, edges and faces that collapsed.
     Shrunk settle_points();
-    /// Cut the facets at the edges named wherever `sides` has points.
+    /// Split the facets along the named edges wherever `sides` has points.
     void cut(const topology::SidePoints& sides, const std::vector<EdgeId>& edges);
-    /// Cut an edge at inner points of it, which become or are vertices. The first part keeps the tag.
+    /// Split an edge at inner points, which become vertices. The first part keeps the tag.
     void divide(EdgeId e, const std::vector<std::pair<std::size_t, VertexId>>& at);
     void remove(EdgeId e) { edge_gone_[e.index()] = true; }
-    /// The uses of `gone` become uses of `stays`.
+    /// Replace every use of `gone` by a use of `stays`.
     void merge(EdgeId gone, EdgeId stays);
     void remove(FaceId f);
 
-    /// What is left, compact, with loops.
-    /// @throw InvalidInput  the facets are no surface any more.
+    /// The remaining model, renumbered, with loops.
+    /// @throw InvalidInput  the facets are no longer a manifold surface.
     topology::Model settled(const RunContext& context);
 
 private:
@@ -74,12 +74,13 @@ private:
     topology::Model model_;
     std::vector<bool> edge_gone_, face_gone_;
     std::vector<std::vector<FaceId>> users_;
-    std::vector<VertexId> vertex_joined_; ///< what each vertex is to be
-    geometry::UnionFind joined_;          ///< points, by the one that each is to be
+    std::vector<VertexId> vertex_joined_; ///< the vertex that each one merges into
+    geometry::UnionFind joined_;          ///< points, by the one that each merges into
     std::vector<bool> kept_;              ///< points that are nodes of given quads
-    std::vector<bool> touched_;           ///< points whose surface parameters are to be found anew
-    std::vector<bool> inside_;            ///< points put inside faces, which may move onto the surface
-    bool folded_ = false;                 ///< facets went that lay on each other's back
+    std::vector<bool> touched_;           ///< points whose surface parameters must be recomputed
+    std::vector<bool> inside_;            ///< points inserted inside faces, which may be moved onto the
+                                          ///< surface
+    bool folded_ = false;                 ///< facets were removed because they lay back to back
     int next_edge_tag_ = 1;
 };
 

@@ -8,8 +8,8 @@
 
 namespace lacuna::healing {
 
-/// Which cells have the corners of an earlier one of the same label, in any order.
-/// @param labels one a cell, or none at all.
+/// Flags each cell that has the same corners as an earlier cell of its label, in any order.
+/// @param labels one per cell, or empty.
 std::vector<bool> repeated_cells(std::span<const Triangle> cells, std::span<const int> labels);
 std::vector<bool> repeated_cells(std::span<const Quad> cells, std::span<const int> labels);
 

@@ -8,19 +8,19 @@
 
 namespace lacuna::healing {
 
-// What is left over once edges have merged; every act is counted and noted in the report.
+// Clean-up after edges have merged; every removal is counted and noted in the report.
 
-/// Remove faces whose border lies on itself everywhere and that have next to no area.
+/// Remove sliver faces: their border folds onto itself everywhere and their area is next to none.
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report);
 
-/// Of faces that lie on each other everywhere remove all but one, or two where other faces go on from both.
+/// Of coincident faces remove all but one, or all but two if other faces are connected to both.
 void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report,
                               const RunContext& context);
 
-/// Note pairs of edges of one face alone that have the same ends and part a little between them.
+/// Note pairs of free edges that have the same ends and a small gap between them.
 void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, const RunContext& context);
 
-/// A length as messages give it.
+/// Formats a length for messages.
 std::string in_words(double length);
 
 } // namespace lacuna::healing

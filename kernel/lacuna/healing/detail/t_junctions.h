@@ -9,19 +9,19 @@
 
 namespace lacuna::healing {
 
-/// A facet, and the one it is, or is a piece of, in the list it comes from.
+/// A facet and the input facet that it is, or is part of.
 struct FacetPiece {
     Triangle corner;
     Index of = -1;
 };
 
-/// Cut facets where points lie on the inside of their sides (T-junctions): a side of one facet alone, and a
-/// point of such a side, within the tolerance of each other.
+/// Cut facets at T-junctions: where a point of a free side lies within the tolerance of the inside of another
+/// free side. A side is free if it has one facet.
 ///
-/// @param whole  facets that must not be cut, as halves of quads that are kept.
-/// @return the facets in their order, pieces in the place of what was cut; nothing where none was.
+/// @param whole  facets that must not be cut, such as halves of kept quads.
+/// @return the facets in their order, each cut facet replaced by its pieces; empty if none was cut.
 /// @throw Cancelled
-/// @note O(n) and, in the sides of one facet alone, O(n log n).
+/// @note O(n), plus O(n log n) in the free sides.
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,
                                            const std::vector<bool>& whole, double tolerance,
                                            const RunContext& context);

@@ -9,50 +9,51 @@
 
 namespace lacuna::matching {
 
-/// The most that void edges may turn in the mean against straight up, as a share of the loop: the waist of a
-/// round wall that is ruled so is 1 − cos(π/32), half a hundredth, narrower.
+/// Largest mean twist of void edges, as a share of the loop. The waist of a round wall ruled with this twist
+/// is narrower by 1 − cos(π/32), half a percent.
 inline constexpr double kMostTwist = 1.0 / 32;
 
-/// One way a source loop lies on a target loop.
+/// A cyclic shift and direction that place a source loop on a target loop.
 struct Alignment {
-    /// Target vertex that the source's first vertex meets; of loops paired by length the sample, or the node
-    /// where sides are given.
+    /// Target vertex paired with the source's first vertex; for loops paired by length the sample, or the
+    /// given node, where the source starts.
     std::size_t shift = 0;
-    /// Of loops paired by length: share of the target's length where the source's start lies.
+    /// For loops paired by length: share of the target's length where the source's start lies.
     double offset = 0;
-    bool backward = true; ///< the target loop is walked against its own direction
+    bool backward = true; ///< the target loop is traversed against its own direction
     double score = std::numeric_limits<double>::infinity();
     geometry::RigidFit fit;
 };
 
-/// How far the fit of an alignment turns the source, as a share of half a turn.
+/// Rotation of the alignment's fit, as a share of half a turn.
 double turn_of(const Alignment& alignment);
 
 /// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
-/// matched already take part in the fit.
+/// already matched are part of the fit.
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                                      const PointPairs& known = {});
 
-/// Slide an alignment of loops paired by length to where it fits best between its neighbours.
+/// Shift an alignment of loops paired by length to its best fit between the neighbouring samples.
 Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
                   const PointPairs& known);
 
-/// Corresponding points of two loops, as an alignment has it.
+/// Corresponding points of two loops under an alignment.
 PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
-/// Whether two alignments are not the same but for a little sliding along a smooth loop.
+/// Whether two alignments differ by more than a small shift along a smooth loop.
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
-/// What of two loops that came with sides does not meet by an alignment: edges of the source that meet edges
-/// with another number of sides; of loops measured by their sides, vertices of the one with fewer that meet
+/// Number of mismatches between given sides under an alignment: source edges paired with edges of a different
+/// number of sides and, for loops measured in sides, vertices of the loop with fewer that are paired with
 /// none.
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
-/// Say of each two loops whether their vertices tell how they lie on each other, or lengths have to.
+/// Decide for every two loops whether they are paired vertex by vertex or by length.
 ///
-/// Loops with unlike numbers of vertices go by length, and those with one each. Others go vertex to vertex,
-/// unless no way to do so keeps what walls join; or the best gives a corner a smooth partner though there are
-/// corners for it; or, where no corner meets a corner, it twists by more than `kMostTwist` in the mean.
+/// Loops with different numbers of vertices, or with one each, are paired by length. Others are paired vertex
+/// by vertex, unless no such pairing keeps the pairs joined by walls; or the best one pairs a corner with a
+/// smooth vertex although a corner is available; or it pairs no two corners and its mean twist exceeds
+/// `kMostTwist`.
 void choose_how(Problem& problem);
 
 } // namespace lacuna::matching

@@ -8,35 +8,35 @@
 
 namespace lacuna::matching {
 
-/// A closed loop by where its vertices stand.
+/// Positions of the vertices on a closed loop.
 struct ArcLoop {
     std::vector<VertexId> vertices;
-    std::vector<double> at;   ///< share of the loop's length at each vertex, in [0, 1), rising
-    std::vector<bool> corner; ///< false for a vertex that only says where a smooth run was cut
-    std::vector<bool> open;   ///< false for a vertex on a wall: it wants no split, nor, smooth, a partner
+    std::vector<double> at;   ///< share of the loop's length at each vertex, in [0, 1), ascending
+    std::vector<bool> corner; ///< false for a vertex on a smooth run
+    std::vector<bool> open;   ///< false for a vertex on a wall: it needs no split and, if smooth, no partner
 };
 
-/// Vertices paired, and places that need a vertex for one to pair with.
+/// Vertex pairs, and places where an edge must be split to get a partner.
 struct ArcPairs {
     std::vector<std::pair<VertexId, VertexId>> vertices;   ///< (source, target), in order along the source
     std::vector<std::pair<VertexId, double>> split_target; ///< source vertex, share of the target's length
     std::vector<std::pair<VertexId, double>> split_source; ///< target vertex, share of the source's length
 };
 
-/// Pair the vertices of two loops by how far along the loops they stand.
+/// Pair the vertices of two loops by arc length.
 ///
-/// Hard pairs hold, and shares between them are stretched to meet. Then, in this order:
-/// - Corners meet corners: of the loop with fewer all, the nearest ones that keep the order (least sum of
-///   squares); but none further apart than half a side of either, for which another corner is closer. Shares
-///   are stretched to meet there too. Corners on walls take part: a wall may stop short of the other end.
-/// - Vertices left, of any kind, are paired where they are nearer than a quarter of the shortest side beside
-///   them, rather than cut off a short piece, and than `most_twist`.
-/// - A corner left wants a vertex at its share of the other loop. Smooth vertices need none.
-/// - A loop that has no pair so far gets one: the source vertex whose place is farthest from the target's
-///   vertices wants one there.
+/// Hard pairs are kept, and arc length between them is scaled to match. Then, in this order:
+/// - Corners are paired with corners: all of the loop with fewer corners, in order, with the least sum of
+///   squared distances. A pair is rejected if it is more than half a side apart and another corner is closer.
+///   Arc length is scaled to match these pairs too. Corners on walls take part, as a wall may end before the
+///   other end.
+/// - Remaining vertices of any kind are paired if their distance is less than `most_twist` and a quarter of
+///   the shortest side next to them; splitting there would leave a short edge.
+/// - A corner still unpaired gets a split at its share of the other loop. Smooth vertices stay unpaired.
+/// - A loop without any pair gets one: a split for the source vertex furthest from the target's vertices.
 /// @param offset      share of the target's length where the source's start lies.
-/// @param backward    the target runs against the source.
-/// @param most_twist  share of a loop that smooth vertices may be apart.
+/// @param backward    the target is traversed against the source.
+/// @param most_twist  largest distance of paired smooth vertices, as a share of the loop.
 /// @pre hard pairs keep the order along the loops: keeps_order().
 ArcPairs pair_by_arc(const ArcLoop& source, const ArcLoop& target, double offset, bool backward,
                      const std::vector<std::pair<VertexId, VertexId>>& hard, double most_twist);

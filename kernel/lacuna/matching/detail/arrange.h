@@ -9,17 +9,17 @@
 
 namespace lacuna::matching {
 
-/// Source loops on target loops, all led by how one of them, the anchor, is aligned.
+/// An assignment of source loops to target loops that follows from the alignment of one of them, the anchor.
 struct Arrangement {
-    std::vector<int> target; ///< of each source loop
+    std::vector<int> target; ///< by source loop
     int anchor = 0;
-    Alignment alignment;           ///< of the anchor; its score counts where the other loops land
-    std::optional<Alignment> next; ///< the second best with the same pairs
+    Alignment alignment;           ///< of the anchor; its score includes the misfit of the other loops
+    std::optional<Alignment> next; ///< the second best alignment with the same pairs
     double score = std::numeric_limits<double>::infinity();
 };
 
-/// Pair the loops: align one source loop with each target loop it may go to, in every way, and see how the
-/// others fall.
+/// Pair the loops: try every alignment of one source loop with each allowed target loop, and rate where it
+/// places the other loops.
 /// @return the two best arrangements with different pairs, best first.
 std::vector<Arrangement> arrange(const Problem& problem);
 

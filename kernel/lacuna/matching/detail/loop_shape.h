@@ -10,18 +10,17 @@
 
 namespace lacuna::matching {
 
-/// Points that stand for a loop in a fit. A choice, not a measurement: a start is slid to its place
-/// afterwards.
+/// Sample points of a loop in a fit. Rule of thumb: the start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
 
-/// A loop as matching sees it.
+/// Geometry of a loop for matching.
 struct LoopShape {
     std::vector<VertexId> vertices;
     std::vector<Vec3> points;       ///< polyline, closed: first repeated at the end
-    std::vector<double> arc;        ///< running length of `points`, or as count_by_sides() has it
+    std::vector<double> arc;        ///< running length of `points`; after count_by_sides() in sides
     std::vector<double> vertex_arc; ///< running length at each vertex
-    std::vector<bool> corner;       ///< of each vertex: the loop turns there
-    std::vector<std::size_t> sides; ///< of the edge from each vertex on: its given sides, 0: none are given
+    std::vector<bool> corner;       ///< by vertex: the loop turns there
+    std::vector<std::size_t> sides; ///< by vertex: number of given sides on the edge after it; 0: none given
     Vec3 centroid = Vec3::Zero();
     Vec3 area = Vec3::Zero();
     double length = 0;
@@ -31,20 +30,20 @@ struct LoopShape {
 /// @param kept  topology::kept_edges() of the model
 LoopShape shape_of(const topology::Model& model, const topology::Rim& rim, const std::set<EdgeId>& kept);
 
-/// Number of sides of a loop whose edges all came with sides; 0 where some did not.
+/// Number of sides of a loop if all its edges have given sides; otherwise 0.
 std::size_t given_sides(const LoopShape& shape);
 
-/// The number of the first given side of each edge of a loop, from 0.
+/// Index of the first given side of each edge of a loop, from 0.
 std::vector<std::size_t> first_sides(const LoopShape& shape);
 
-/// Take every given side for as long as the others: loops that came with as many are then the same all along.
+/// Measure arc length in given sides: loops with as many sides then correspond node by node.
 /// @pre given_sides()
 void count_by_sides(LoopShape& shape);
 
-/// Sample a loop evenly from a running length on.
+/// Sample a loop evenly, starting at a running length.
 std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward);
 
-/// Sample a loop from vertex `start` on, as many points on each edge, so that vertex meets vertex.
+/// Sample a loop from vertex `start`, with as many points on each edge, so that vertices correspond.
 std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool backward);
 
 } // namespace lacuna::matching

@@ -11,7 +11,7 @@
 
 namespace lacuna::matching {
 
-/// Points that correspond.
+/// Corresponding points.
 struct PointPairs {
     std::vector<Vec3> from, to;
 
@@ -22,20 +22,20 @@ struct PointPairs {
     }
 };
 
-/// What is to be matched, and what walls and recipe settle of it.
+/// The loops to be matched, and the pairs that walls and the user fix.
 struct Problem {
     const topology::OpenVolume& volume;
     const MatchOptions& options;
     const RunContext& context;
     std::vector<LoopShape> source, target;
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
-    std::map<VertexId, VertexId> hard;  ///< those, and the recipe's
-    std::vector<int> forced;            ///< target loop of each source loop, -1: open
+    std::map<VertexId, VertexId> hard;  ///< those, and the user's
+    std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
     std::vector<bool> on_wall;          ///< of each vertex of the model
-    std::optional<bool> backward; ///< known when walls join the ends: target loops run against the source's
-    std::vector<bool>
-        by_length;  ///< of each source loop and target loop, source by source: how they are paired
-    PointPairs led; ///< where the given walls lead from rim to rim; none where every loop has a wall
+    std::optional<bool> backward; ///< set if walls join the ends: the target loops run against the source's
+    std::vector<bool> by_length;  ///< whether loops are paired by length, at source · targets + target
+    PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have
+                    ///< walls
 
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const
     {
@@ -44,8 +44,8 @@ struct Problem {
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 
-/// @param match  its loops are set; gets its side lines.
-/// @throw InvalidInput, NotClosed  a recipe, or walls, that contradict each other; names tags and loops.
+/// @param match  its loops are set; receives its side lines.
+/// @throw InvalidInput, NotClosed  user pairs or walls that contradict each other; names tags and loops.
 Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context);
 

@@ -6,7 +6,7 @@
 
 namespace lacuna::matching {
 
-/// The place of a rim at a share of its length, as a split of an edge.
+/// The split of an edge at a share of the rim's length.
 /// @param shape  of the rim.
 Split split_at(const topology::Rim& rim, const LoopShape& shape, double share);
 
