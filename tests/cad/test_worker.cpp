@@ -406,7 +406,8 @@ TEST_CASE("commands of a script that write files, run plugins or mesh are skippe
         const topology::Model model = cad::load({path}, {}, context);
         CHECK(test::total_area(model) == doctest::Approx(area));
         CHECK(model.faces[0].name == "all"); // what follows is read
-        const std::string begin = "note: " + path + ": of this script only the geometry is read; skipped: ";
+        const std::string begin = "note: " + path +
+                                  ": only the geometry of the script is read. Skipped commands: ";
         CHECK(std::ranges::count_if(told, [&](const std::string& text) { return text.starts_with(begin); }) ==
               1);
         CHECK(!fs::exists(made));
