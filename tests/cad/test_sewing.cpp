@@ -238,7 +238,7 @@ TEST_CASE("a face no wider than the tolerance is left out, and its neighbours ar
         CHECK(model.faces[1].tag == 3);
         CHECK(model.edges.size() == 7);
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].starts_with("face 2 is no wider than the tolerance and is left out"));
+        CHECK(model.notes[0].starts_with("face 2 is narrower than the tolerance and is left out"));
     }
 }
 
@@ -273,7 +273,7 @@ TEST_CASE("a face whose boundary runs over itself is left out by name, and the o
             CHECK(model.edges[e].points.size() == sound.edges[e].points.size());
         CHECK(test::enclosed_volume(model) == doctest::Approx(6));
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].starts_with("face 7 could not be cut into facets"));
+        CHECK(model.notes[0].starts_with("face 7 could not be triangulated"));
 
         const std::string only = folder.gmsh("only.brep", [&] { outline(corners); });
         CHECK_THROWS_AS((void)cad::load({only}), BackendError);

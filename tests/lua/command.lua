@@ -335,7 +335,7 @@ print(void:describe())
 ]]):format(roles))
     return { "holed.lua" }
   end
-  local told = "lacuna: note: face 6 could not be cut into facets"
+  local told = "lacuna: note: face 6 could not be triangulated"
   for _, roles in ipairs { "", "faces = { 1, 2, 3, 4, 5 }", "source = 1, target = 2, walls = 'auto'",
                            "source = 1, walls = 'auto'" } do
     expect(sweep_holed(roles), 1, {}, { told, "cad.face_left_out", "face 6 of holed.geo", "repair it" })

@@ -36,7 +36,7 @@ void add_edges(topology::Model& model, LoadReply& reply, double scale,
     }
 }
 
-/// Leave out points and vertices that no edge and no facet uses, and set the diagonal.
+/// Remove points and vertices that no edge or facet uses, and set the diagonal.
 void compact(topology::Model& model)
 {
     std::vector<Index> place(model.points.size(), -1);

@@ -14,7 +14,7 @@ std::string name_of(const LeftOutFace& face)
     return "face " + std::to_string(face.tag) + " of " + face.source;
 }
 
-/// Void faces with one of the edges.
+/// Names of the void faces along any of the edges.
 std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
 {
     std::string names;
