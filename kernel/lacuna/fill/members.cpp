@@ -6,6 +6,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/nearest_word.h>
 #include <lacuna/fill/detail/kept_mesh.h>
+#include <lacuna/surface/boundary_layers.h>
 #include <lacuna/topology/left_out.h>
 
 #include <algorithm>

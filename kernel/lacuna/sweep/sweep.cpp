@@ -7,6 +7,7 @@
 #include <lacuna/core/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/default_size.h>
+#include <lacuna/surface/intervals.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/finer_by_default.h>

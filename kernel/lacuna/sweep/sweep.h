@@ -6,8 +6,7 @@
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/intervals.h>
+#include <lacuna/surface/requests.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
