@@ -17,6 +17,8 @@
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/layer_plan.h>
+#include <lacuna/sweep/second_order.h>
 
 #include <algorithm>
 #include <cmath>

@@ -22,6 +22,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/layer_plan.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/morph.h>
 
