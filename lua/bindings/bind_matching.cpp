@@ -2,6 +2,7 @@
 #include "bindings/classes.h"
 #include "bindings/options.h"
 
+#include <array>
 #include <optional>
 
 namespace lacuna::lua {
@@ -63,11 +64,8 @@ void push_match(lua_State* L, const topology::Model& model, const matching::Matc
     });
     lua_setfield(L, -2, "loops");
     push_array(L, match.vertices, [&](const auto& item) {
-        lua_createtable(L, 2, 0);
-        lua_pushinteger(L, model[item.first].tag);
-        lua_rawseti(L, -2, 1);
-        lua_pushinteger(L, model[item.second].tag);
-        lua_rawseti(L, -2, 2);
+        push_array(L, std::array{item.first, item.second},
+                   [&](VertexId vertex) { lua_pushinteger(L, model[vertex].tag); });
     });
     lua_setfield(L, -2, "vertices");
     set_string(L, "method", match.method.c_str());

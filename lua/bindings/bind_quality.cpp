@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/bind_quality.h"
 
+#include <array>
 #include <cstring>
 
 namespace lacuna::lua {
@@ -75,11 +76,8 @@ void push_metric(lua_State* L, const quality::MetricSummary& summary)
     set_count(L, "outside", summary.outside);
     set_number(L, "outside_share", summary.outside_share);
     if (info.acceptable) {
-        lua_createtable(L, 2, 0);
-        lua_pushnumber(L, info.acceptable->low);
-        lua_rawseti(L, -2, 1);
-        lua_pushnumber(L, info.acceptable->high);
-        lua_rawseti(L, -2, 2);
+        push_array(L, std::array{info.acceptable->low, info.acceptable->high},
+                   [&](double bound) { lua_pushnumber(L, bound); });
         lua_setfield(L, -2, "acceptable");
     }
     push_worst_of(L, summary);

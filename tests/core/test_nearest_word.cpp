@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "bindings/options.h"
+#include <lacuna/core/nearest_word.h>
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-using namespace lacuna::lua;
+using namespace lacuna;
 
 namespace {
 
