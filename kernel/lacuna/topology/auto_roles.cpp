@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Every reading gives all faces to source, target and walls, so readings differ by which patches are ends
-// alone. What the others need (angles, areas, Euler numbers, who is whose neighbour) is counted once a
-// patch; a reading adds up its parts.
+// Every candidate gives all faces a role, so candidates differ only in which patches are ends. Facts that do
+// not depend on the ends (angles, areas, Euler numbers, neighbours) are computed once per patch; a candidate
+// adds them up.
 #include <lacuna/topology/auto_roles.h>
 
 #include <lacuna/core/marks.h>
@@ -24,74 +24,74 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Costs of an end that is not flat, and of fewer ends than faces could give. Choices: a flat pair of ends
-/// is taken before one end, and that before none; a bent end loses to any flat one.
+/// Costs of a bent end, and of fewer ends than the faces allow. Rules of thumb: a pair of flat ends beats one
+/// end, one end beats none; a bent end loses to any flat one.
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
-/// Of sharp edges among the walls that hang together and do not lead from end to end, and of a window in
-/// them. A choice: a bore with a step is read as an end at two heights before it is read as a wall that runs
-/// in and out.
+/// Cost of a connected set of sharp wall edges that does not run from end to end, and of a window in the
+/// walls. Rule of thumb: a stepped bore is an end at two heights rather than a wall that runs in and out.
 constexpr double kLoose = 0.3;
-/// And of walls that face along the way from end to end, by the mean square of the cosine: the walls of a
-/// straight sweep do not at all, those of a bend by 90° by a quarter or less. A choice, made on 277 voids of
-/// prisms, tubes, bends and pockets.
+/// Cost of walls whose normals point along the sweep, by the mean squared cosine: 0 for the walls of a
+/// straight sweep, a quarter or less for a bend by 90°. Tuned on 277 voids of prisms, tubes, bends and
+/// pockets.
 constexpr double kAcross = 2.0;
-/// Patches face one way where their normals are within this of it, one less the cosine, and are flat where
-/// their mean normal is as long but for this. A choice: a degree.
+/// Tolerance (1 − cosine) for normals that point in one direction, and for the mean normal of a flat patch:
+/// about a degree. Rule of thumb.
 constexpr double kOneWay = 2e-4;
-/// Walls of a volume with steps lean less than this on average: they are cut straight along the sweep. A
-/// choice, not a measurement.
+/// Mean inclination of walls below which a volume with steps can be cut straight along the sweep. Rule of
+/// thumb.
 constexpr double kStraight = 0.02;
-/// Of twice as many steps. A choice: of ends alike the fewest are likeliest, and a plate may have a hundred.
+/// Cost of doubling the number of steps. Rule of thumb: of similar ends the fewest are likeliest, and a plate
+/// may have a hundred.
 constexpr double kStep = 0.01;
-/// Of steps at both ends. A choice: a sweep that starts at one flat face falls into fewer pieces.
+/// Cost of steps at both ends. Rule of thumb: a sweep from one flat face falls into fewer pieces.
 constexpr double kBothSteps = 0.05;
-/// As many faces of each role are listed: what a person reads in a message.
+/// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
-/// As many readings are kept at once, the likeliest; more are listed anew where all of these were in vain. A
-/// choice: some 10 MB.
+/// Number of candidates kept at once, the likeliest; if all of them fail, the next ones are listed anew. Some
+/// 10 MB.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
 constexpr std::size_t kNone = PatchMap::kNone;
-constexpr std::size_t kGap = kNone - 1; ///< instead of the target's rim: walls lead to a free loop
+constexpr std::size_t kGap = kNone - 1; ///< in place of the target's rim: the walls lead to a free loop
 
 EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
-/// The patches that are ends; `kNone` for an end that is missing.
+/// The patches that are ends; `kNone` for a missing end.
 struct Reading {
     std::size_t source = kNone, target = kNone;
     double cost = 0;
-    std::size_t step = kNone; ///< of the readings whose ends are several patches, their number
+    std::size_t step = kNone; ///< index of the candidate if its ends are several patches
 
-    /// The likelier first; of readings as likely first none, then steps, then by their ends.
+    /// Likelier first; of equal ones those without ends, then steps, then by their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
         const auto rank = [](const Reading& r) {
             const std::size_t kind = r.source == kNone ? 0 : r.step != kNone ? 1 : 2;
-            return std::tuple(kind, kind == 1 ? r.step : r.source, r.target + 1); // a missing end is 0 then
+            return std::tuple(kind, kind == 1 ? r.step : r.source, r.target + 1); // 0 for a missing end
         };
         return rank(x) < rank(y);
     }
 };
 
-/// The patches of ends that lie at several heights.
+/// The patches of ends at several heights.
 struct SteppedEnds {
     std::vector<std::size_t> source, target;
 };
 
-/// The walls of one reading that hang together.
+/// Connected walls of one candidate.
 struct WallPart {
     long euler = 0;
     std::size_t rims = 0;
-    std::size_t source_rim = kNone, target_rim = kNone; ///< the rim of the end that it touches
-    bool several = false;                               ///< it touches several rims of an end
+    std::size_t source_rim = kNone, target_rim = kNone; ///< the rim of each end that it touches
+    bool several = false;                               ///< it touches several rims of one end
 };
 
-/// The angles across edges, with those where a flat face goes on smoothly into one that bends as if they were
-/// just sharp: a floor whose rim is rounded is an end then.
+/// The angles across edges, where the smooth edges of a flat face to a bent one count as just sharp: a floor
+/// with a rounded rim can then be an end.
 std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                          std::vector<double> angle)
 {
@@ -109,7 +109,7 @@ std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<s
 
 class Readings {
 public:
-    /// @param flat_alone  whether a flat face is a patch of its own where others go on from it smoothly
+    /// @param flat_alone  whether a flat face with smooth neighbours is a patch of its own
     Readings(const Model& model, bool flat_alone, const RunContext& context)
         : model_(model),
           flat_alone_(flat_alone),
@@ -140,11 +140,11 @@ public:
     Readings(const Readings&) = delete; // the tally refers to the map
     Readings& operator=(const Readings&) = delete;
 
-    /// The likeliest readings that are not ruled out by their ends alone, the cheapest first.
-    /// @param after  only those behind this one
+    /// The likeliest candidates that are not ruled out by their ends alone, cheapest first.
+    /// @param after  only those after this one
     [[nodiscard]] std::vector<Reading> by_cost(const std::optional<Reading>& after)
     {
-        std::vector<Reading> found; // a heap, the least likely first
+        std::vector<Reading> found; // heap, the least likely on top
         const auto add = [&](const Reading& reading) {
             if (after && !(*after < reading)) return;
             if (found.size() == kMostKept) {
@@ -166,7 +166,7 @@ public:
             if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
                 add({a, kNone, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
         }
-        // Those that can hold with the most others first.
+        // Patches that may be combined with the most others first.
         std::vector<std::size_t> order(map_.patches.size());
         for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -178,7 +178,7 @@ public:
             vertex_seen_.clear();
             for (const VertexId v : map_.patches[order[i]].vertices) vertex_seen_.add(v.index());
             for (std::size_t k = i + 1; k < order.size(); ++k) {
-                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with those behind it
+                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with the following ones
                 const auto [a, b] = std::minmax(order[i], order[k]);
                 if (parts == 2 && tally_->hang_together(a, b)) continue;
                 if (are_apart(order[i], order[k]))
@@ -189,12 +189,12 @@ public:
         return found;
     }
 
-    /// Whether the walls of a reading join its ends, or lead from its end to free loops. Near linear in the
+    /// Whether the walls of a candidate join its ends, or lead from its end to free loops. Near linear in the
     /// edges of patches.
     [[nodiscard]] bool holds(const Reading& reading)
     {
         check_cancelled(context_);
-        if (reading.source == kNone || reading.step != kNone) return true; // found out with its cost
+        if (reading.source == kNone || reading.step != kNone) return true; // checked with its cost
         if (flat_alone_ && has_fans(reading)) return false;
         windows_ = 0;
         const std::vector<WallPart> parts = wall_parts(reading);
@@ -204,7 +204,7 @@ public:
         for (const WallPart& part : parts) {
             if (part.several || (part.source_rim == kNone && part.target_rim == kNone)) return false;
             if (part.source_rim == kNone || part.target_rim == kNone) {
-                // A ring that leads to a free loop: to the missing end, or to a missing ring of the walls.
+                // A ring to a free loop: towards the missing end, or towards a missing ring of the walls.
                 if (part.rims != 2 || part.euler != 0) return false;
                 if (part.source_rim == kNone) {
                     ++behind_gap;
@@ -215,7 +215,7 @@ public:
                 ++before_gap;
                 continue;
             }
-            // Walls with a tunnel through them are no ring, whatever is done about what is missing.
+            // Walls with a handle are no ring, whatever closes the missing faces.
             if (part.euler != 2 - static_cast<long>(part.rims)) return false;
             std::size_t& now = served[part.source_rim];
             if (now != kNone && now != part.target_rim) return false;
@@ -224,7 +224,7 @@ public:
         return reading.target == kNone || before_gap == behind_gap;
     }
 
-    /// A reading in full. @pre holds()
+    /// A candidate with all its data. @pre holds()
     [[nodiscard]] RoleCandidate candidate(const Reading& reading) const
     {
         RoleCandidate result;
@@ -241,8 +241,8 @@ public:
         return result;
     }
 
-    /// What walls and steps add to the cost of a reading. Near linear in the edges of patches.
-    /// @pre holds() was asked of it last
+    /// The cost of a candidate's walls and steps. Near linear in the edges of patches.
+    /// @pre holds() was called for it last
     [[nodiscard]] double cost_of_walls(const Reading& reading)
     {
         if (reading.source == kNone) return 0;
@@ -252,7 +252,7 @@ public:
     }
 
 private:
-    /// What walls cost that face the way the sweep goes.
+    /// Cost of walls whose normals point along the sweep.
     [[nodiscard]] double cost_of_facing_along(const Reading& reading) const
     {
         const SmoothPatch& source = map_.patches[reading.source];
@@ -276,7 +276,7 @@ private:
         return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kBothSteps : 0);
     }
 
-    /// What sharp edges among the walls cost that do not lead from end to end.
+    /// Cost of sharp edges between walls that do not run from end to end.
     [[nodiscard]] double cost_of_loose_edges(const Reading& reading) const
     {
         const auto end_of = [&](std::size_t p) {
@@ -285,7 +285,7 @@ private:
         geometry::UnionFind hang(model_.vertices.size());
         for (const EdgeId e : sharp_edges(reading))
             hang.unite_least(model_[e].from.index(), model_[e].to.index());
-        std::map<std::size_t, int> touched; // of each part that hangs together, the ends it touches
+        std::map<std::size_t, int> touched; // by connected set, the ends it touches
         for (const EdgeId e : sharp_edges(reading)) touched[hang.find(model_[e].from.index())] |= 0;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
             const int end = end_of(p);
@@ -295,7 +295,7 @@ private:
                 if (found != touched.end()) found->second |= end;
             }
         }
-        // Of a step the walls go from one part of an end to another.
+        // The walls of a step run from one part of an end to another.
         const bool steps = reading.step != kNone;
         const int wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1 : 0) |
                                        (stepped_[reading.step].target.size() > 1 ? 2 : 0)
@@ -318,7 +318,7 @@ private:
 
     static bool has(const std::vector<std::size_t>& all, std::size_t p)
     {
-        return std::binary_search(all.begin(), all.end(), p); // they are found in order
+        return std::binary_search(all.begin(), all.end(), p); // found in ascending order
     }
 
     /// Edges where two walls meet at an angle.
@@ -335,7 +335,7 @@ private:
         return found;
     }
 
-    /// Irregular nodes of one end's quads at least, that with fewer loops less: those of the patch that is
+    /// Lower bound of the irregular nodes of one end's quads, for the end with fewer loops, which is the one
     /// meshed.
     [[nodiscard]] long irregular(const Reading& reading) const
     {
@@ -343,8 +343,8 @@ private:
         return std::abs(4 * (2 - static_cast<long>(end.rims.size())) - end.corners);
     }
 
-    /// Readings with all flat patches that face one way as the target, and all that face the other way as
-    /// the source, where these are three at least. Where one of them is alone it is the source.
+    /// Candidates whose target is all flat patches that face one way and whose source is all those that face
+    /// the other way, at least three in total. If one side has a single patch, it is the source.
     void find_stepped()
     {
         std::vector<std::size_t> flat;
@@ -357,7 +357,7 @@ private:
         for (const std::size_t source : flat) {
             check_cancelled(context_);
             const Vec3 way = -map_.patches[source].normal;
-            // All that leans, ends apart, would be cut into by what hangs from the steps.
+            // Inclined faces other than ends would be cut by the void faces below the steps.
             std::vector<std::size_t> same, ahead;
             double ends = 0;
             for (const std::size_t p : flat) {
@@ -370,7 +370,7 @@ private:
             if (ahead.empty() || same.size() + ahead.size() < 3) continue;
             const bool first = source == same.front() && same.front() < ahead.front();
             if (source != same.front() || (same.size() > 1 && (ahead.size() == 1 || !first)))
-                continue; // once an axis
+                continue; // once per axis
             vertex_seen_.clear();
             for (const std::size_t p : same)
                 for (const VertexId v : map_.patches[p].vertices) vertex_seen_.add(v.index());
@@ -408,9 +408,9 @@ private:
         for (const VertexId v : map_.patches[p].vertices) map_.at[v.index()].push_back(p);
     }
 
-    // --- what ends alone say ------------------------------------------------------------------------
+    // --- costs of ends alone ----------------------------------------------------------------------
 
-    /// The free loops where all patches are walls.
+    /// The free loops if all patches are walls.
     [[nodiscard]] std::size_t free_loops()
     {
         std::vector<WallPart> all(1);
@@ -421,7 +421,8 @@ private:
 
     [[nodiscard]] static double bend(const SmoothPatch& end)
     {
-        // Four times: a patch that bends by 90° has a flatness of 0.90 and costs 0.4, one by 180° all.
+        // Times four: a patch that bends by 90° has flatness 0.90 and costs 0.4, one that bends by 180° the
+        // full cost.
         return kBent * std::min(1.0, 4 * (1 - end.flatness));
     }
 
@@ -446,7 +447,7 @@ private:
 
     [[nodiscard]] static double cost_of_two_ends(const SmoothPatch& s, const SmoothPatch& t)
     {
-        // Ends of one sweep face each other: the way between them leaves both.
+        // The ends of a sweep face each other: the line between them leaves both.
         const Vec3 way = (t.centre - s.centre).stableNormalized();
         const double facing =
             1 - (std::abs(way.dot(s.normal)) * s.flatness + std::abs(way.dot(t.normal)) * t.flatness) / 2;
@@ -454,7 +455,7 @@ private:
         return bend(s) + bend(t) + (s.slant + t.slant) / 2 + facing / 2 + unlike;
     }
 
-    /// What it costs to read all faces as walls; nothing unless they are tubes that can be capped.
+    /// Cost of treating all faces as walls; empty unless they are tubes that can be capped.
     [[nodiscard]] std::optional<double> cost_of_no_end() const
     {
         double cost = 0;
@@ -471,8 +472,8 @@ private:
         return kNoEnd + cost / static_cast<double>(parts.size());
     }
 
-    /// How unlikely two free loops are as missing ends; nothing where they cannot be: one inside the other
-    /// in one plane, or a cap that would only run on the face next to it.
+    /// Cost of two free loops as missing ends; empty if they cannot be: one lies inside the other in one
+    /// plane, or a cap would only extend the face next to it.
     [[nodiscard]] std::optional<double> cap_cost(const Rim& first, const Rim& second) const
     {
         double cost = 0;
@@ -507,8 +508,8 @@ private:
         return cost;
     }
 
-    /// Whether several edges of walls leave one vertex of an end: one line of nodes alone leaves it. Where
-    /// three rounded rims of a box meet it tells its floor from its sides.
+    /// Whether several wall edges leave one vertex of an end, although only one line of nodes does. This
+    /// distinguishes the floor of a box from its sides where three rounded rims meet.
     [[nodiscard]] bool has_fans(const Reading& reading) const
     {
         const auto is_wall = [&](std::size_t p) {
@@ -529,7 +530,7 @@ private:
         return fans(reading.source) || fans(reading.target);
     }
 
-    // --- what the walls between them say ------------------------------------------------------------
+    // --- checks of the walls between the ends -------------------------------------------------------
 
     [[nodiscard]] std::vector<FaceId> all_faces() const
     {
@@ -539,7 +540,7 @@ private:
         return faces;
     }
 
-    /// Whether a wall of the reading in `part_of_` uses an edge this way.
+    /// Whether a wall of the candidate in `part_of_` uses an edge in this direction.
     [[nodiscard]] bool on_wall(EdgeUse use) const
     {
         const std::size_t patch = map_.of_use[number_of(use)];
@@ -565,7 +566,7 @@ private:
         return parts;
     }
 
-    /// Give every patch that hangs together with `start` its part. @return the Euler number of the part.
+    /// Assign the part number to every patch connected to `start`. @return the Euler number of the part.
     long flood(std::size_t start, std::size_t unseen)
     {
         vertex_seen_.clear();
@@ -590,8 +591,8 @@ private:
         return euler;
     }
 
-    /// Count the rim that a wall's use is on, unless it was counted: as `rims()` walks it. A rim that is free
-    /// all round is a window, unless it is where the other end is missing.
+    /// Count the rim that contains a wall's use, once, in the order of `rims()`. A rim that is entirely free
+    /// is a window, unless the other end is missing there.
     void count_rim(EdgeUse use, std::vector<WallPart>& parts)
     {
         if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
@@ -606,7 +607,7 @@ private:
         windows_ += free ? 1 : 0;
     }
 
-    /// Note which rims of an end the parts touch, and count the rims that they have there.
+    /// Record which rims of an end the parts touch, and count the parts' rims there.
     void touch(std::size_t end, std::size_t WallPart::*rim, std::vector<WallPart>& parts)
     {
         const std::vector<Rim>& all = map_.patches[end].rims;
@@ -621,7 +622,7 @@ private:
         }
     }
 
-    // --- what to tell of it -------------------------------------------------------------------------
+    // --- results for the user -----------------------------------------------------------------------
 
     /// Whether every vertex on the rim of an end is on a wall.
     [[nodiscard]] bool walled_in(std::size_t end, const Reading& reading) const
@@ -637,7 +638,7 @@ private:
         return true;
     }
 
-    /// The class that `classify()` finds.
+    /// The class that `classify()` would return.
     [[nodiscard]] VolumeClass class_of(const Reading& reading) const
     {
         if (free_.empty()) return VolumeClass::closed;
@@ -666,19 +667,20 @@ private:
                     "loop: the target is missing"};
         }
         if (reading.step != kNone && roles.source.size() > 1) {
-            return {"flat faces that face one way, " + names(roles.source) + ", are one end and " +
-                    names(roles.target) + ", which face the other way, the other: both at several heights"};
+            return {"flat faces with the same normal, " + names(roles.source) +
+                    ", are one end, and the opposite faces " + names(roles.target) +
+                    " are the other: both at several heights"};
         }
         if (reading.step != kNone) {
-            return {"every flat face that faces " + names(roles.source) +
-                    " is the other end, at several heights: " + names(roles.target)};
+            return {"the flat faces opposite " + names(roles.source) +
+                    " are the other end, at several heights: " + names(roles.target)};
         }
         const std::size_t loops = map_.patches[reading.source].rims.size();
         return {"two ends, " + names(roles.source) + " and " + names(roles.target) + ", with " +
                     std::to_string(loops) + (loops == 1 ? " loop each" : " loops each") +
                     " and no vertex in common",
                 roles.walls.empty() ? "no faces between them"
-                                    : "every other face joins a loop of one to a loop of the other"};
+                                    : "every other face joins a loop of one end to a loop of the other"};
     }
 
     const Model& model_;
@@ -688,14 +690,14 @@ private:
     std::vector<double> angle_; ///< of each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
-    std::vector<SteppedEnds> stepped_; ///< of readings with several patches at an end
-    std::vector<EdgeUse> free_;        ///< uses whose edge has no other
-    std::vector<std::size_t> part_of_; ///< of each patch in the reading at hand; `kNone`: an end
-    std::size_t windows_ = 0;          ///< of the reading that was last asked about
+    std::vector<SteppedEnds> stepped_; ///< by stepped candidate
+    std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
+    std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNone`: an end
+    std::size_t windows_ = 0;          ///< of the candidate last checked
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;
-    bool used_twice_ = false;        ///< faces have an edge the same way
-    std::optional<WallTally> tally_; ///< none then
+    bool used_twice_ = false;        ///< faces use an edge twice in one direction
+    std::optional<WallTally> tally_; ///< empty if used_twice_
 };
 
 } // namespace
@@ -719,14 +721,14 @@ std::string in_words(const Model& model, const Roles& roles, VolumeClass value)
 
 namespace {
 
-/// The candidates in faces of an oriented part.
+/// The candidates among the faces of an oriented part.
 std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, const RoleOptions& options,
                                          const RunContext& context)
 {
     Readings readings(part, flat_alone, context);
     std::vector<Reading> held;
     double least = std::numeric_limits<double>::infinity();
-    // What ends alone cost only grows by what is between them.
+    // The cost of the ends is a lower bound: the walls only add to it.
     std::optional<Reading> last;
     for (bool more = true; more;) {
         const std::vector<Reading> likeliest = readings.by_cost(last);

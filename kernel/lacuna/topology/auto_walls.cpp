@@ -18,17 +18,16 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Steps of the search for choices; a hundred groups of faces that meet in threes take about as many.
+/// Steps of the search for choices; a hundred sheets that meet in threes take about as many.
 constexpr std::size_t kMostSteps = 100000;
-/// Free edges whose lengths differ by less than this share of the diagonal are as long as each other.
+/// Free lengths that differ by less than this share of the diagonal are equal.
 constexpr double kSameLength = 1e-6;
-/// And voids whose volumes differ by less than this share of the larger are as large. A choice, not a
-/// measurement.
+/// Volumes that differ by less than this share of the larger are equal. Rule of thumb.
 constexpr double kSameVolume = 0.01;
-/// Faces face one way where their normals are within a degree, as those of ends by role_candidates().
+/// Normals within a degree count as equal, as for the ends of role_candidates().
 constexpr double kFacesAsEnd = 2e-4;
 
-/// Every face that can be reached from the rim of some over shared edges, without crossing others.
+/// Every face connected to some faces over shared edges without crossing the excluded ones.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                    const std::vector<FaceId>& from, const std::vector<FaceId>& without)
 {
@@ -52,14 +51,14 @@ std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::ve
     return result;
 }
 
-/// A choice of sheets, and what speaks for it.
+/// A choice of sheets, with its criteria.
 struct Choice {
     std::vector<bool> sheets;
     double free_length = 0; ///< [model length]
-    double volume = 0;      ///< enclosed, free loops closed by cones to their middle [model length³]
+    double volume = 0;      ///< enclosed, with free loops closed by cones to their centres [model length³]
 };
 
-/// Searches the choices. A sheet is faces that hang together by edges that no others use.
+/// Enumerates the choices. A sheet is a set of faces connected by edges that no other faces use.
 class Sheets {
 public:
     Sheets(const Model& model, const std::vector<std::vector<FaceUse>>& uses, std::vector<FaceId> ends,
@@ -89,8 +88,8 @@ public:
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] const std::vector<std::vector<FaceId>>& sheets() const { return sheets_; }
 
-    /// All choices to which no sheet can be added; nothing where there are too many to try, or where a sheet
-    /// meets itself or the ends more than twice, so that it cannot be taken as a whole.
+    /// All maximal choices; empty if there are too many, or if a sheet cannot be taken as a whole because an
+    /// edge would be used more than twice by it and the ends.
     std::optional<std::vector<Choice>> choices()
     {
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
@@ -104,7 +103,7 @@ public:
         return std::move(found_);
     }
 
-    /// An edge of the sheet that two faces of a choice use already. @pre it cannot be added
+    /// An edge of the sheet that two faces of a choice already use. @pre the sheet cannot be added
     EdgeId taken_edge(const Choice& choice, std::size_t sheet)
     {
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
@@ -141,7 +140,7 @@ private:
         for (const FaceId face : sheets_[sheet]) add(face, sign);
     }
 
-    /// Whether no edge of a sheet that was added is used more than twice.
+    /// Whether adding a sheet left no edge with more than two uses.
     [[nodiscard]] bool fits(std::size_t sheet) const
     {
         bool fits = true;
@@ -149,7 +148,7 @@ private:
         return fits;
     }
 
-    /// @return false when there are too many steps.
+    /// @return false if the step limit is reached.
     bool search(std::size_t sheet)
     {
         check_cancelled(context_);
@@ -200,7 +199,7 @@ private:
             }
             choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
         } catch (const InvalidInput&) {
-            return; // no skin has these faces
+            return; // these faces form no skin
         }
         found_.push_back(std::move(choice));
     }
@@ -209,7 +208,7 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<int> count_; ///< uses of each edge by the ends and the sheets chosen
+    std::vector<int> count_; ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;
     std::size_t steps_ = 0;
@@ -237,15 +236,16 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// The walls round an end in a cavity; nothing where an end on the same skin lies outside of it, as those of
-/// the solid itself do.
+/// The walls of an end in a cavity; empty if an end on the same skin lies outside the cavity, because the
+/// solid itself is then the volume.
 std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                           const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {
     const std::vector<FaceId>& end = source.empty() ? target : source;
     WallChoice result{cavity_round(model, end, context), {}, {}, true, {}};
-    const std::vector<FaceId> skin = reachable_from(model, uses, result.walls, {}); // outside of it
+    const std::vector<FaceId> skin = reachable_from(model, uses, result.walls, {}); // includes faces outside
+                                                                                    // the cavity
     for (const std::vector<FaceId>* list : {&source, &target}) {
         for (const FaceId face : *list) {
             if (std::ranges::binary_search(skin, face)) return std::nullopt;
@@ -263,8 +263,8 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), faces_as_end);
     std::erase_if(result.walls, faces_as_end);
     for (const FaceId face : result.more_of_end)
-        log_line(context, "note: " + name_of(model, face) + " of the same cavity is taken as part of " +
-                              name_of(model, end.front()) + "'s end, as it faces the same way");
+        log_line(context, "note: " + name_of(model, face) + " of the same cavity becomes part of " +
+                              name_of(model, end.front()) + "'s end, because it faces the same way");
     return result;
 }
 
@@ -301,11 +301,10 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
                      [](const Choice& a, const Choice& b) { return a.volume < b.volume; });
     WallChoice result = walls_of(choices->front(), sheets);
     if (choices->size() > 1 && (*choices)[1].volume * (1 - kSameVolume) <= choices->front().volume) {
-        throw InvalidInput(
-            "topology.walls_ambiguous",
-            "walls = \"auto\" can be read in two ways as good as each other; name the walls: {" +
-                tags_of(model, result.walls) + "} or {" +
-                tags_of(model, walls_of((*choices)[1], sheets).walls) + "}");
+        throw InvalidInput("topology.walls_ambiguous",
+                           "walls = \"auto\" finds two equally good choices of walls; name them, walls = {" +
+                               tags_of(model, result.walls) + "} or {" +
+                               tags_of(model, walls_of((*choices)[1], sheets).walls) + "}");
     }
     return result;
 }

@@ -8,31 +8,32 @@
 
 namespace lacuna::topology {
 
-/// The walls that go with some ends.
+/// Walls found for given ends.
 struct WallChoice {
-    std::vector<FaceId> walls;    ///< rising
-    std::vector<FaceId> left_out; ///< reachable from the ends, but bounding another void or none; rising
-    /// Of each face left out an edge that two faces of the volume use already.
+    std::vector<FaceId> walls;    ///< ascending
+    std::vector<FaceId> left_out; ///< connected to the ends, but bounding another void or none; ascending
+    /// For each face left out, an edge that two faces of the volume already use.
     std::vector<EdgeId> taken;
-    bool of_cavity = false; ///< the walls are what else bounds the cavity of a solid that the end lies in
-    std::vector<FaceId> more_of_end; ///< of that cavity the flat faces that face as the end does
+    bool of_cavity = false; ///< the end is inside a cavity of a solid, and the walls are the cavity's other
+                            ///< faces
+    std::vector<FaceId> more_of_end; ///< flat faces of that cavity with the same normal as the end
 };
 
-/// The walls of a void, found from its ends: the faces that can be reached from the rim of `source`, or where
-/// it is empty of `target`, over shared edges and not over the other end.
+/// Find the walls of a void from its ends: the faces connected to the rim of `source`, or of `target` if
+/// `source` is empty, over shared edges without crossing the other end.
 ///
-/// An end in a cavity of a closed skin, by cavity_round(), has the other faces of that cavity. Those that
-/// face as a flat end does are no walls but parts of it, as a ledge and the top of a post; a note says so.
+/// For an end inside a cavity of a closed skin, see cavity_round(), the walls are the other faces of that
+/// cavity. Flat faces with the end's normal, such as a ledge or the top of a post, become part of the end,
+/// with a note.
 ///
-/// No edge bounds one void with more than two faces. Where more than two of the faces reached share an edge,
-/// those that hang together by other edges are taken or left together. Of all choices to which nothing can be
-/// added, the one with the least length of free edges is taken, and of those as good the one that encloses
-/// least: the first faces round the void, not those round its neighbours. With one end, free edges have to
-/// remain for the other. Where so many faces meet so often that the choices cannot be counted, where faces
-/// lead round to an edge they left from, and where no choice passes, all are taken.
-/// @throw InvalidInput "topology.walls_ambiguous"  two choices as good as each other; names both. Cancelled.
-/// @note  O(faces) where no edge is used more than twice; else exponential in the groups of faces that meet,
-///        up to a bound.
+/// A void has at most two faces at each edge. Where more than two connected faces share an edge, sheets of
+/// faces (connected by other edges) are taken or left as a whole. Of all maximal choices the one with the
+/// shortest free edges wins, and of equal ones the one that encloses the least volume: the faces nearest to
+/// the void. With one end, free edges must remain for the other. All faces are taken if there are too many
+/// choices to enumerate, if a sheet meets itself at such an edge, or if no choice is valid.
+/// @throw InvalidInput "topology.walls_ambiguous"  two equally good choices; names both. Cancelled.
+/// @note  O(faces) if no edge is used more than twice; otherwise exponential in the number of sheets, up to a
+///         bound.
 WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
                       const std::vector<FaceId>& target, const RunContext& context = {});
 

@@ -14,11 +14,12 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Of the largest radius: as `round_shape()` has it for cylinders and spheres.
+/// Share of the largest radius, as in `round_shape()` for cylinders and spheres.
 constexpr double kMostOff = 0.01;
-/// Sines of half angles beyond which a cone is a cylinder or a plane. A choice: 1° and 89°.
+/// Sines of half angles beyond which a cone is a cylinder or a plane: 1° and 89°. Rule of thumb.
 constexpr double kLeastLean = 0.0175, kMostLean = 0.99985;
-/// Normals spread less than this about their mean, squared, say no axis. A choice: a turn of some degrees.
+/// Normals that spread less than this (squared) about their mean define no axis: a turn of some degrees. Rule
+/// of thumb.
 constexpr double kLeastSpread = 1e-3;
 
 } // namespace
@@ -42,8 +43,9 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
     if (lean < kLeastLean || lean > kMostLean) return {};
-    // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the rest,
-    // with the slope s that the normals say. Facets are chords, so it is measured anew about that axis.
+    // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the other
+    // unknowns for the slope s of the normals. Facets are chords, so the slope is fitted again about that
+    // axis.
     std::vector<Index> used;
     for (const Triangle& t : face.triangles) used.insert(used.end(), t.begin(), t.end());
     std::ranges::sort(used);

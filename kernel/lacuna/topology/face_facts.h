@@ -8,15 +8,15 @@
 
 namespace lacuna::topology {
 
-/// What tells a face from others, beside its shape.
+/// Facts that help to identify a face.
 struct FaceFacts {
     Eigen::AlignedBox3d box;        ///< of its facets
-    std::vector<FaceId> neighbours; ///< that share an edge with it; rising
-    std::vector<EdgeId> free_edges; ///< that no other face has, seams left out; rising
-    std::size_t part = 0;           ///< which of the parts that hang together, from 0
+    std::vector<FaceId> neighbours; ///< faces that share an edge with it; ascending
+    std::vector<EdgeId> free_edges; ///< edges that no other face uses, without seams; ascending
+    std::size_t part = 0;           ///< number of its connected part, from 0
 };
 
-/// Of each face. O(facets + edges log edges).
+/// By face. O(facets + edges log edges).
 std::vector<FaceFacts> face_facts(const Model& model);
 
 } // namespace lacuna::topology

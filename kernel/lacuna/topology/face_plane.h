@@ -11,7 +11,7 @@ namespace lacuna::topology {
 /// Whether all corners of a face's facets lie within the model's tolerance of a plane.
 bool lies_in_plane(const Model& model, FaceId face, const geometry::Plane& plane);
 
-/// The plane of a face that lies in one: through its middle, across its area vector.
+/// The plane of a planar face: through its centre, normal to its area vector.
 std::optional<geometry::Plane> plane_of(const Model& model, FaceId face);
 
 } // namespace lacuna::topology

@@ -13,17 +13,17 @@ namespace lacuna::topology {
 namespace {
 
 constexpr double kMostOff =
-    0.01; // of the radius: well above the rounding of files, below what is another shape
+    0.01; // share of the radius: well above the rounding of files, below the deviation of other shapes
 
 struct Round {
     double radius = 0;
     Eigen::VectorXd centre;
 };
 
-/// The circle or sphere through points, those of a row each, where all lie on it.
+/// The circle or sphere through points, one per row, if all lie on it.
 std::optional<Round> fitted(const Eigen::MatrixXd& points)
 {
-    // |p|² = 2 c·p + (r² - |c|²) is linear in what is sought.
+    // |p|² = 2 c·p + (r² - |c|²) is linear in the unknowns.
     const Eigen::Index n = points.cols();
     const Eigen::RowVectorXd mean = points.colwise().mean();
     const Eigen::MatrixXd at = points.rowwise() - mean;
@@ -49,7 +49,8 @@ std::optional<double> face_radius(const Model& model, FaceId id)
 std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
-    for (const char* other : {"plane", "cone", "torus"}) // as the CAD file says; a piece may look otherwise
+    for (const char* other : {"plane", "cone", "torus"}) // as declared by the CAD file; a piece may look
+                                                         // different
         if (face.kind == other) return {};
     std::vector<Index> used;
     std::vector<Vec3> normals;
@@ -68,10 +69,10 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     for (std::size_t p = 0; p < used.size(); ++p)
         points.row(static_cast<Eigen::Index>(p)) = model.at(used[p]).transpose();
     const geometry::Spread looks = geometry::spread_about(Vec3::Zero(), normals, areas);
-    if (looks.square[1] < kMostOff * kMostOff) return {}; // all look one way
+    if (looks.square[1] < kMostOff * kMostOff) return {}; // all normals are equal
     if (looks.square[0] >= kMostOff) {
         const auto sphere = fitted(points);
-        // The corners of one row of facets round a cone lie on a sphere as well.
+        // The corners of one row of facets round a cone lie on a sphere too.
         if (!sphere || cone_shape(model, id)) return {};
         return RoundShape{sphere->radius, sphere->centre, {}};
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The closest edge of another part is sought in as many pairs of trees as the number of a part has binary
-// digits: two parts differ in one digit at least.
+// Searching the closest edge of another part takes one pair of trees per binary digit of the part numbers:
+// two different parts differ in at least one digit.
 #include <lacuna/topology/gaps.h>
 
 #include <lacuna/geometry/facet_tree.h>
@@ -17,10 +17,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Gaps wider than this part of the diagonal are not sewn: io::load_facets() takes no wider tolerance.
+/// Gaps wider than this share of the diagonal are not sewn: io::load_facets() accepts no larger tolerance.
 constexpr double kWidestSewn = 0.01;
 
-/// Free edges as facets of no area.
+/// Free edges as degenerate facets.
 struct Lines {
     std::vector<Triangle> sides;
     std::vector<EdgeId> owner;
@@ -42,7 +42,7 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     const auto part = [&](EdgeId edge) { return part_of[uses[edge.index()].front().face.index()]; };
 
     const double reach = kWidestSewn * model.diagonal;
-    // Of each free edge its points and, last, its middle: at its ends several edges are as near.
+    // Each free edge's points and, last, its middle: at its ends several edges are equally close.
     std::vector<std::vector<Vec3>> places(free.size());
     std::vector<std::vector<Gap>> nearest(free.size());
     for (std::size_t i = 0; i < free.size(); ++i) {

@@ -20,8 +20,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// A node of the mesh's rim may be off the face's loop by this part of the side next to it: a side that
-/// stands for a sixth of a turn is off its curve by an eighth.
+/// A node of the mesh's rim may be off the face's loop by this share of the side next to it: a chord of a
+/// sixth of a circle is off by an eighth.
 constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
@@ -33,9 +33,9 @@ struct RimNode {
 /// A loop as one closed chain of model points.
 struct LoopChain {
     std::vector<EdgeUse> uses;
-    std::vector<double> start; ///< running length where each use starts, and the whole length
-    std::vector<Index> points; ///< the first again at the end
-    std::vector<double> at;    ///< running length of each point, and the whole length
+    std::vector<double> start; ///< running length at the start of each use, then the total
+    std::vector<Index> points; ///< the first is repeated at the end
+    std::vector<double> at;    ///< running length of each point, then the total
 };
 
 LoopChain chain_of(const Model& model, const Loop& loop)
@@ -62,10 +62,10 @@ std::vector<double> running_lengths(const Model& model, std::span<const Index> p
     return geometry::arc_lengths(places);
 }
 
-/// A triangle among quads has its last corner twice.
+/// A triangle repeats its last corner.
 bool is_triangle(const Quad& quad) { return quad[2] == quad[3]; }
 
-/// The node cycles of the quads' boundary, quads on the left.
+/// The boundary cycles of the quads, with the quads on the left.
 std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
 {
     std::unordered_map<std::uint64_t, int> uses;
@@ -95,7 +95,7 @@ std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
     return cycles;
 }
 
-/// Where a point is nearest to a chain.
+/// The closest position on a chain to a point.
 struct Nearest {
     double at = 0, distance = std::numeric_limits<double>::infinity();
 };
@@ -113,18 +113,19 @@ Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<
     return best;
 }
 
-/// Puts nodes on edges: facets are cut there, and the edges' other points go to the nodes.
+/// Replaces the points of edges by nodes: facets are split there, and the edges' other points move to the
+/// nodes.
 class EdgeRemesher {
 public:
     explicit EdgeRemesher(Model& model) : model_(model), uses_(edge_uses(model)) {}
 
     /// @param at     running lengths of the edge's points.
-    /// @param nodes  of the edge as it runs, ends included, rising; those of a closed edge may start
-    ///     anywhere.
+    /// @param nodes  in the edge's direction, ends included, ascending; those of a closed edge may start
+    ///         anywhere.
     void add(EdgeId id, const std::vector<double>& at, const std::vector<RimNode>& nodes)
     {
         const std::vector<Index>& old = model_[id].points;
-        // Inner nodes go between the old points; the ends stand for the vertices.
+        // Inner nodes go between the old points; the end nodes replace the vertices.
         move_.insert_or_assign(old.front(), nodes.front().point);
         move_.insert_or_assign(old.back(), nodes.back().point);
         Chain made{id, {old.front()}, {}};
@@ -156,7 +157,7 @@ public:
         return uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face);
     }
 
-    /// @param replaced  a face whose facets do not matter any more; may be none.
+    /// @param replaced  a face whose facets are replaced anyway; may be invalid.
     void apply(FaceId replaced)
     {
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
@@ -178,7 +179,7 @@ public:
         }
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
-        // Points that nothing uses any more, and seams that are gone.
+        // Drop points that are no longer used, and removed seams.
         const std::vector<FaceId> all = all_faces(model_);
         Model whole = extract(model_, all);
         whole.notes = std::move(model_.notes);
@@ -186,11 +187,11 @@ public:
     }
 
 private:
-    /// An edge before and after.
+    /// An edge before and after the change.
     struct Chain {
         EdgeId edge;
-        std::vector<Index> points; ///< old ones and nodes, as the edge runs
-        std::vector<Index> kept;   ///< nodes, the vertices' included
+        std::vector<Index> points; ///< old points and nodes, in the edge's direction
+        std::vector<Index> kept;   ///< nodes, including the vertices'
     };
 
     [[nodiscard]] Index moved(Index point) const
@@ -199,8 +200,8 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// Where all that lay beside an edge's inner point went to the edge itself, facets on both sides of it
-    /// are folded onto the edge: they go, and the point with them.
+    /// If an edge's inner point and the corners beside it moved onto the edge, the facets on both sides are
+    /// folded onto it; they are removed together with the point.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
@@ -232,7 +233,7 @@ private:
         }
     }
 
-    /// Surface parameters along the sides of a face's facets, as steps from the lesser point to the greater.
+    /// Surface parameter differences along the facet sides of a face, from the lower point to the higher.
     static std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face)
     {
         std::unordered_map<std::uint64_t, Vec2> steps;
@@ -246,7 +247,7 @@ private:
         return steps;
     }
 
-    /// By how much the parameters change where the points of the edges go to their nodes.
+    /// Change of the surface parameters where points of the edges move to their nodes.
     [[nodiscard]] std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
     {
         std::unordered_map<Index, Vec2> shifts;
@@ -267,7 +268,7 @@ private:
                 const auto to = param.find(moved(point));
                 if (to == param.end()) continue;
                 const Vec2 own = param.at(point), shift = to->second - own;
-                // The vertex of a closed edge stands at both its ends, a period apart on what is round.
+                // The vertex of a closed edge is at both its ends, one period apart on a periodic surface.
                 const bool closing = to->first == chain.points.back() && (last - own).norm() < shift.norm();
                 shifts.insert_or_assign(point, closing ? Vec2(last - own) : shift);
             }
@@ -305,7 +306,7 @@ private:
     Model& model_;
     std::vector<std::vector<FaceUse>> uses_; ///< of each edge
     SidePoints sides_;
-    std::unordered_map<Index, Index> move_; ///< old points of the edges to nodes
+    std::unordered_map<Index, Index> move_; ///< old edge points to nodes
     std::vector<Chain> chains_;
 };
 
@@ -338,13 +339,13 @@ private:
         throw InvalidInput("topology." + code, why);
     }
 
-    /// The rim's nodes on each loop, turned the loop's way.
+    /// Place the rim's nodes on each loop, in the loop's direction.
     void place_rims()
     {
         std::vector<std::vector<Index>> cycles = cycles_of(quads_);
         if (cycles.size() != chains_.size()) {
             refuse("mesh_unlike_face", "the mesh for " + name_of(model_, face_) + " has " +
-                                           std::to_string(cycles.size()) + " rims, where the face has " +
+                                           std::to_string(cycles.size()) + " rims and the face has " +
                                            std::to_string(chains_.size()) + " loops");
         }
         rims_.resize(chains_.size());
@@ -362,14 +363,14 @@ private:
                 }
             }
             if (!rims_[best].empty())
-                refuse("mesh_unlike_face",
-                       "two rims of the mesh for " + name_of(model_, face_) + " lie on the same loop of it");
+                refuse("mesh_unlike_face", "two rims of the mesh for " + name_of(model_, face_) +
+                                               " lie on the same loop of the face");
             rims_[best] = place_rim(cycle, chains_[best]);
             turned += is_turned(rims_[best], chains_[best].start.back()) ? 1 : 0;
         }
         if (turned != 0 && turned != static_cast<int>(cycles.size()))
-            refuse("mesh_unlike_face",
-                   "the rims of the mesh for " + name_of(model_, face_) + " do not run as its loops do");
+            refuse("mesh_unlike_face", "the rims of the mesh for " + name_of(model_, face_) +
+                                           " are not oriented like its loops; orient all quads alike");
         if (turned == 0) return;
         for (Quad& quad : quads_) std::swap(quad[is_triangle(quad) ? 0 : 3], quad[1]);
         for (std::vector<RimNode>& rim : rims_) std::reverse(rim.begin(), rim.end());
@@ -394,7 +395,7 @@ private:
         return rim;
     }
 
-    /// Whether more nodes follow each other against the chain than with it.
+    /// Whether more nodes follow each other against the chain than along it.
     static bool is_turned(const std::vector<RimNode>& rim, double length)
     {
         int steps = 0;
@@ -405,7 +406,7 @@ private:
         return steps < 0;
     }
 
-    /// How many edges end at each vertex, seams left out.
+    /// Number of edge ends at each vertex, without seams.
     void count_ends()
     {
         ends_.assign(model_.vertices.size(), 0);
@@ -416,7 +417,7 @@ private:
         }
     }
 
-    /// The node at a vertex; the nearest one where the vertex may go there.
+    /// The node at a vertex; the nearest one if the vertex may move there.
     std::size_t node_at(VertexId vertex, double at, const std::vector<RimNode>& rim, double length)
     {
         const Vec3& place = model_.at(model_[vertex].point);
@@ -427,7 +428,7 @@ private:
                 best = i;
         }
         const double off = (model_.at(rim[best].point) - place).norm();
-        // Two edge ends of the loop itself, or those of a closed edge.
+        // Two edge ends of the loop itself, or of a closed edge.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
             refuse("mesh_misses_vertex", "the mesh for " + name_of(model_, face_) + " has no node at " +
                                              name_of(model_, vertex) +
@@ -438,7 +439,7 @@ private:
         return best;
     }
 
-    /// Note which points are put on the edges of a loop, and where the old ones go.
+    /// Collect the points to be put on the edges of a loop, and the targets of the old points.
     void take_rim(const LoopChain& chain, std::vector<RimNode>& rim)
     {
         const double length = chain.start.back();
@@ -455,7 +456,7 @@ private:
             }
         }
         for (std::size_t u = 0; u < corner.size(); ++u) {
-            // The nodes of the use, its ends included, in running lengths that rise from its first.
+            // Nodes of the use, both ends included, with running lengths ascending from its start.
             std::vector<RimNode> nodes;
             const std::size_t last = corner[(u + 1) % corner.size()];
             std::size_t i = corner[u];
@@ -471,7 +472,7 @@ private:
                 if (nodes[k + 1].at > nodes[k].at) continue;
                 refuse("mesh_unlike_face", "the nodes of the mesh for " + name_of(model_, face_) + " on " +
                                                name_of(model_, chain.uses[u].edge) +
-                                               " do not follow each other as the edge runs");
+                                               " are not in the order of the edge");
             }
             put_on_edge(chain, u, nodes);
         }
@@ -490,7 +491,7 @@ private:
         remesher_.add(use.edge, at, nodes);
     }
 
-    /// What another face at the edge came with has to agree.
+    /// A given mesh of another face at the edge must have the same nodes.
     void check_other_meshes(EdgeId edge, const std::vector<RimNode>& nodes) const
     {
         const std::vector<Index>& old = model_[edge].points;
@@ -498,7 +499,7 @@ private:
             if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
             refuse("meshes_differ", "the mesh for " + name_of(model_, face_) + " has " +
                                         std::to_string(nodes.size()) + " nodes on " + name_of(model_, edge) +
-                                        ", and that of " + name_of(model_, user.face) + " " +
+                                        ", and the mesh of " + name_of(model_, user.face) + " has " +
                                         std::to_string(old.size()));
         }
     }
@@ -526,7 +527,7 @@ private:
     std::vector<Quad> quads_;
     std::vector<LoopChain> chains_;
     std::vector<std::vector<RimNode>> rims_; ///< on each loop
-    std::vector<int> ends_;                  ///< edge ends at each vertex, seams left out
+    std::vector<int> ends_;                  ///< edge ends at each vertex, without seams
 };
 
 } // namespace
@@ -565,9 +566,9 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
             const bool end = i + 1 == given.nodes.size();
             Nearest place{end ? at.back() : 0.0, 0};
             if (i > 0 && !end) place = nearest_on(model, old, at, given.nodes[i], last);
-            if (i > 0 && place.at <= last) refuse("do not follow each other as it runs");
+            if (i > 0 && place.at <= last) refuse("are not in the order of the edge");
             last = place.at;
-            // The ends are the vertices, which go where their nodes are.
+            // The ends are the vertices, which move to their nodes.
             const Index point = i == 0 ? old.front()
                                 : end  ? old.back()
                                        : static_cast<Index>(model.points.size());

@@ -9,39 +9,38 @@
 
 namespace lacuna::topology {
 
-/// Nodes of an edge, as it runs, both ends included: first and last are its vertices' places, those of a
-/// closed edge the same one [model length].
+/// Nodes of an edge in its direction, both ends included: the first and last are at its vertices, which
+/// coincide on a closed edge [model length].
 struct EdgeNodes {
     EdgeId edge;
     std::vector<Vec3> nodes;
 };
 
-/// Edges that keep their nodes, by themselves or with the mesh of a face.
+/// Edges whose nodes are kept, because they are given or belong to a given mesh of a face.
 std::set<EdgeId> kept_edges(const Model& model);
 
-/// Make points the nodes of edges, to be kept by whoever meshes the faces beside them.
+/// Set the nodes of edges; meshing of the adjacent faces keeps them.
 ///
-/// The edges become the chains of their nodes and lose their exact curves. Facets beside them are cut at the
-/// nodes, and the edges' other points go to the nearest node along them.
-/// @throw InvalidInput "topology.nodes_off_edge"  nodes that do not follow each other as the edge runs, or
-///     too
-///         few of them; names the edge.
+/// The edges become polylines through their nodes and lose their exact curves. Facets next to them are split
+/// at the nodes, and the edges' other points move to the nearest node along the edge.
+/// @throw InvalidInput "topology.nodes_off_edge"  nodes that are not in the order of the edge, or too few;
+///         names the edge.
 /// @note  O(facets + nodes × points of an edge).
 void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 
-/// Make quads the mesh a face came with, as if it had been read so: its facets become their halves, its edges
-/// the chains of their rim, and the faces beside it end at those.
+/// Set quads as the given mesh of a face, as if the file had contained them: the face's facets become the
+/// halves of the quads, its edges become the polylines of the quads' rim, and adjacent faces are adapted to
+/// them.
 ///
-/// Facets beside the face are cut at the rim's nodes, and the points of their edges that are none of them go
-/// to the nearest one along the edge. A vertex where other edges end must be a node of the rim. One where
-/// none does, such as the start of a closed edge, goes to the nearest node; so do the ends of seams. Edges
-/// lose their exact curve, and the face its exact surface: what they were needed for is there.
+/// Facets next to the face are split at the rim's nodes, and other points of the edges move to the nearest
+/// node along the edge. A vertex with edges of other faces must be a node of the rim. Other vertices, such as
+/// the start of a closed edge, move to the nearest node; so do the ends of seams. Edges lose their exact
+/// curves and the face its exact surface, because the given mesh replaces them.
 /// @param nodes  of the mesh [model length].
-/// @param quads  of the mesh, one way round all of them; either way. A triangle has its last corner twice.
+/// @param quads  of the mesh, consistently oriented either way. A triangle repeats its last corner.
 /// @throw InvalidInput "topology.mesh_unlike_face"  quads that are no manifold, whose rim has other loops
-///     than
-///         the face, or is off them; "topology.mesh_misses_vertex"  a vertex that is no node;
-///         "topology.meshes_differ"  a face beside it whose own mesh has other nodes on their edge. Names
+///         than the face, or whose rim is off them; "topology.mesh_misses_vertex"  a vertex without a node;
+///         "topology.meshes_differ"  an adjacent face whose given mesh has other nodes on their edge. Names
 ///         them.
 /// @note  O(facets + quads + nodes of the rim × points of the loop).
 void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads);

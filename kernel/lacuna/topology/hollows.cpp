@@ -34,15 +34,15 @@ std::vector<std::vector<FaceId>> closed_shells(const Model& model,
     return shells;
 }
 
-/// Whether a shell is where two regions of a mesh meet: there is no space on either side.
+/// Whether a shell is an interface of two mesh regions, with no space on either side.
 bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
 {
     return std::all_of(shell.begin(), shell.end(),
                        [&](FaceId face) { return model[face].regions.size() > 1; });
 }
 
-/// Turn the shells over that lie within another one, or within any odd number: the space inside them is none
-/// of the solid's. @pre each looks outward. @return these.
+/// Flip the shells that lie inside an odd number of others: the space inside them is not part of the solid.
+/// @pre each faces outward. @return the flipped shells.
 std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
                                                    const std::vector<std::vector<FaceId>>& shells,
                                                    const RunContext& context)
@@ -72,8 +72,8 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
     return turned;
 }
 
-/// What faces contribute to a volume, their rims closed by cones to the middle of the faces: below 0 where
-/// they face the space between them.
+/// The faces' contribution to a volume, with rims closed by cones to the faces' centre: negative if they face
+/// the space between them.
 double capped_volume(const Model& model, const std::vector<FaceId>& faces)
 {
     Vec3 middle = Vec3::Zero(), area = Vec3::Zero();
@@ -95,7 +95,7 @@ std::set<EdgeId> edges_of(const Rim& rim)
     return edges;
 }
 
-/// How far faces reach along a way.
+/// Extent of faces along a direction.
 double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
 {
     double most = -std::numeric_limits<double>::infinity();
@@ -105,8 +105,8 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// What stands in a cavity: parts of its skin that its rims cut off, except the largest, which is the
-/// outside, and those that reach up to a mouth, a rim that the outside has too. @pre oriented
+/// Faces that stand in a cavity: parts of the skin bounded by the cavity's rims, without the largest part,
+/// which is the outside, and without parts that reach a mouth, a rim of the outside. @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity)
 {
     std::vector<FaceId> rest, result;
@@ -183,7 +183,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows)
 {
-    std::map<std::set<EdgeId>, std::size_t> first; // the hollow that has a rim
+    std::map<std::set<EdgeId>, std::size_t> first; // hollow by rim
     geometry::UnionFind hang(hollows.size());
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         for (const Rim& rim : rims(model, hollows[h].faces)) {

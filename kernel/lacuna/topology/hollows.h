@@ -9,28 +9,29 @@
 
 namespace lacuna::topology {
 
-/// Faces of a solid that lie round a hollow of it.
+/// Faces of a solid around a hollow.
 struct Hollow {
-    std::vector<FaceId> faces; ///< rising
-    std::size_t mouths = 0;    ///< rims: 0 a void inside the solid, 1 a pocket, 2 and more a bore
+    std::vector<FaceId> faces; ///< ascending
+    std::size_t mouths = 0;    ///< number of rims: 0 a void inside the solid, 1 a pocket, 2 or more a bore
 };
 
-/// The hollows of closed skins: faces that hang together over edges where the skin bends inward, or smoothly,
-/// and face the space they surround. A skin that lies within another one surrounds a void inside the solid,
-/// whichever way its facets are wound. An outer skin is no hollow, and neither is a skin with free edges.
-/// Hollows that share a whole rim, as a bore and what widens it, are told apart.
-/// @return in the order of their first faces; none where the faces cannot be oriented.
+/// The hollows of closed skins: sets of faces that are connected over concave or smooth edges and face the
+/// space they surround. A skin inside another one surrounds a void in the solid, whatever its orientation.
+/// Outer skins and skins with free edges are no hollows. Hollows that share a whole rim, such as a bore and
+/// its counterbore, are separate.
+/// @return in the order of their first faces; empty if the faces cannot be oriented.
 /// @throw Cancelled
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 
-/// Of each hollow the first of those that share whole rims, one with the next, as a bore and what widens it.
+/// For each hollow, the first of the chain of hollows that share whole rims with it, such as a bore and its
+/// counterbore.
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
 
-/// The faces of the cavity of a closed skin that some faces lie in: of the hollows of these, of those that
-/// share a whole rim with them, as what widens a bore does, and of what stands in them below their mouths,
-/// as the top of a post.
-/// @return rising; none where the faces lie in no hollow.
+/// The faces of the cavity in a closed skin that contains the given faces: their hollows, the hollows that
+/// share a whole rim with these (a counterbore), and faces that stand inside them below the mouths, such as
+/// the top of a post.
+/// @return ascending; empty if the faces lie in no hollow.
 /// @throw Cancelled
 /// @note  Near linear in facets.
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,

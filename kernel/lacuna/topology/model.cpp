@@ -15,7 +15,7 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Where a directed mesh segment lies on an edge.
+/// Position of a directed mesh segment on an edge.
 struct SegmentOnEdge {
     EdgeId edge;
     std::size_t segment = 0;
@@ -38,7 +38,7 @@ SegmentMap segments_of_edges(const Model& model, const RunContext& context)
     return map;
 }
 
-/// The segments of a model's edges, found by their ends.
+/// The segments of a model's edges, looked up by their ends.
 class EdgeSegments {
 public:
     EdgeSegments(const Model& model, const RunContext& context)
@@ -48,23 +48,23 @@ public:
             for (const Index p : edge.points) on_edge_[index(p)] = true;
     }
 
-    /// Null where none runs from one point to the other.
+    /// Null if no segment joins the two points.
     [[nodiscard]] const SegmentOnEdge* find(Index from, Index to) const
     {
-        if (!on_edge_[index(from)] || !on_edge_[index(to)]) return nullptr; // so are most sides of facets
+        if (!on_edge_[index(from)] || !on_edge_[index(to)]) return nullptr; // true for most facet sides
         const auto found = at_.find(directed_key(from, to));
         return found != at_.end() ? &found->second : nullptr;
     }
 
 private:
     SegmentMap at_;
-    std::vector<bool> on_edge_; ///< of each point of the model
+    std::vector<bool> on_edge_; ///< by point of the model
 };
 
 /// The sides of one face's triangles, and which of them are its border.
 class FaceHalves {
 public:
-    /// @param sides  taken for this face's.
+    /// @param sides  is filled with this face's sides.
     FaceHalves(const Model& model, const Face& face, const EdgeSegments& segments, DirectedSides& sides)
         : model_(model), face_(face), segments_(segments), sides_(sides)
     {
@@ -74,20 +74,20 @@ public:
         throw InvalidInput("topology.not_manifold",
                            "the facets of " + name() +
                                " overlap or are not consistently oriented at the point " +
-                               place(from(index(twice))) + "; mend the face or mesh it anew");
+                               place(from(index(twice))) + "; repair or remesh the face");
     }
 
     [[nodiscard]] std::size_t size() const { return sides_.size(); }
     [[nodiscard]] Index from(std::size_t half) const { return sides_.from(half); }
     [[nodiscard]] Index to(std::size_t half) const { return sides_.to(half); }
 
-    /// A half that belongs to the face's border: nothing beyond it, or a seam to cut along.
+    /// A half-edge on the face's border: no facet beyond it, or a seam to cut along.
     [[nodiscard]] bool on_border(std::size_t half) const
     {
         return segments_.find(from(half), to(half)) != nullptr || sides_.across(half) < 0;
     }
 
-    /// The border half that follows, found by turning through the fan of facets round the half's end.
+    /// The next border half-edge, found by rotating through the fan of facets at its end.
     [[nodiscard]] std::size_t next_on_border(std::size_t half) const
     {
         std::size_t next = half - half % 3 + (half + 1) % 3;
@@ -97,7 +97,7 @@ public:
             if (turns > size()) {
                 throw InvalidInput("topology.not_manifold",
                                    "the facets of " + name() + " do not form a surface at the point " +
-                                       place(to(half)) + "; mend the face or mesh it anew");
+                                       place(to(half)) + "; repair or remesh the face");
             }
         }
         return next;
@@ -114,7 +114,7 @@ public:
         return *found;
     }
 
-    /// True when the half starts at an end of its edge.
+    /// True if the half-edge starts at an end of its edge.
     [[nodiscard]] bool starts_use(std::size_t half) const
     {
         const SegmentOnEdge& on = on_edge(half);
@@ -386,7 +386,7 @@ void orient_consistently(Model& model)
             "topology.not_manifold",
             name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
                 short_list(uses[e], [&](const FaceUse& use) { return name_of(model, use.face); }) +
-                "); the skin of a volume has two at each edge: leave the others out of the volume");
+                "); the skin of a volume has two at each edge: leave out the others");
     }
 
     const std::vector<FaceId> all = all_faces(model);
@@ -406,7 +406,7 @@ void orient_consistently(Model& model)
                     }
                     const FaceId other = both[0].face == face ? both[1].face : both[0].face;
                     if (other == face) continue;
-                    // The uses were listed before any flip: `use` is of now.
+                    // The uses were listed before any flip; `use` includes the flips.
                     const FaceUse& their = both[0].face == other ? both[0] : both[1];
                     const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
                     if (settled[other.index()]) {
@@ -414,7 +414,7 @@ void orient_consistently(Model& model)
                             throw InvalidInput(
                                 "topology.not_orientable",
                                 name_of(model, face) + " and " + name_of(model, other) +
-                                    " cannot be oriented alike across " + name_of(model, use.edge) +
+                                    " cannot be oriented consistently across " + name_of(model, use.edge) +
                                     ": the faces form a one-sided band; leave one of them out");
                         }
                         continue;

@@ -13,23 +13,23 @@
 
 namespace lacuna::topology {
 
-/// Where an entity comes from: the input, or the closing of the volume (the paper's v-Topology).
+/// Whether an entity comes from the input, or was created by closing the volume (the paper's v-Topology).
 enum class Origin { given, made_void };
 
-/// How the facets of a face came to be (the paper's v-Geometry).
+/// How the facets of a face were made (the paper's v-Geometry).
 enum class Geometry {
     given,
     newell,      ///< Algorithm 4: triangulated in its Newell plane
     transfinite, ///< Algorithm 6
     annular,     ///< Algorithm 5: between two closed edges
-    followed,    ///< transfinite, bent as the given walls lead
+    followed,    ///< transfinite, blended along the given walls
     minimal,     ///< least area over its loops
-    parallel,    ///< the shape of the given end, moved to the walls' rim
+    parallel,    ///< the shape of the given end, moved to the rim of the walls
 };
 
 struct Vertex {
     Index point = -1; ///< in Model::points
-    int tag = 0;      ///< as the person knows it
+    int tag = 0;      ///< as shown to the user
     Origin origin = Origin::given;
 };
 
@@ -40,28 +40,28 @@ struct Edge {
     VertexId from, to;
     std::vector<Index> points;  ///< from..to inclusive, at least 2; closed: first == last
     std::vector<double> params; ///< the curve's parameter at each point; empty without `curve`
-    std::shared_ptr<const geometry::ExactCurve> curve; ///< null where the facets are all there is
-    bool keeps_nodes = false;                          ///< its points are nodes of a mesh and stay
+    std::shared_ptr<const geometry::ExactCurve> curve; ///< null if only facets are known
+    bool keeps_nodes = false;                          ///< its points are mesh nodes and are kept
 };
 
-/// One use of an edge by a loop: as the edge runs, or against it.
+/// One use of an edge by a loop: in the edge's direction, or reversed.
 struct EdgeUse {
     EdgeId edge;
     bool reversed = false;
     friend constexpr auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 };
 
-/// A closed walk along edges, the face on its left. A seam is used twice, once each way.
+/// A closed chain of edge uses with the face on its left. A seam is used twice, once in each direction.
 struct Loop {
     std::vector<EdgeUse> uses;
 };
 
-/// Facets with a boundary. The facets of two faces that share an edge share its points.
+/// Facets with a boundary. Facets of two faces that share an edge share the edge's points.
 struct Face {
-    int tag = 0;                     ///< the one Gmsh shows for the same file
+    int tag = 0;                     ///< the tag that Gmsh shows for the same file
     std::string name;                ///< a physical group, part, element set; may be empty
-    std::vector<std::string> groups; ///< all sets, surfaces and properties it is of, where a file says them
-    /// What the face bounds: the one or two regions of solids, else its shells' own; all names of each.
+    std::vector<std::string> groups; ///< all sets, surfaces and properties the face belongs to in the file
+    /// Regions on the one or two sides of the face: of solids, otherwise of shells; all names of each region.
     std::vector<std::vector<std::string>> regions;
     std::string kind =
         "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
@@ -70,24 +70,25 @@ struct Face {
 
     std::vector<Triangle> triangles;     ///< model points, counter-clockwise, oriented as the face
     std::vector<std::array<Vec2, 3>> uv; ///< surface parameters at the corners; empty without `surface`
-    std::shared_ptr<const geometry::ExactSurface> surface; ///< null where the facets are all there is
-    std::vector<Quad> given_quads; ///< the mesh the face came with, model points; may be empty
-    bool keeps_nodes = false;      ///< it came as a mesh, whose quads and whose rim's nodes stay
+    std::shared_ptr<const geometry::ExactSurface> surface; ///< null if only facets are known
+    std::vector<Quad> given_quads; ///< the mesh that was given with the face, model points; may be empty
+    bool keeps_nodes = false;      ///< the face was given as a mesh: its quads and the nodes of its rim are
+                                   ///< kept
 
     std::vector<Loop> loops; ///< derived from the triangles by build_loops(); the longest first
 };
 
-/// Faces, edges and vertices over one array of points. A value: copies are independent, exact geometry is
-/// shared.
+/// Faces, edges and vertices over one array of points. Value semantics: copies are independent, exact
+/// geometry is shared.
 struct Model {
     std::vector<Vec3> points;
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
     double diagonal = 0;            ///< of the bounding box [model length]
-    double tolerance = 0;           ///< points closer than this are one [model length]
+    double tolerance = 0;           ///< points closer than this coincide [model length]
     std::string source;             ///< the file(s) it was read from, for messages
-    std::vector<std::string> notes; ///< what loading left out or left apart, a sentence each
+    std::vector<std::string> notes; ///< what loading dropped or left unconnected, one sentence each
 
     [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
     [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
@@ -110,12 +111,12 @@ double edge_length(const Model& model, EdgeId edge);
 /// Sum of the facet areas [model length²] and of the facets' area vectors.
 double face_area(const Model& model, FaceId face);
 Vec3 face_area_vector(const Model& model, FaceId face);
-/// Whether the face came with quads that cover it.
+/// Whether the face has given quads that cover it.
 bool has_quads_all_over(const Face& face);
-/// Facets that are no halves of the quads the face came with. O(facets log).
+/// Facets that are not halves of the face's given quads. O(facets log).
 std::vector<Triangle> loose_triangles(const Face& face);
-/// Whether the cells the face came with can be its mesh: quads all over, or, with wedges on them, triangles
-/// too of a face that came as a mesh.
+/// Whether the face's given cells can be its mesh: quads cover it or, if `wedges` are allowed, quads and
+/// triangles of a face that was given as a mesh.
 bool has_cells_to_keep(const Face& face, bool wedges);
 /// Every face of a model, in its order.
 std::vector<FaceId> all_faces(const Model& model);
@@ -130,15 +131,15 @@ Vec3 face_centroid(const Model& model, FaceId face);
 ///        Cancelled
 void build_loops(Model& model, const RunContext& context = {});
 
-/// Add what closing or cutting makes, numbered on from the void ones there are. Loops are the caller's.
+/// Add void entities, numbered after the existing ones. The caller sets the loops.
 VertexId add_void_vertex(Model& model, Index point);
 EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points);
 /// A face without facets yet.
 FaceId add_void_face(Model& model, Geometry geometry);
 
-/// Flip faces until neighbours agree along shared edges; one flood per connected part, started at its
-/// first face. A connected part that encloses a volume is turned outward.
-/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge of three faces; names
+/// Flip faces until neighbours agree along shared edges, starting at the first face of each connected part. A
+/// part that encloses a volume is oriented outward.
+/// @throw InvalidInput  a part that cannot be oriented (a Möbius band), or an edge with three faces; names
 ///         them.
 void orient_consistently(Model& model);
 

@@ -53,8 +53,7 @@ std::string count(std::size_t n, std::string_view one)
     return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
 }
 
-/// What is between a wall and its neighbours, and the tolerance that sews it up; nothing where it is too wide
-/// to be sewn.
+/// The gap between a wall and its neighbours, and the tolerance that sews it; empty if it is too wide.
 std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
 {
     const std::set<FaceId> own(part.begin(), part.end());
@@ -68,13 +67,13 @@ std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
     if (!is_own(gap.own)) std::swap(gap.own, gap.other);
     const auto plain = [](double value) { return with_digits(value, 3); };
     const std::string enough = plain(sewing_tolerance(model, gap));
-    return ": its " + name_of(model, gap.own) + " runs beside " + name_of(model, gap.other) + ", at most " +
+    return ": its " + name_of(model, gap.own) + " runs next to " + name_of(model, gap.other) + ", at most " +
            plain(gap.width) + " away, and the tolerance is " + plain(model.tolerance) +
            "; lacuna.load(…, { tolerance = " + enough + " }) or lacuna.model{ tolerance = " + enough +
            " } joins them";
 }
 
-/// A wall nobody can reach from the ends is a slip of the recipe: say so before anything is built on it.
+/// A wall that is not connected to the ends is a mistake in the recipe: report it first.
 void check_walls_touch(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -88,12 +87,12 @@ void check_walls_touch(const OpenVolume& volume)
         if (touches) continue;
         throw InvalidInput("topology.wall_apart",
                            name_of(model, part.front()) +
-                               " is named as a wall and touches neither the source's rim nor the target's" +
+                               " is named as a wall but touches neither source nor target" +
                                gap_in_words(model, part));
     }
 }
 
-/// Walls that end at a vertex and do not run along the edge, for messages.
+/// Walls that end at a vertex and do not contain the edge, for messages.
 std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
 {
     std::string names;
@@ -110,7 +109,7 @@ std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
     return names;
 }
 
-/// Ends of a pie share the edge it turns about, where layers have no height; along that edge it is a sweep.
+/// Ends of a pie slice share its axis, where layers have no height; along that axis it can be swept.
 void check_no_shared_edge(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -130,17 +129,17 @@ void check_no_shared_edge(const OpenVolume& volume)
                     "topology.ends_share_edge",
                     "source " + name_of(model, owner[use.edge.index()]) + " and target " +
                         name_of(model, face) + " share " + name_of(model, use.edge) +
-                        ", where layers between them have no height; " +
+                        ", where layers have no height; " +
                         (across ? "sweep along that edge, with " + from + " as source and " + to +
-                                      " as target and these two among the walls"
-                                : "sweep along that edge, with the faces at its two ends as source and "
-                                  "target, missing or not, and these two among the walls"));
+                                      " as target and these two as walls"
+                                : "sweep along that edge: the faces at its two ends are source and "
+                                  "target (they may be missing), and these two are walls"));
             }
         }
     }
 }
 
-/// Source and target are the two ends of a sweep: what belongs to both would have no height.
+/// Source and target must be apart: layers have no height at a common vertex or edge.
 void check_ends_apart(const OpenVolume& volume)
 {
     check_no_shared_edge(volume);
@@ -159,7 +158,7 @@ void check_ends_apart(const OpenVolume& volume)
                 throw InvalidInput("topology.ends_touch",
                                    "source " + name_of(model, owner[vertex.index()]) + " and target " +
                                        name_of(model, face) + " meet in " + name_of(model, vertex) +
-                                       "; a sweep needs a way between its ends: choose faces that lie apart");
+                                       "; the ends of a sweep must not touch: choose other faces");
             }
         }
     }
@@ -183,37 +182,36 @@ void check_override(const OpenVolume& volume, const Classification& found)
         break;
     case VolumeClass::I:
         if (!source || !target)
-            refuse(std::string("it needs a source and a target, and has no ") +
+            refuse(std::string("it needs a source and a target, but has no ") +
                    (source ? "target" : "source"));
         if (walls)
-            refuse("it has no walls, and " + count(volume.faces(Role::wall).size(), "wall") +
+            refuse("it must have no walls, but " + count(volume.faces(Role::wall).size(), "wall") +
                    " are given; leave them out");
         break;
     case VolumeClass::II:
     case VolumeClass::III:
         if (!source || !target)
-            refuse(std::string("it needs a source and a target, and has no ") +
+            refuse(std::string("it needs a source and a target, but has no ") +
                    (source ? "target" : "source"));
-        if (!walls) refuse("it needs at least one wall, and none is given");
+        if (!walls) refuse("it needs at least one wall, but none is given");
         if (asked == VolumeClass::II && found.wall_free_source.empty())
             refuse("every vertex of the source is on a wall");
         if (asked == VolumeClass::II && found.wall_free_target.empty())
             refuse("every vertex of the target is on a wall");
         if (asked == VolumeClass::III &&
             (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
-            refuse("vertices of source and target are on no wall (source: " +
-                   tags_of(volume.model, found.wall_free_source) +
+            refuse("some vertices are on no wall (source: " + tags_of(volume.model, found.wall_free_source) +
                    "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
         }
         break;
     case VolumeClass::IV:
-        if (!source) refuse("it needs a source, and none is given");
-        if (target) refuse("its target is missing, and one is given; leave it out");
-        if (!walls) refuse("it needs all walls, and none is given");
+        if (!source) refuse("it needs a source, but none is given");
+        if (target) refuse("its target must be missing, but one is given; leave it out");
+        if (!walls) refuse("it needs all walls, but none is given");
         break;
     case VolumeClass::V:
         if (source || target)
-            refuse(std::string("it has walls alone, and a ") + (source ? "source" : "target") +
+            refuse(std::string("it must have walls only, but a ") + (source ? "source" : "target") +
                    " is given; leave it out");
         break;
     }
@@ -343,8 +341,8 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     check_walls_touch(volume);
     check_ends_apart(volume);
     if (roles.source.empty() && !roles.target.empty()) {
-        // Class IV turned round: the end that is there is swept from, and the names change back when the
-        // mesh is made.
+        // Class IV reversed: the given end is swept from, and the names are swapped back when the mesh is
+        // made.
         for (Role& role : volume.role) role = role == Role::target ? Role::source : role;
         volume.turned_round = true;
     }
@@ -365,7 +363,7 @@ Classification classify(const OpenVolume& volume)
                   count(walls, "wall") + " given");
     if (volume.turned_round)
         why.push_back(
-            "the target is given and the source is missing: class IV turned round, swept from the target");
+            "the target is given and the source is missing: class IV reversed, swept from the target");
     if (found.free_loops.empty()) {
         found.value = VolumeClass::closed;
         why.push_back("every edge is used twice: nothing is missing");
@@ -422,8 +420,8 @@ std::string name_of(const Model& model, VertexId vertex)
 
 namespace {
 
-/// A face whose area vector is a smaller part of its area has no mean normal: a half round, of 0.64, has one.
-/// A choice, not a measurement.
+/// A face whose area vector is a smaller share of its area has no mean normal; a half cylinder has 0.64. Rule
+/// of thumb.
 constexpr double kFacesOneWay = 0.1;
 
 } // namespace
@@ -444,7 +442,7 @@ std::string describe(const Model& model)
         std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  ", face.tag, face.kind.c_str(),
                       face.loops.size(), edges, whole);
         text += line.data();
-        // Over a hole's whole round the normals cancel: what is left of them says nothing.
+        // Round a whole hole the normals cancel, and the rest is meaningless.
         if (area.norm() < kFacesOneWay * whole) {
             std::snprintf(line.data(), line.size(), "%-24s ", "-");
         } else {

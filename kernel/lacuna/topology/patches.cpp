@@ -16,7 +16,7 @@ namespace lacuna::topology {
 
 namespace {
 
-/// The facets beside the segments of edges: one for each face at a segment.
+/// The facets next to the segments of edges: one per face at a segment.
 class FacetsAtEdges {
 public:
     FacetsAtEdges(const Model& model, const RunContext& context) : model_(model)
@@ -39,8 +39,8 @@ public:
         }
     }
 
-    /// Mean angle between two faces along an edge they share, below 0 in a hollow [degrees]; 0 where they run
-    /// on smoothly.
+    /// Mean angle between two faces along a shared edge, negative if concave [degrees]; 0 if they meet
+    /// smoothly.
     [[nodiscard]] double fold_across(EdgeId edge, const std::vector<FaceUse>& uses) const
     {
         const std::vector<Index>& points = model_[edge].points;
@@ -70,7 +70,7 @@ private:
         Triangle facet;
     };
 
-    /// Of each face its first facet at the segment.
+    /// For each face, its first facet at the segment.
     static void add(std::vector<Beside>& facets, FaceId face, const Triangle& facet)
     {
         if (facets.empty() || facets.back().face != face) facets.push_back({face, facet});
@@ -115,23 +115,23 @@ void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
     patch.rims = rims(model, patch.faces);
     sort_once(patch.edges);
     sort_once(patch.vertices);
-    // An edge between its vertices has one side more than it has points.
+    // The inside of an edge has one side more than points.
     patch.inner_euler = euler_number(model, patch.faces, sides) - static_cast<long>(patch.vertices.size()) +
                         static_cast<long>(patch.edges.size());
 }
 
-/// Quarter turns that the quads at a rim's vertex take, by the angle inside: one at a right angle, none where
-/// the rim runs straight on, less than none where it bends outward.
+/// Quarter turns of the quads at a rim's vertex, by the interior angle: 1 at a right angle, 0 where the rim
+/// is straight, negative where the interior angle is reflex.
 long quarter_turns(double angle)
 {
     return std::clamp(std::lround(2 - angle / (std::numbers::pi / 2)), -2L, 1L);
 }
 
-/// Sums over a patch's facets: how their normals are spread, and the turns of its rims.
-/// @param is_vertex  of each point of the model, whether a vertex is there
+/// Sum up a patch's facets: the spread of their normals, and the turns of its rims.
+/// @param is_vertex  by point of the model, whether a vertex is there
 void measure_facets(const Model& model, const std::vector<bool>& is_vertex, SmoothPatch& patch)
 {
-    std::unordered_map<Index, double> inside; // of the rims' vertices, by their points
+    std::unordered_map<Index, double> inside; // interior angle at the rims' vertices, by their points
     for (const Rim& rim : patch.rims)
         for (const EdgeUse& use : rim.uses) inside.emplace(model[use_from(model, use)].point, 0);
     for (const FaceId face : patch.faces) {

@@ -10,7 +10,7 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Where a use stands in its face's loops.
+/// Position of a use in its face's loops.
 struct UsePosition {
     FaceId face;
     std::size_t loop = 0, position = 0;
@@ -51,7 +51,7 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
         while (!seen[use]) {
             seen[use] = true;
             rim.uses.push_back(use);
-            // Turn through the faces round the end of the use until one has nothing beyond.
+            // Rotate through the faces at the end of the use until one has a free edge.
             use = next_in_face(use);
             for (std::size_t turns = 0; places.contains(opposite(use)) && turns <= places.size(); ++turns) {
                 use = next_in_face(opposite(use));

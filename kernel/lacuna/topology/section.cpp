@@ -21,15 +21,15 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Times a point is laid onto plane and surface in turn: each halves the error at least where they meet at
+/// Alternating projections of a point onto plane and surface: each at least halves the error if they meet at
 /// more than 45°.
 constexpr int kLaid = 12;
-/// Steps of bisection along a curve's parameter: as many as a double has digits.
+/// Bisection steps along a curve's parameter: the digits of a double.
 constexpr int kHalvings = 52;
 
 SectionPlace place_between(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Move points onto a surface and a plane; surface last.
+/// Project points onto a surface and a plane, the surface last.
 void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plane, std::span<Vec3> points,
               std::span<Vec2> uv, double tolerance, const RunContext& context)
 {
@@ -45,7 +45,8 @@ void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plan
     }
 }
 
-/// The curve in which a plane cuts an exact surface, near a chain of points; parameter: number of the point.
+/// The intersection curve of a plane and an exact surface, near a chain of points; parameter: index of the
+/// point.
 class SectionCurve : public geometry::ExactCurve {
 public:
     SectionCurve(std::shared_ptr<const geometry::ExactSurface> surface, const geometry::Plane& plane,
@@ -77,10 +78,10 @@ private:
     geometry::Plane plane_;
     double tolerance_;
     std::vector<Vec3> points_;
-    std::vector<std::array<Vec2, 2>> uv_; ///< of both ends of each segment
+    std::vector<std::array<Vec2, 2>> uv_; ///< at both ends of each segment
 };
 
-// --- finding ------------------------------------------------------------------------------------------
+// --- intersection -------------------------------------------------------------------------------------
 
 struct Step {
     SectionPlace from, to;
@@ -177,7 +178,7 @@ private:
                 result.closed = true;
                 return result;
             }
-            // Where walks touch, the sharpest turn to the right keeps each a simple loop.
+            // Where walks touch, taking the sharpest right turn keeps each one a simple loop.
             std::size_t next = steps_.size();
             double best = 0;
             const auto onward = from_.find(at);
@@ -203,9 +204,10 @@ private:
 
     const Model& model_;
     const geometry::Plane& plane_;
-    std::vector<signed char> side_; ///< of each point: behind -1, on it 0, before 1
+    std::vector<signed char> side_; ///< by point: behind -1, on it 0, in front 1
     std::vector<Step> steps_;
-    std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane, of facets behind it
+    std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane whose facets are behind
+                                                              ///< it
     std::unordered_set<std::uint64_t> before_;
     std::map<SectionPlace, std::vector<std::size_t>> from_;
     std::vector<char> used_;
@@ -296,7 +298,7 @@ private:
         }
     }
 
-    /// Points on edges go into their chains, onto the curve at the parameter where it meets the plane.
+    /// Insert points into the chains of edges, on the curve at the parameter where it meets the plane.
     void lay_onto_edges()
     {
         for (Edge& edge : model_.edges) {
@@ -344,9 +346,9 @@ private:
                           made_.contains(place_between(quad[k], quad[(k + 2) % 4]));
                 if (!cut) continue;
                 throw InvalidInput("topology.splits_mesh",
-                                   "the cut goes through quads that " + name_of(model_, FaceId(f)) +
-                                       " came with, and those stay as they are: lay the plane along lines of "
-                                       "that mesh, or load it with keep_mesh = false");
+                                   "the cut crosses given quads of " + name_of(model_, FaceId(f)) +
+                                       ", which are kept: move the plane onto mesh lines"
+                                       " of that mesh, or load it with keep_mesh = false");
             }
         }
     }
@@ -365,7 +367,7 @@ private:
         }
     }
 
-    /// Places where a walk meets an edge, or where it leaves one it runs along.
+    /// Places where a walk crosses an edge, or where it leaves one.
     void make_vertices()
     {
         std::unordered_set<Index> at_edge;
@@ -409,7 +411,7 @@ private:
             for (std::size_t i = 1; i < whole.points.size(); ++i) {
                 const bool last = i + 1 == whole.points.size();
                 if (!last && !vertex_points_.contains(whole.points[i])) continue;
-                if (last && from == 0) break; // it stays whole
+                if (last && from == 0) break; // not split
                 Edge part = whole;
                 const auto first = static_cast<std::ptrdiff_t>(from),
                            end = static_cast<std::ptrdiff_t>(i) + 1;
@@ -429,10 +431,10 @@ private:
         }
     }
 
-    /// Edges for the parts of walks that run across faces.
+    /// Make edges of the parts of walks that run across faces.
     void make_edges()
     {
-        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet; // a side: face, facet
+        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet; // by side: face, facet
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             if (!model_.faces[f].surface) continue;
             const std::vector<Triangle>& triangles = model_.faces[f].triangles;
@@ -517,7 +519,7 @@ private:
         return result;
     }
 
-    /// Faces that fall apart along the walks.
+    /// Split the faces that fall apart along the walks.
     void split_faces(std::vector<FaceId>& parent)
     {
         const std::size_t before = model_.faces.size();
@@ -527,7 +529,7 @@ private:
             const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
             if (count < 2) continue;
             const Face whole = model_.faces[f];
-            std::unordered_map<std::uint64_t, std::size_t> part_at; // of a side
+            std::unordered_map<std::uint64_t, std::size_t> part_at; // by side
             for (std::size_t t = 0; t < part.size(); ++t) {
                 for (std::size_t k = 0; k < 3; ++k)
                     part_at.emplace(directed_key(whole.triangles[t][k], whole.triangles[t][(k + 1) % 3]),
@@ -555,7 +557,7 @@ private:
         }
     }
 
-    /// Which part each facet is of, where the walks are between them.
+    /// Part number of each facet, with the walks as separators.
     [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face) const
     {
         const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
@@ -585,11 +587,11 @@ private:
     const geometry::Plane& plane_;
     double tolerance_;
     const RunContext& context_;
-    std::map<SectionPlace, Index> made_; ///< points put on sides
+    std::map<SectionPlace, Index> made_; ///< points inserted on sides
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
-    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on edges that were there
-    std::set<Index> vertex_points_;                ///< to become vertices
+    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
+    std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;
 };
 

@@ -11,42 +11,42 @@
 
 namespace lacuna::topology {
 
-/// A place on the sides of facets: a point of the model, or one within a side.
+/// A place on a facet side: a point of the model, or one inside the side.
 struct SectionPlace {
     Index a = -1;
-    Index b = -1; ///< -1: the point `a` itself; else the side from `a` to `b`, a < b
+    Index b = -1; ///< -1: the point `a` itself; otherwise on the side from `a` to `b`, a < b
     friend constexpr auto operator<=>(const SectionPlace&, const SectionPlace&) = default;
 };
 
-/// A walk over the facets along which a plane crosses them. It runs as the facets behind the plane would be
-/// bounded by it: they are on its left, seen from where the facets face.
+/// A chain of places where a plane crosses facets. It is oriented as the boundary of the facets behind the
+/// plane: these are on its left, seen from the side they face.
 struct SectionWalk {
-    std::vector<SectionPlace> places; ///< the first not repeated where it is closed
+    std::vector<SectionPlace> places; ///< the first is not repeated in a closed walk
     bool closed = false;
 };
 
-/// Where a plane crosses the facets of some faces.
+/// Intersection of a plane with the facets of some faces.
 ///
-/// Points within the tolerance count as on the plane and stay where they are. Facets in the plane lie behind
-/// it where they face along its normal, before it where they face against it: then the walks bound what of
-/// the plane is within the skin. Faces the plane only touches have no walk.
+/// Points within the tolerance count as on the plane and are not moved. Facets in the plane count as behind
+/// it if their normal agrees with the plane's, otherwise as in front: the walks then bound the part of the
+/// plane inside the skin. Faces that the plane only touches have no walk.
 /// @param tolerance  [model length], > 0.
 /// @note  O(facets).
 std::vector<SectionWalk> section_walks(const Model& model, const std::vector<FaceId>& faces,
                                        const geometry::Plane& plane, double tolerance);
 
-/// What `imprint_walks()` made of a model.
+/// Result of `imprint_walks()`.
 struct WalkImprint {
-    std::vector<std::vector<EdgeUse>> lines; ///< the edges of each walk, as it runs
-    std::vector<FaceId> parent; ///< of each face: the one it was part of, itself where it was not split
+    std::vector<std::vector<EdgeUse>> lines; ///< the edges of each walk, in its direction
+    std::vector<FaceId> parent;              ///< by face: the face it was part of; itself if not split
 };
 
 /// Split the faces and edges of a model along walks of `section_walks()`.
 ///
-/// Facets and edges are cut where the walks cross them, edges get vertices there, and faces that fall apart
-/// become several with the same tag and name. New points lie on the plane, and on the exact surface or curve
-/// where there is one; new edges have a curve there. Given quads go with the part they are of.
-/// @throw InvalidInput "topology.splits_mesh"  a walk through quads that a face came with; names the face.
+/// Facets and edges are split where the walks cross them, edges get vertices there, and a face that falls
+/// apart becomes several faces with the same tag and name. New points lie on the plane and on the exact
+/// surface or curve, if there is one; new edges then have an exact curve. Given quads stay with their part.
+/// @throw InvalidInput "topology.splits_mesh"  a walk crosses the given quads of a face; names the face.
 /// @note  O(facets).
 WalkImprint imprint_walks(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
                           double tolerance, const RunContext& context = {});

@@ -11,7 +11,7 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Cut along side `k` and, in what comes of it, along the sides after it.
+/// Split along side `k`, then the pieces along the sides after it.
 void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool, 3> whole,
          const SidePoints& sides, std::vector<ParamFacet>& result)
 {
@@ -31,7 +31,7 @@ void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool,
             const bool last = i + 1 == chain.size();
             const double f = last ? 1 : fraction_along(points[static_cast<std::size_t>(chain[i])], a, b);
             const Vec2 to_uv = last ? facet.uv[l] : Vec2(facet.uv[k] + f * (facet.uv[l] - facet.uv[k]));
-            // Of the old sides the first piece keeps the one before, the last piece the one after.
+            // The first piece keeps the previous old side, the last piece keeps the next one.
             cut(points, {{from, chain[i], facet.corner[m]}, {from_uv, to_uv, facet.uv[m]}},
                 {true, !last || whole[l], i != 0 || whole[m]}, sides, result);
             from = chain[i];

@@ -14,7 +14,7 @@ std::string lower(std::string text)
     return text;
 }
 
-/// What a face's name becomes where it is another group's.
+/// The name with a suffix that makes it unique.
 std::string free_name(const std::string& name, const std::set<std::string>& taken)
 {
     int number = 2;
@@ -22,7 +22,7 @@ std::string free_name(const std::string& name, const std::set<std::string>& take
     return name + "_" + std::to_string(number);
 }
 
-/// Whether a name is the face's own: not of the solids it bounds, and not a number in words.
+/// Whether a name belongs to the face itself: not to its solids, and not a number.
 bool is_own_name(const Face& face)
 {
     const auto begins = [&](const char* word) { return face.name.starts_with(word); };
@@ -30,7 +30,7 @@ bool is_own_name(const Face& face)
            !begins("pid:") && !begins("region:") && !begins("physical_");
 }
 
-/// The name that all given faces have, where these have several roles; else none.
+/// The name that all given faces share, if these have several roles; otherwise empty.
 std::string name_of_all(const OpenVolume& volume)
 {
     std::set<std::string> names;

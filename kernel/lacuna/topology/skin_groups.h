@@ -9,17 +9,17 @@
 
 namespace lacuna::topology {
 
-/// The groups that quads of each face have in files: that of its role, `source`, `target`, `wall:12` or
-/// `void:12`, and its own name where it has one. The first is the one in files whose groups do not overlap:
-/// the name that the user or the input gave to the face, else its role. A name that is another face's role or
-/// such a group gets "_2" behind it, or the next number that is free, so that conditions stay on the faces
-/// they are for. Upper and lower case are one, as in Abaqus.
+/// The groups of each face's quads in output files: the group of its role, `source`, `target`, `wall:12` or
+/// `void:12`, and its own name if it has one. Files whose groups do not overlap use the first group: the name
+/// that the user or the input gave to the face, otherwise the role. A name that equals a role or another
+/// face's group gets the suffix "_2", or the next free number, so that boundary conditions stay on their
+/// faces. Case is ignored, as in Abaqus.
 ///
-/// These names come after the role: that of the solids a face bounds, a number that stands for one (`pid:7`,
-/// `physical_7`), and one that all given faces have, of several roles.
+/// These names come after the role: a name of the solids that a face bounds, a number as a name (`pid:7`,
+/// `physical_7`), and a name that all given faces share if they have several roles.
 std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume);
 
-/// Whether a group is that of a role: `source`, `target`, `wall:12` or `void:12`, in any case.
+/// Whether a group is a role group: `source`, `target`, `wall:12` or `void:12`, in any case.
 bool is_role_group(std::string_view group);
 
 } // namespace lacuna::topology

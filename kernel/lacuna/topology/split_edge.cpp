@@ -42,7 +42,7 @@ std::size_t nearest_inner(const std::vector<double>& arc, double at)
     return best;
 }
 
-/// Put a point into side `segment` of an edge, and into the facets beside it.
+/// Insert a point into side `segment` of an edge and into the adjacent facets.
 void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t segment,
                   double fraction)
 {
@@ -63,7 +63,7 @@ void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std
     for (const FaceId f : users) cut_at_sides(model.points, model[f], sides);
 }
 
-/// Make inner point `at` a vertex, and two edges of one.
+/// Make inner point `at` a vertex and split the edge there.
 EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t at)
 {
     Vertex vertex{model[id].points[at], 1, Origin::made_void};
@@ -107,7 +107,7 @@ EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
 {
     if (!(fraction > 0 && fraction < 1)) {
         refuse(model, id, "split_at_end",
-               "at " + std::to_string(fraction) + " of its length: give a fraction between 0 and 1");
+               "at " + std::to_string(fraction) + " of its length; give a fraction between 0 and 1");
     }
     const std::vector<FaceId> users = users_of(model, id);
     std::vector<Vec3> places;
@@ -120,16 +120,16 @@ EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
                                         [&](FaceId f) { return !model[f].given_quads.empty(); });
     if (with_mesh != users.end() && !has_inner) {
         refuse(model, id, "split_kept_mesh",
-               "without changing the mesh that " + name_of(model, *with_mesh) +
-                   " came with, which has no node inside the edge; leave that mesh out, or pair the edge's "
-                   "own vertices");
+               "without changing the given mesh of " + name_of(model, *with_mesh) +
+                   ", which has no node inside the edge; load with keep_mesh = false, or pair "
+                   "the edge's own vertices");
     }
     const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
     if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
         return divide(model, id, users, nearest);
     if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
         refuse(model, id, "split_at_end",
-               "at " + std::to_string(fraction) + " of its length: that is its end, within the tolerance");
+               "at " + std::to_string(fraction) + " of its length, which is within the tolerance of its end");
     }
     const geometry::PolylinePlace place = geometry::place_at(arc, wanted);
     insert_point(model, id, users, place.segment, place.fraction);

@@ -7,15 +7,15 @@
 
 namespace lacuna::topology {
 
-/// Points along uses that follow each other, both ends included; where two uses meet once. `use_points()` of
-/// model.h gives those of a single use.
+/// Points along consecutive uses, both ends included; a point where two uses meet is listed once.
+/// `use_points()` of model.h does this for a single use.
 /// @pre  uses is not empty.
 std::vector<Index> use_points(const Model& model, const std::vector<EdgeUse>& uses);
 
-/// Those of a closed loop: its first point is not repeated. None for no uses.
+/// Points of a closed loop: the first is not repeated. Empty for no uses.
 std::vector<Index> loop_points(const Model& model, const std::vector<EdgeUse>& uses);
 
-/// Where those points are.
+/// Coordinates of these points.
 std::vector<Vec3> places_at(const Model& model, const std::vector<Index>& points);
 std::vector<Vec3> use_places(const Model& model, EdgeUse use);
 std::vector<Vec3> use_places(const Model& model, const std::vector<EdgeUse>& uses);

@@ -32,18 +32,18 @@ WallTally::WallTally(const PatchMap& map, std::size_t free_loops) : map_(map), t
     whole_.contacts = static_cast<long>(free_loops);
 }
 
-/// Count the runs of corners round vertices that hang together over edges, and by how many fewer there
-/// are without each patch.
+/// Count the fans of corners round vertices, connected over edges, and how many fewer there are without each
+/// patch.
 void WallTally::count_fans()
 {
-    // A corner is told by the use that leaves it. The next one round its vertex is across that use.
+    // A corner is identified by the use that leaves it. The next one round its vertex is across that use.
     const auto next = [&](std::size_t use) {
         return map_.of_use[use ^ 1] == PatchMap::kNone ? PatchMap::kNone : number_of(map_.next[use ^ 1]);
     };
     std::vector<bool> has_before(map_.of_use.size(), false), seen(map_.of_use.size(), false);
     for (std::size_t u = 0; u < map_.of_use.size(); ++u)
         if (map_.of_use[u] != PatchMap::kNone && next(u) != PatchMap::kNone) has_before[next(u)] = true;
-    std::vector<std::size_t> run; // the patches of the corners of a fan, neighbours alike once
+    std::vector<std::size_t> run; // the patches of a fan's corners, adjacent repeats dropped
     const auto count_fan = [&](std::size_t first) {
         ++whole_.fans;
         run.clear();
@@ -59,12 +59,12 @@ void WallTally::count_fans()
             ++taken_[run.front()].fans;
             return;
         }
-        // Every run of a patch that is taken out parts what is beside it.
+        // Removing a patch splits the fan at each of its runs.
         for (const std::size_t p : run) --taken_[p].fans;
         if (round) {
             std::sort(run.begin(), run.end());
             run.erase(std::unique(run.begin(), run.end()), run.end());
-            for (const std::size_t p : run) ++taken_[p].fans; // the first opens the round
+            for (const std::size_t p : run) ++taken_[p].fans; // the first one only opens the closed fan
         } else {
             ++taken_[run.front()].fans;
             ++taken_[run.back()].fans;
@@ -76,8 +76,7 @@ void WallTally::count_fans()
     }
 }
 
-/// The Euler numbers of the walls without a patch, added up over those that hang together, are at most the
-/// first and at least the second.
+/// Upper and lower bound of the walls' Euler number without a patch, summed over the connected parts.
 std::pair<long, long> WallTally::euler_without(std::size_t p) const
 {
     const long both = taken_[p].edges - map_.patches[p].inner_euler - whole_.edges;
@@ -92,7 +91,7 @@ long WallTally::at_most(std::size_t p) const
 
 bool WallTally::can_hold(std::size_t a, std::size_t b) const
 {
-    // A rim is a free loop, or has a use of an edge of an end.
+    // A rim is a free loop, or contains an edge of an end.
     const long free_loops = whole_.contacts;
     return map_.patches.size() == 2 ||
            euler_ + whole_.fans - whole_.edges + at_most(a) + at_most(b) + free_loops >= 2;

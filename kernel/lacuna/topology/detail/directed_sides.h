@@ -9,31 +9,31 @@
 
 namespace lacuna::topology {
 
-/// The sides of triangles by the points they run between: side 3·t + i runs from corner i of triangle t to
-/// the next corner.
+/// Triangle sides looked up by their end points: side 3·t + i runs from corner i of triangle t to the next
+/// corner.
 ///
-/// Sides are put in heaps by the point they leave, each sorted by the point they reach. So making the table
-/// is linear in the triangles, but for the sorting of the few sides at a point, and needs no hashing. A table
-/// can be used for the triangles of one face after another: what it costs is in the triangles of each.
+/// Sides are bucketed by start point, each bucket sorted by end point. Building the table is thus linear in
+/// the triangles, except for the sorting of the few sides at a point, and needs no hashing. A table can be
+/// reused for one face after another; the cost depends only on the triangles of each.
 class DirectedSides {
 public:
-    /// @param points  every corner lies in [0, points).
+    /// @param points  every corner is in [0, points).
     explicit DirectedSides(std::size_t points) : local_(points, -1) {}
 
-    /// Forget what there was and take these triangles, which must outlive the table's use.
+    /// Replace the contents by these triangles, which must outlive the use of the table.
     void read(std::span<const Triangle> triangles);
 
     [[nodiscard]] std::size_t size() const { return 3 * triangles_.size(); }
     [[nodiscard]] Index from(std::size_t side) const { return triangles_[side / 3][side % 3]; }
     [[nodiscard]] Index to(std::size_t side) const { return triangles_[side / 3][(side + 1) % 3]; }
-    /// The first side from one point to another; -1 where there is none.
+    /// The first side from one point to another; -1: none.
     [[nodiscard]] Index find(Index from, Index to) const;
-    /// The side that runs the other way.
+    /// The same side in the opposite direction.
     [[nodiscard]] Index across(std::size_t side) const { return find(to(side), from(side)); }
-    /// The first side that runs as one before it does; -1 where there is none.
+    /// The first side with the same end points as an earlier one; -1: none.
     [[nodiscard]] Index first_repeated() const;
 
-    /// How many points the triangles use, and how many sides they have whichever way these run.
+    /// Number of points that the triangles use, and number of undirected sides.
     [[nodiscard]] std::size_t point_count() const { return used_.size(); }
     [[nodiscard]] std::size_t undirected_count() const;
 
@@ -48,14 +48,14 @@ private:
     }
 
     std::span<const Triangle> triangles_;
-    std::vector<Index> local_; ///< place of each point among `used_`; -1: none
+    std::vector<Index> local_; ///< index of each point in `used_`; -1: none
     std::vector<Index> used_;
-    std::vector<Index> start_; ///< of each used point's heap in `entries_`
+    std::vector<Index> start_; ///< start of each used point's bucket in `entries_`
     std::vector<Entry> entries_;
 };
 
-/// euler_number() of open_volume.h for one set of faces after another. Linear in the facets of each.
-/// @param sides  a table for the model's points; holds no triangles afterwards.
+/// euler_number() of open_volume.h for a series of face sets. Linear in the facets of each.
+/// @param sides  a table for the model's points; empty afterwards.
 long euler_number(const Model& model, const std::vector<FaceId>& faces, DirectedSides& sides);
 
 } // namespace lacuna::topology

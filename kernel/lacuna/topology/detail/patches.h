@@ -8,34 +8,34 @@
 
 namespace lacuna::topology {
 
-/// Faces that meet smoothly, as one: what can be an end of a sweep.
+/// Faces that meet smoothly: a candidate for an end of a sweep.
 struct SmoothPatch {
     std::vector<FaceId> faces; ///< in the model's order
     std::vector<Rim> rims;
-    std::vector<VertexId> vertices; ///< of the faces' loops, each once
-    std::vector<EdgeId> edges;      ///< of the faces' loops, each once
-    long inner_euler = 0;           ///< Euler number without the points and sides that lie on `edges`
-    Vec3 normal = Vec3::Zero();     ///< unit mean
+    std::vector<VertexId> vertices; ///< of the faces' loops, without repeats
+    std::vector<EdgeId> edges;      ///< of the faces' loops, without repeats
+    long inner_euler = 0;           ///< Euler number without the points and sides on `edges`
+    Vec3 normal = Vec3::Zero();     ///< unit mean normal
     Vec3 centre = Vec3::Zero();
     double area = 0;
     double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
-    double slant = 0;    ///< mean departure from a right angle to its neighbours, as a share of a right angle
+    double slant = 0;    ///< mean deviation from a right angle to its neighbours, as a share of a right angle
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); ///< sum of area n nᵀ over the facets
-    long corners = 0; ///< of its rims, in quarter turns: 4 round a rectangle, 0 round a disc
+    long corners = 0; ///< of its rims, in quarter turns: 4 for a rectangle, 0 for a disc
 };
 
-/// Faces that meet at less than this are one patch: a skin cut in pieces, not an end and a wall [degrees].
-/// A choice, not a measurement: a chamfer of 45° still parts two patches.
+/// Faces that meet at less than this angle are one patch: a divided skin, not an end and a wall [degrees].
+/// Rule of thumb: a chamfer of 45° still separates two patches.
 inline constexpr double kSmooth = 30;
 
-/// Mean angle between the two faces of each edge, below 0 where they meet inside a hollow, as their normals
-/// say [degrees]; 0 where they run on smoothly or are not two. Near linear in the number of facets.
+/// Mean angle between the two faces at each edge by their normals, negative at concave edges [degrees]; 0 if
+/// they meet smoothly or are not two. Near linear in the number of facets.
 /// @pre  the model is oriented.
 /// @throw Cancelled
 std::vector<double> folds_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                  const RunContext& context);
 
-/// The same without the sign.
+/// The absolute values of folds_across().
 std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                   const RunContext& context);
 
