@@ -343,7 +343,7 @@ print(void:describe())
   expect(sweep_holed "faces = { 2, 6 }", 1, {}, { told, "names face 6, which was not read" })
   expect(sweep_holed "source = 1, target = 2, walls = { 3, 4, 5 }", 0,
     { "closed: face 6 of holed.geo was left out", "\nface 6 of holed.geo was left out",
-      "where it was stands void face 1" }, { told })
+      "its place is taken by void face 1" }, { told })
 end
 
 -- Ctrl-C: loops, coroutines and pcall cannot hold it up; nor can the kernel.

@@ -61,13 +61,14 @@ void require_none_left_out(const Model& model, const std::vector<FaceId>& faces,
     std::string others;
     for (std::size_t i = 1; i < missing.size(); ++i)
         others += (i > 1 ? ", " : "") + std::to_string(missing[i].face.tag);
-    throw InvalidInput("cad.face_left_out",
-                       name_of(first.face) + " is missing beside " + name_of(model, first.edges.front()) +
-                           " of the volume: it " + first.face.why +
-                           (others.empty() ? "" : "; missing are too: " + others) + "; with " + found +
-                           " found, its place would be closed as a part of the void; repair it in the CAD "
-                           "system, or name source, target and walls by their faces: a void face then takes "
-                           "its place");
+    throw InvalidInput(
+        "cad.face_left_out",
+        name_of(first.face) + " is missing next to " + name_of(model, first.edges.front()) +
+            " of the volume: it " + first.face.why +
+            (others.empty() ? "" : "; also missing: face " + others) + ". If " + found +
+            " are found automatically, its hole becomes part of the void; repair it in the CAD "
+            "system, or name source, target and walls by their faces to close it with a void "
+            "face");
 }
 
 std::vector<std::string> left_out_in_words(const OpenVolume& volume)
@@ -80,7 +81,7 @@ std::vector<std::string> left_out_in_words(const OpenVolume& volume)
     for (const LeftOutBeside& missing : left_out_beside(model, given)) {
         const std::string stands = void_faces_along(model, missing.edges);
         words.push_back(name_of(missing.face) + " was left out (it " + missing.face.why + ")" +
-                        (stands.empty() ? "" : "; where it was stands " + stands));
+                        (stands.empty() ? "" : "; its place is taken by " + stands));
     }
     return words;
 }
