@@ -3,7 +3,7 @@
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
-#include "bindings/sweep_members.h"
+#include "bindings/sweep_arguments.h"
 #include "bindings/sweep_to.h"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace lacuna::lua {
 namespace {
 
 /// The options of one volume: those for all, which have words as keys, and what [volume] says over them. Left
-/// on the stack.
-void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
+/// on the stack. The member learns which of those that name faces are its own.
+void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fill::Member& member)
 {
     lua_newtable(L);
     const int merged = lua_gettop(L);
@@ -36,6 +36,9 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume)
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
         if (key == nullptr || *key != volume) continue;
         lay_over(lua_absindex(L, -1));
+        member.own_boundary_layers = lua_getfield(L, -1, "boundary_layers") != LUA_TNIL;
+        member.own_intervals = lua_getfield(L, -2, "intervals") != LUA_TNIL;
+        lua_pop(L, 2);
     }
 }
 
@@ -61,24 +64,11 @@ void check_volume_keys(lua_State* L, int index, const char* call, const Assembly
     }
 }
 
-/// Which options that name faces a volume has of its own.
-void read_own(lua_State* L, int index, const Box<VolumeState>& volume, SweepArguments& arguments)
-{
-    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
-        const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
-        if (key == nullptr || *key != volume) continue;
-        for (const char* option : kOfFaces) {
-            if (lua_getfield(L, -1, option) != LUA_TNIL) guard(L, [&] { arguments.own.insert(option); });
-            lua_pop(L, 1);
-        }
-    }
-}
-
-/// Sweep the assembly that is the first argument with the options at `index`, nil or a table; its mesh is on
-/// top of the stack then.
+/// Sweep the assembly that is the first argument with the options at `index`, nil or a table.
+/// @param file  null: its mesh is pushed; else the report of the file
 /// @param crew  of a mesh that need not hold its nodes; null: nobody
-/// @return  what it was swept in, which stays as long as the stack
-RunContext& push_swept(lua_State* L, int index, const char* call, bool layered, const Crew* crew)
+int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFile* file, bool layered,
+                        const Crew* crew)
 {
     const auto& assembly = hold<AssemblyState>(L, 1);
     if (lua_isnoneornil(L, index)) {
@@ -87,51 +77,33 @@ RunContext& push_swept(lua_State* L, int index, const char* call, bool layered, 
     }
     if (lua_type(L, index) != LUA_TTABLE) fail_value(L, {call, nullptr}, "a table of options", index);
     check_volume_keys(L, index, call, assembly);
-    auto& arguments = temporary<std::vector<SweepArguments*>>(L);
+    auto& members = temporary<std::vector<fill::Member>>(L);
+    auto& volumes = temporary<std::vector<VolumeState*>>(L);
+    int threads = 0;
     for (const AssemblyState::Entry& entry : assembly.entries) {
+        guard(L, [&] { members.push_back({entry.volume.get(), entry.mesh.get(), entry.meshes.get()}); });
         if (!entry.volume) continue;
         luaL_checkstack(L, 16, "too many volumes");
-        push_options_of(L, index, entry.volume);
+        push_options_of(L, index, entry.volume, members.back());
         SweepArguments& own = push_sweep_arguments(L, lua_gettop(L), call, *entry.volume);
-        own.options.layered = layered;
-        own.options.crew = layered ? crew : nullptr;
-        read_own(L, index, entry.volume, own);
-        guard(L, [&] { arguments.push_back(&own); });
+        own.layered = layered;
+        own.crew = layered ? crew : nullptr;
+        if (volumes.empty()) threads = own.threads;
+        guard(L, [&] {
+            volumes.push_back(entry.volume.get());
+            members.back().options = own;
+        });
     }
     RunContext& context = push_context(L);
-    if (!arguments.empty() && arguments.front()->threads != 0) context.threads = arguments.front()->threads;
-    lua_gc(L, LUA_GCCOLLECT);
-    auto& box = new_box<AssemblyMeshState>(L);
-    guard(L, [&] {
-        StageClock clock(context);
-        std::vector<ToMesh> members;
-        std::vector<sweep::LeftOut> left_out;
-        auto own = arguments.begin();
-        for (std::size_t m = 0; m < assembly.entries.size(); ++m) {
-            const AssemblyState::Entry& entry = assembly.entries[m];
-            for (std::unique_ptr<FixedMember>& fixed : fixed_members(entry, context))
-                members.push_back({nullptr, nullptr, std::move(fixed), false});
-            if (!entry.volume) continue;
-            SweepArguments& options = **own++;
-            const std::string name = entry.volume->name.empty() ? "volume_" + std::to_string(m + 1)
-                                                                : entry.volume->name;
-            options.name = name;
-            const auto add = [&] { add_members(members, entry.volume, name, name, options, context); };
-            if (!do_or_leave_out(left_out, name, options, add))
-                members.push_back({entry.volume, &options, nullptr, true});
-        }
-        box = sweep_members(members, std::move(left_out), false, context);
-        box->seconds = clock.seconds();
-    });
-    return context;
+    if (threads != 0) context.threads = threads;
+    return push_swept(L, volumes, "sweep", file, context, [&] { return fill::sweep(members, context); });
 }
 
 /// mesh = assembly:sweep(options)
 int sweep_assembly(lua_State* L)
 {
     lua_settop(L, 2);
-    push_swept(L, 2, "sweep", false, nullptr);
-    return 1;
+    return push_swept_assembly(L, 2, "sweep", nullptr, false, nullptr);
 }
 
 /// report = assembly:sweep_to(path, options)
@@ -142,10 +114,8 @@ int sweep_assembly_to(lua_State* L)
     const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
     push_write_options(L, 3);
     WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
-    const Crew* const crew = host(L).crew;
-    const RunContext& context = push_swept(L, 3, "sweep_to", may_be_layered_of_parts(file, path), crew);
-    write_swept_parts(L, path, file, crew, context);
-    return 1;
+    const SweepFile written{&path, &file};
+    return push_swept_assembly(L, 3, "sweep_to", &written, may_be_layered_of_parts(file, path), host(L).crew);
 }
 
 const luaL_Reg kAssemblyMethods[] = {

@@ -3,9 +3,8 @@
 #include "bindings/faces.h"
 #include "bindings/options.h"
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/cut.h>
-#include <lacuna/closure/piece_ends.h>
+#include <optional>
+#include <utility>
 
 namespace lacuna::lua {
 
@@ -26,21 +25,6 @@ const Word<EdgeShape> kEdgeShapes[] = {
 const Word<Cap> kCaps[] = {{"flat", Cap::flat}, {"parallel", Cap::parallel}, {"auto", Cap::automatic}};
 
 const Word<Holes> kHoles[] = {{"cover", Holes::cover}, {"through", Holes::through}};
-
-void read_edge_shape(lua_State* L, int index, const Where& where, CloseOptions& options)
-{
-    options.edge_shape = read_word(L, index, where, kEdgeShapes);
-}
-
-void read_cap(lua_State* L, int index, const Where& where, CloseOptions& options)
-{
-    options.cap = read_word(L, index, where, kCaps);
-}
-
-void read_holes(lua_State* L, int index, const Where& where, CloseOptions& options)
-{
-    options.holes = read_word(L, index, where, kHoles);
-}
 
 std::size_t length_of(lua_State* L, int index)
 {
@@ -74,22 +58,10 @@ void read_void_edges(lua_State* L, int index, const Where& where, CloseOptions& 
         });
 }
 
-const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", read_edge_shape},
+const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", word<&CloseOptions::edge_shape, kEdgeShapes>},
                                               {"void_edges", read_void_edges},
-                                              {"cap", read_cap},
-                                              {"holes", read_holes}};
-
-/// Tags of entities of the model, as an array in the table on top.
-template <class Id>
-void set_tags(lua_State* L, const char* key, const topology::Model& model, const std::vector<Id>& ids)
-{
-    lua_createtable(L, static_cast<int>(ids.size()), 0);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        lua_pushinteger(L, model[ids[i]].tag);
-        lua_rawseti(L, -2, to_lua(i));
-    }
-    lua_setfield(L, -2, key);
-}
+                                              {"cap", word<&CloseOptions::cap, kCaps>},
+                                              {"holes", word<&CloseOptions::holes, kHoles>}};
 
 void push_closure(lua_State* L, const topology::Model& model, const closure::Closure& closed)
 {
@@ -114,8 +86,7 @@ int close(lua_State* L)
     RunContext& context = push_context(L);
     guard(L, [&] {
         const Busy busy(state, "close");
-        if (by_hand) state.others.reset();
-        close_volume(state, options, context);
+        state = fill::close(state, by_hand ? std::optional(options) : std::nullopt, context);
     });
     push_closure(L, state.volume.model, *state.closure);
     return 1;
@@ -211,32 +182,13 @@ int cut(lua_State* L)
     RunContext& context = push_context(L);
     auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);
     guard(L, [&] {
-        std::vector<closure::StepPiece> cut;
-        if (arguments.plane)
-            cut = closure::cut_by_plane(state.volume, *arguments.plane, context);
-        else if (arguments.of)
-            cut = closure::cut_by_face(state.volume, arguments.of->model, arguments.face, context);
-        else
-            cut = closure::cut_into_pieces(state.volume, context);
-        if (arguments.plane || arguments.of) closure::read_ends(cut, context);
-        for (closure::StepPiece& piece : cut) {
+        const fill::Cut where{arguments.plane, arguments.of ? &arguments.of->model : nullptr, arguments.face};
+        for (fill::Volume& piece : fill::cut(state, where, context)) {
             pieces.push_back(std::make_shared<VolumeState>());
-            VolumeState& own = *pieces.back();
-            own.volume = std::move(piece.volume);
-            own.classification = topology::classify(own.volume);
-            own.material = state.material;
-            own.take_guess = state.take_guess;
-            own.decks = state.decks;
-            own.scale = state.scale;
-            own.level = std::max(state.level, piece.level);
-            if (!state.name.empty()) own.name = state.name + "_" + std::to_string(pieces.size());
+            *pieces.back() = std::move(piece);
         }
     });
-    lua_createtable(L, static_cast<int>(pieces.size()), 0);
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-        new_box<VolumeState>(L) = pieces[p];
-        lua_rawseti(L, -2, to_lua(p));
-    }
+    push_array(L, pieces, [&](const auto& item) { new_box<VolumeState>(L) = item; });
     return 1;
 }
 

@@ -19,13 +19,9 @@ void read_version(lua_State* L, int index, const Where& where, io::DeckFileOptio
 
 const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
 
-void read_groups(lua_State* L, int index, const Where& where, io::DeckFileOptions& options)
-{
-    options.all_groups = read_word(L, index, where, kGroups);
-}
-
-const Option<io::DeckFileOptions> kOptions[] = {
-    {"version", read_version}, {"binary", boolean<&io::DeckFileOptions::binary>}, {"groups", read_groups}};
+const Option<io::DeckFileOptions> kOptions[] = {{"version", read_version},
+                                                {"binary", boolean<&io::DeckFileOptions::binary>},
+                                                {"groups", word<&io::DeckFileOptions::all_groups, kGroups>}};
 
 /// { nodes =, elements = } = lacuna.convert(from, to [, options])
 int convert(lua_State* L)

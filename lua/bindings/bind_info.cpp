@@ -144,16 +144,6 @@ std::string in_text(const topology::Model& model, const Info& info)
 
 // --- tables ---------------------------------------------------------------------------------------------
 
-void set_tags(lua_State* L, const char* key, const topology::Model& model, const std::vector<FaceId>& faces)
-{
-    lua_createtable(L, static_cast<int>(faces.size()), 0);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        lua_pushinteger(L, model[faces[i]].tag);
-        lua_rawseti(L, -2, to_lua(i));
-    }
-    lua_setfield(L, -2, key);
-}
-
 void set_vector(lua_State* L, const char* key, const Vec3& vector)
 {
     push_vector(L, vector);
@@ -211,15 +201,13 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
 
 void push_cavities(lua_State* L, const topology::Model& model, const std::vector<closure::Cavity>& cavities)
 {
-    lua_createtable(L, static_cast<int>(cavities.size()), 0);
-    for (std::size_t c = 0; c < cavities.size(); ++c) {
+    push_array(L, cavities, [&](const auto& item) {
         lua_createtable(L, 0, 4);
-        set_string(L, "kind", cavities[c].kind.c_str());
-        set_tags(L, "faces", model, cavities[c].faces);
-        set_string(L, "class", std::string(topology::to_string(cavities[c].value)).c_str());
-        set_number(L, "volume", cavities[c].volume);
-        lua_rawseti(L, -2, to_lua(c));
-    }
+        set_string(L, "kind", item.kind.c_str());
+        set_tags(L, "faces", model, item.faces);
+        set_string(L, "class", std::string(topology::to_string(item.value)).c_str());
+        set_number(L, "volume", item.volume);
+    });
 }
 
 void push_free_edges(lua_State* L, const topology::Model& model, const Info& info)
@@ -241,16 +229,13 @@ void push_free_edges(lua_State* L, const topology::Model& model, const Info& inf
 
 void push_gaps(lua_State* L, const topology::Model& model, const Info& info)
 {
-    lua_createtable(L, static_cast<int>(info.gaps.size()), 0);
-    for (std::size_t g = 0; g < info.gaps.size(); ++g) {
-        const topology::Gap& gap = info.gaps[g];
+    push_array(L, info.gaps, [&](const auto& gap) {
         lua_createtable(L, 0, 4);
         set_count(L, "edge", static_cast<std::size_t>(model[gap.own].tag));
         set_count(L, "other", static_cast<std::size_t>(model[gap.other].tag));
         set_number(L, "width", gap.width);
         set_number(L, "tolerance", topology::sewing_tolerance(model, gap));
-        lua_rawseti(L, -2, to_lua(g));
-    }
+    });
 }
 
 /// The Model at index 1, held and brought up to date.

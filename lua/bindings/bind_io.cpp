@@ -419,7 +419,7 @@ int write(lua_State* L)
     return 0;
 }
 
-std::vector<mesh::MeshPart> parts_of(const AssemblyMeshState& state)
+std::vector<mesh::MeshPart> parts_of(const fill::FilledParts& state)
 {
     std::vector<mesh::MeshPart> parts;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
@@ -428,7 +428,7 @@ std::vector<mesh::MeshPart> parts_of(const AssemblyMeshState& state)
 }
 
 /// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
-io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments, const RunContext& context)
+io::Deck deck_of_parts(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
 {
     io::MeshDeckOptions& options = arguments.deck;
     if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces, context);
@@ -440,7 +440,7 @@ io::Deck deck_of_parts(const AssemblyMeshState& state, WriteArguments& arguments
 }
 
 /// Write the mesh of an assembly, in parts where these are asked for.
-void write_parts(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {
     if (state.swept.number.empty())
@@ -699,7 +699,7 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
                         crew, context);
 }
 
-void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                   const Crew* crew, const RunContext& context)
 {
     if (arguments.quality_given)

@@ -2,7 +2,8 @@
 #include "bindings/classes.h"
 #include "bindings/options.h"
 
-#include <utility>
+#include <array>
+#include <optional>
 
 namespace lacuna::lua {
 
@@ -12,11 +13,6 @@ using matching::MatchOptions;
 
 const Word<matching::Method> kMethods[] = {{"aligned", matching::Method::aligned},
                                            {"nearest", matching::Method::nearest}};
-
-void read_method(lua_State* L, int index, const Where& where, MatchOptions& options)
-{
-    options.method = read_word(L, index, where, kMethods);
-}
 
 /// Pairs of whole numbers from `smallest`, each less by `offset`.
 template <auto Member, int Offset>
@@ -49,7 +45,7 @@ void read_flip(lua_State* L, int index, const Where& where, MatchOptions& option
 
 // Vertices go by tag, loops by number: loops count from 1 here and from 0 in the kernel.
 const Option<MatchOptions> kMatchOptions[] = {
-    {"method", read_method},
+    {"method", word<&MatchOptions::method, kMethods>},
     {"vertices", read_pairs<&MatchOptions::vertices, 0>},
     {"loops", read_pairs<&MatchOptions::loops, 1>},
     {"flip", read_flip},
@@ -58,26 +54,19 @@ const Option<MatchOptions> kMatchOptions[] = {
 void push_match(lua_State* L, const topology::Model& model, const matching::Match& match)
 {
     lua_createtable(L, 0, 5);
-    lua_createtable(L, static_cast<int>(match.loops.size()), 0);
-    for (std::size_t i = 0; i < match.loops.size(); ++i) {
+    push_array(L, match.loops, [&](const auto& item) {
         lua_createtable(L, 0, 3);
-        lua_pushinteger(L, to_lua(static_cast<Index>(match.loops[i].source)));
+        lua_pushinteger(L, to_lua(static_cast<Index>(item.source)));
         lua_setfield(L, -2, "source");
-        lua_pushinteger(L, to_lua(static_cast<Index>(match.loops[i].target)));
+        lua_pushinteger(L, to_lua(static_cast<Index>(item.target)));
         lua_setfield(L, -2, "target");
-        set_boolean(L, "flipped", match.loops[i].flipped);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+        set_boolean(L, "flipped", item.flipped);
+    });
     lua_setfield(L, -2, "loops");
-    lua_createtable(L, static_cast<int>(match.vertices.size()), 0);
-    for (std::size_t i = 0; i < match.vertices.size(); ++i) {
-        lua_createtable(L, 2, 0);
-        lua_pushinteger(L, model[match.vertices[i].first].tag);
-        lua_rawseti(L, -2, 1);
-        lua_pushinteger(L, model[match.vertices[i].second].tag);
-        lua_rawseti(L, -2, 2);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_array(L, match.vertices, [&](const auto& item) {
+        push_array(L, std::array{item.first, item.second},
+                   [&](VertexId vertex) { lua_pushinteger(L, model[vertex].tag); });
+    });
     lua_setfield(L, -2, "vertices");
     set_string(L, "method", match.method.c_str());
     set_number(L, "confidence", match.confidence);
@@ -96,20 +85,7 @@ int match(lua_State* L)
     auto& found = temporary<matching::Match>(L); // a finalizer may match anew while this one is pushed
     guard(L, [&] {
         const Busy busy(state, "match");
-        if (asked) state.others.reset();
-        if (state.closure && (asked || !state.match))
-            throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
-        std::optional<matching::Match> before = std::exchange(state.match, std::nullopt);
-        if (!asked && before) {
-            state.match = std::move(before);
-        } else {
-            try {
-                match_volume(state, options, context);
-            } catch (...) {
-                state.match = std::move(before);
-                throw;
-            }
-        }
+        state = fill::match(state, asked ? std::optional(options) : std::nullopt, context);
         found = *state.match;
     });
     push_match(L, state.volume.model, found);

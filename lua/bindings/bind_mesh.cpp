@@ -3,8 +3,6 @@
 #include "bindings/classes.h"
 #include "bindings/options.h"
 
-#include <map>
-
 namespace lacuna::lua {
 
 namespace {
@@ -15,40 +13,16 @@ int mesh_nodes(lua_State* L)
     return 1;
 }
 
-int mesh_hexes(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.hex_count()));
-    return 1;
-}
-
-int mesh_wedges(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.wedge_count()));
-    return 1;
-}
-
 int mesh_layers(lua_State* L)
 {
     lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.layers);
     return 1;
 }
 
-int mesh_order(lua_State* L)
-{
-    lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.order());
-    return 1;
-}
-
 int mesh_report(lua_State* L)
 {
     const MeshState& state = hold<MeshState>(L, 1);
-    const auto& report = state.swept.report;
-    lua_createtable(L, static_cast<int>(report.size()), 0);
-    for (std::size_t i = 0; i < report.size(); ++i) {
-        lua_pushlstring(L, report[i].data(), report[i].size());
-        lua_rawseti(L, -2, to_lua(i));
-    }
-    set_report_meta(L, state.seconds);
+    push_report(L, state.swept.report, state.seconds);
     return 1;
 }
 
@@ -133,45 +107,6 @@ int wedge(lua_State* L)
     return 6;
 }
 
-struct Groups {
-    std::vector<std::string> order; ///< as first met
-    std::map<std::string, std::size_t> cells;
-};
-
-Groups skin_groups(const mesh::HexMesh& mesh)
-{
-    std::vector<std::size_t> of_patch(mesh.patches.size(), 0);
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i)
-        ++of_patch[static_cast<std::size_t>(mesh::skin_quad(mesh, i).patch)];
-    Groups groups;
-    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
-        for (const std::string& name : mesh.patches[p].groups) {
-            const auto [entry, fresh] = groups.cells.try_emplace(name, 0);
-            entry->second += of_patch[p];
-            if (fresh) groups.order.push_back(name);
-        }
-    return groups;
-}
-
-/// { {name=, dim=, cells=}, ... } = mesh:groups()
-int groups(lua_State* L)
-{
-    const mesh::HexMesh& mesh = hold<MeshState>(L, 1).swept.mesh;
-    auto& skin = temporary<Groups>(L);
-    guard(L, [&] { skin = skin_groups(mesh); });
-    lua_newtable(L);
-    lua_Integer next = 1;
-    for (const std::string& name : skin.order) {
-        push_group(L, name, 2, skin.cells.find(name)->second);
-        lua_rawseti(L, -2, next++);
-    }
-    for (const std::string& name : mesh.volume_groups) {
-        push_group(L, name, 3, mesh.cell_count());
-        lua_rawseti(L, -2, next++);
-    }
-    return 1;
-}
-
 int mesh_to_string(lua_State* L)
 {
     const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
@@ -181,7 +116,7 @@ int mesh_to_string(lua_State* L)
 }
 
 const luaL_Reg kMethods[] = {
-    {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", groups}, {nullptr, nullptr}};
+    {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", mesh_groups<MeshState>}, {nullptr, nullptr}};
 const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 /// { }: what a volume alone cannot mesh is an error
 int mesh_left_out(lua_State* L)
@@ -192,9 +127,16 @@ int mesh_left_out(lua_State* L)
 }
 
 const Field kFields[] = {
-    {"nodes", mesh_nodes},       {"hexes", mesh_hexes}, {"wedges", mesh_wedges}, {"layers", mesh_layers},
-    {"regions", mesh_regions},   {"order", mesh_order}, {"report", mesh_report}, {"fidelity", mesh_fidelity},
-    {"left_out", mesh_left_out}, {nullptr, nullptr},
+    {"nodes", mesh_nodes},
+    {"hexes", push_sum<MeshState, &mesh::HexMesh::hex_count>},
+    {"wedges", push_sum<MeshState, &mesh::HexMesh::wedge_count>},
+    {"layers", mesh_layers},
+    {"regions", mesh_regions},
+    {"order", mesh_order<MeshState>},
+    {"report", mesh_report},
+    {"fidelity", mesh_fidelity},
+    {"left_out", mesh_left_out},
+    {nullptr, nullptr},
 };
 
 } // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/bind_quality.h"
 
-#include <lacuna/quality/second_order.h>
-
+#include <array>
 #include <cstring>
 
 namespace lacuna::lua {
@@ -13,20 +12,18 @@ constexpr const char* kQualityMeta = "Quality";
 
 void push_worst(lua_State* L, const std::vector<quality::WorstCell>& worst)
 {
-    lua_createtable(L, static_cast<int>(worst.size()), 0);
-    for (std::size_t i = 0; i < worst.size(); ++i) {
+    push_array(L, worst, [&](const auto& item) {
         lua_createtable(L, 0, 4);
-        lua_pushinteger(L, to_lua(worst[i].cell));
+        lua_pushinteger(L, to_lua(item.cell));
         lua_setfield(L, -2, "cell");
-        if (worst[i].layer >= 0) {
-            lua_pushinteger(L, to_lua(static_cast<Index>(worst[i].layer)));
+        if (item.layer >= 0) {
+            lua_pushinteger(L, to_lua(static_cast<Index>(item.layer)));
             lua_setfield(L, -2, "layer");
         }
-        push_vector(L, worst[i].centre);
+        push_vector(L, item.centre);
         lua_setfield(L, -2, "centre");
-        set_number(L, "scaled_jacobian", worst[i].scaled_jacobian);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+        set_number(L, "scaled_jacobian", item.scaled_jacobian);
+    });
 }
 
 /// The source of the Quality at index 1; its userdata is left on the stack.
@@ -79,11 +76,8 @@ void push_metric(lua_State* L, const quality::MetricSummary& summary)
     set_count(L, "outside", summary.outside);
     set_number(L, "outside_share", summary.outside_share);
     if (info.acceptable) {
-        lua_createtable(L, 2, 0);
-        lua_pushnumber(L, info.acceptable->low);
-        lua_rawseti(L, -2, 1);
-        lua_pushnumber(L, info.acceptable->high);
-        lua_rawseti(L, -2, 2);
+        push_array(L, std::array{info.acceptable->low, info.acceptable->high},
+                   [&](double bound) { lua_pushnumber(L, bound); });
         lua_setfield(L, -2, "acceptable");
     }
     push_worst_of(L, summary);
@@ -178,10 +172,7 @@ int assembly_quality(lua_State* L)
     RunContext& context = push_context(L);
     guard(L, [&] {
         WholeCells whole = whole_cells(mesh.swept);
-        if (!mesh.quality)
-            mesh.quality = whole.curved.empty()
-                               ? quality::measure_cells(whole.nodes, whole.hexes, context, whole.column)
-                               : quality::measure_cells(whole.nodes, whole.curved, context, whole.column);
+        if (!mesh.quality) mesh.quality = fill::measure(whole, context);
         source.quality = *mesh.quality;
         source.nodes = std::move(whole.nodes);
         source.hexes = std::move(whole.hexes);
@@ -209,11 +200,7 @@ void push_quality(lua_State* L, int source)
     set_number(L, "volume", q.volume);
     push_worst(L, q.worst);
     lua_setfield(L, -2, "worst");
-    lua_createtable(L, static_cast<int>(q.histogram.size()), 0);
-    for (std::size_t bin = 0; bin < q.histogram.size(); ++bin) {
-        lua_pushinteger(L, static_cast<lua_Integer>(q.histogram[bin]));
-        lua_rawseti(L, -2, to_lua(bin));
-    }
+    push_array(L, q.histogram, [&](const auto& item) { lua_pushinteger(L, static_cast<lua_Integer>(item)); });
     lua_setfield(L, -2, "histogram");
 
     luaL_setmetatable(L, kQualityMeta);

@@ -177,11 +177,7 @@ int faces(lua_State* L)
     read_selector(L, 2, "faces", selector);
     auto& found = temporary<std::vector<FaceId>>(L);
     guard(L, [&] { found = select(state->model, selector); });
-    lua_createtable(L, static_cast<int>(found.size()), 0);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        push_face(L, state, found[i]);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_array(L, found, [&](const auto& item) { push_face(L, state, item); });
     if (found.empty() && lua_istable(L, 2)) mark_found_nothing(L, 2);
     return 1;
 }
@@ -267,17 +263,11 @@ int face_tag(lua_State* L)
     return 1;
 }
 
-int face_name(lua_State* L)
+template <std::string topology::Face::*Member>
+int face_text(lua_State* L)
 {
-    const std::string& name = this_face(L).name;
-    lua_pushlstring(L, name.data(), name.size());
-    return 1;
-}
-
-int face_kind(lua_State* L)
-{
-    const std::string& kind = this_face(L).kind;
-    lua_pushlstring(L, kind.data(), kind.size());
+    const std::string& text = this_face(L).*Member;
+    lua_pushlstring(L, text.data(), text.size());
     return 1;
 }
 
@@ -288,17 +278,11 @@ int face_area(lua_State* L)
     return 1;
 }
 
-int face_normal(lua_State* L)
+template <Vec3 (*Of)(const topology::Model&, FaceId)>
+int face_vector(lua_State* L)
 {
     const HeldFace held = hold_face(L);
-    push_vector(L, mean_normal(held.model, held.face));
-    return 1;
-}
-
-int face_centroid(lua_State* L)
-{
-    const HeldFace held = hold_face(L);
-    push_vector(L, topology::face_centroid(held.model, held.face));
+    push_vector(L, Of(held.model, held.face));
     return 1;
 }
 
@@ -356,11 +340,7 @@ int face_box(lua_State* L)
     Eigen::AlignedBox3d box;
     for (const Triangle& t : held.model[held.face].triangles)
         for (const Index p : t) box.extend(held.model.at(p));
-    lua_createtable(L, 2, 0);
-    push_vector(L, box.min());
-    lua_rawseti(L, -2, 1);
-    push_vector(L, box.max());
-    lua_rawseti(L, -2, 2);
+    push_array(L, std::array<Vec3, 2>{box.min(), box.max()}, [&](const Vec3& end) { push_vector(L, end); });
     return 1;
 }
 
@@ -373,11 +353,7 @@ int face_neighbours(lua_State* L)
         const auto facts = topology::face_facts(held.model);
         for (const FaceId other : facts[held.face.index()].neighbours) tags.push_back(held.model[other].tag);
     });
-    lua_createtable(L, static_cast<int>(tags.size()), 0);
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-        lua_pushinteger(L, tags[i]);
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_array(L, tags, [&](const auto& item) { lua_pushinteger(L, item); });
     return 1;
 }
 
@@ -399,11 +375,11 @@ int face_equal(lua_State* L)
 
 const Field kFaceFields[] = {
     {"tag", face_tag},
-    {"name", face_name},
-    {"kind", face_kind},
+    {"name", face_text<&topology::Face::name>},
+    {"kind", face_text<&topology::Face::kind>},
     {"area", face_area},
-    {"normal", face_normal},
-    {"centroid", face_centroid},
+    {"normal", face_vector<mean_normal>},
+    {"centroid", face_vector<topology::face_centroid>},
     {"loops", face_loops},
     {"edges", face_edges},
     {"has_mesh", face_has_mesh},

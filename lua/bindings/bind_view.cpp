@@ -130,11 +130,6 @@ void read_direction(lua_State* L, int index, const Where& where, view::PictureOp
     options.direction = {x, y, z};
 }
 
-void read_colour(lua_State* L, int index, const Where& where, view::PictureOptions& options)
-{
-    options.colour = read_word(L, index, where, kColours);
-}
-
 void read_cut_point(lua_State* L, int index, const Where& where, view::CutPlane& plane)
 {
     plane.point = read_vector(L, index, where);
@@ -176,7 +171,7 @@ const Option<view::PictureOptions> kPictureOptions[] = {
     {"width", count<&view::PictureOptions::width>},
     {"height", count<&view::PictureOptions::height>},
     {"view", read_direction},
-    {"colour", read_colour},
+    {"colour", word<&view::PictureOptions::colour, kColours>},
     {"cut", read_cut},
     {"layers", read_shown_layers},
     {"edges", boolean<&view::PictureOptions::edges>},
@@ -237,17 +232,12 @@ struct ViewFile {
     Show show = Show::automatic;
 };
 
-void read_show(lua_State* L, int index, const Where& where, ViewFile& options)
-{
-    options.show = read_word(L, index, where, kShows);
-}
-
 void read_file_title(lua_State* L, int index, const Where& where, ViewFile& options)
 {
     read_title(L, index, where, options.page);
 }
 
-const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", read_show}};
+const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", word<&ViewFile::show, kShows>}};
 
 bool is_deck(const std::string& ending)
 {

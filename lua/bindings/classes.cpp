@@ -3,60 +3,11 @@
 
 #include "bindings/lacuna_lua.h"
 
-#include <lacuna/cad/left_out.h>
-#include <lacuna/closure/steps.h>
-#include <lacuna/core/progress.h>
-
-#include <algorithm>
-#include <sstream>
+#include <utility>
 
 namespace lacuna::lua {
 
-using topology::Origin;
-using topology::Role;
-
 namespace {
-
-const char* word(topology::Geometry geometry)
-{
-    switch (geometry) {
-    case topology::Geometry::given:
-        return "given";
-    case topology::Geometry::newell:
-        return "Newell";
-    case topology::Geometry::transfinite:
-        return "transfinite";
-    case topology::Geometry::annular:
-        return "annular strip";
-    case topology::Geometry::followed:
-        return "followed sides";
-    case topology::Geometry::parallel:
-        return "parallel to the other end";
-    case topology::Geometry::minimal:
-        return "minimal area";
-    }
-    return "unknown";
-}
-
-const char* word(Role role)
-{
-    return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
-}
-
-bool has_both_ends(const topology::OpenVolume& volume)
-{
-    return !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-}
-
-void list_faces(std::ostream& out, const char* title, const topology::OpenVolume& volume, Role role,
-                Origin origin)
-{
-    std::string names;
-    for (const FaceId face : volume.faces(role))
-        if (volume.model[face].origin == origin)
-            names += (names.empty() ? "" : ", ") + topology::name_of(volume.model, face);
-    if (origin == Origin::given || !names.empty()) out << title << (names.empty() ? "none" : names) << '\n';
-}
 
 /// The splitter meets triangles before quads; give each face the number of its label.
 /// @pre a face a label.
@@ -130,59 +81,6 @@ Busy::Busy(VolumeState& state, const char* method) : state_(state)
     state.busy = method;
 }
 
-namespace {
-
-bool asks_nothing(const closure::CloseOptions& options)
-{
-    const closure::CloseOptions none;
-    return options.edge_shape == none.edge_shape && options.void_edges.empty() && options.cap == none.cap &&
-           options.holes == none.holes;
-}
-
-} // namespace
-
-void match_volume(VolumeState& state, const matching::MatchOptions& options, const RunContext& context)
-{
-    if (state.match) return;
-    if (options == matching::MatchOptions{} && state.as_read) {
-        state.match = state.as_read->match;
-        return;
-    }
-    state.as_read.reset();
-    state.match = matching::match(state.volume, options, context);
-}
-
-void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context)
-{
-    if (state.closure) { // sealed as it was read: what that assumed was not told yet
-        if (!std::exchange(state.told, true)) closure::log_notes(*state.closure, context);
-        return;
-    }
-    const bool whole = topology::free_edges(state.volume).empty();
-    // The ends match when their holes are covered, and not before.
-    if (options.holes != closure::Holes::cover && has_both_ends(state.volume) &&
-        !(whole && closure::has_steps(state.volume, context))) {
-        matching::MatchOptions by_hand;
-        by_hand.vertices = closure::pairs_by_hand(state.volume, options);
-        match_volume(state, by_hand, context);
-    }
-    report_progress(context, "closing");
-    state.told = true;
-    // What a trial with void edges assumed is measured and told where it is closed anew.
-    if (state.as_read && asks_nothing(options) && state.as_read->closure.void_edges.empty()) {
-        state.closure = std::move(state.as_read->closure);
-        state.volume = std::move(state.as_read->volume);
-        state.as_read.reset();
-        closure::log_notes(*state.closure, context);
-        return;
-    }
-    topology::OpenVolume sealed = state.volume;
-    closure::CloseOptions asked = options;
-    asked.take_guess = state.take_guess;
-    state.closure = closure::close(sealed, state.match.value_or(matching::Match{}), asked, context);
-    state.volume = std::move(sealed);
-}
-
 RunContext& push_context(lua_State* L)
 {
     const Host& lent = host(L);
@@ -197,64 +95,6 @@ RunContext& push_context(lua_State* L)
             lent.progress(stage, share);
         };
     return context;
-}
-
-std::string tree(const topology::OpenVolume& volume)
-{
-    const topology::Model& model = volume.model;
-    std::ostringstream out;
-    out << "volume: " << model.faces.size() << " faces, " << model.edges.size() << " edges, "
-        << model.vertices.size() << " vertices\n";
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const topology::Face& face = model.faces[f];
-        out << "  " << topology::name_of(model, FaceId(f)) << ", " << word(volume.role[f]) << ": "
-            << (face.origin == Origin::given ? face.kind : word(face.geometry)) << ", "
-            << face.triangles.size() << " facets" << (face.surface ? ", exact surface" : "")
-            << (face.given_quads.empty() ? "" : ", given mesh") << '\n';
-        for (const topology::Loop& loop : face.loops) {
-            out << "    loop of " << loop.uses.size() << '\n';
-            for (const topology::EdgeUse use : loop.uses) {
-                const topology::Edge& edge = model[use.edge];
-                out << "      " << topology::name_of(model, use.edge) << (use.reversed ? ", reversed" : "")
-                    << ": " << (edge.curve ? "exact curve" : "polyline") << " of " << edge.points.size() - 1
-                    << ", from " << topology::name_of(model, edge.from) << " to "
-                    << topology::name_of(model, edge.to) << '\n';
-            }
-        }
-    }
-    return out.str();
-}
-
-std::string describe(const VolumeState& state)
-{
-    std::ostringstream out;
-    list_faces(out, "source: ", state.volume, Role::source, Origin::given);
-    list_faces(out, "target: ", state.volume, Role::target, Origin::given);
-    list_faces(out, "walls:  ", state.volume, Role::wall, Origin::given);
-    if (!state.role_reasons.empty()) out << "likely roles:\n";
-    for (const std::string& reason : state.role_reasons) out << "  " << reason << '\n';
-    out << "class:  " << topology::to_string(state.classification.value) << '\n';
-    for (const std::string& reason : state.classification.reasons) out << "  " << reason << '\n';
-    if (state.match) {
-        out << "match:  " << state.match->method << ", " << state.match->loops.size() << " loops, "
-            << state.match->vertices.size() << " vertices, confidence " << state.match->confidence << '\n';
-        for (const std::string& note : state.match->notes) out << "  " << note << '\n';
-    }
-    list_faces(out, "void source: ", state.volume, Role::source, Origin::made_void);
-    list_faces(out, "void target: ", state.volume, Role::target, Origin::made_void);
-    list_faces(out, "void walls:  ", state.volume, Role::wall, Origin::made_void);
-    if (state.closure) {
-        out << "sealed: " << state.closure->void_edges.size() << " void edges, "
-            << state.closure->void_faces.size() << " void faces, "
-            << (state.closure->watertight ? "watertight" : "not watertight") << '\n';
-        for (const std::string& algorithm : state.closure->algorithms) out << "  " << algorithm << '\n';
-        for (const std::string& note : state.closure->notes) out << "  " << note << '\n';
-    } else if (!state.classification.free_loops.empty()) {
-        out << "open:   " << topology::free_edges(state.volume).size() << " free edges in "
-            << state.classification.free_loops.size() << " loops; close() seals them\n";
-    }
-    for (const std::string& missing : cad::left_out_in_words(state.volume)) out << missing << '\n';
-    return out.str();
 }
 
 void push_vector(lua_State* L, const Vec3& vector)
@@ -290,13 +130,18 @@ void set_string(lua_State* L, const char* key, const char* value)
     lua_setfield(L, -2, key);
 }
 
+namespace {
+
+void push_strings(lua_State* L, const std::vector<std::string>& values)
+{
+    push_array(L, values, [&](const auto& item) { lua_pushlstring(L, item.data(), item.size()); });
+}
+
+} // namespace
+
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values)
 {
-    lua_createtable(L, static_cast<int>(values.size()), 0);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        lua_pushlstring(L, values[i].data(), values[i].size());
-        lua_rawseti(L, -2, to_lua(i));
-    }
+    push_strings(L, values);
     lua_setfield(L, -2, key);
 }
 
@@ -306,12 +151,31 @@ void push_face(lua_State* L, const Box<ModelState>& model, FaceId face)
     guard(L, [&] { box = std::make_shared<FaceHandle>(FaceHandle{model, face, model->moves.size()}); });
 }
 
-void push_group(lua_State* L, const std::string& name, int dim, std::size_t cells)
+void push_groups(lua_State* L, const std::vector<fill::Group>& groups)
 {
-    lua_createtable(L, 0, 3);
-    set_string(L, "name", name.c_str());
-    set_count(L, "dim", static_cast<std::size_t>(dim));
-    set_count(L, "cells", cells);
+    push_array(L, groups, [&](const auto& item) {
+        lua_createtable(L, 0, 3);
+        set_string(L, "name", item.name.c_str());
+        set_count(L, "dim", static_cast<std::size_t>(item.dim));
+        set_count(L, "cells", item.cells);
+    });
+}
+
+void push_filled(lua_State* L, fill::Filled& filled, const StageSeconds& seconds)
+{
+    if (auto* parts = std::get_if<fill::FilledParts>(&filled.mesh)) {
+        auto& box = new_box<AssemblyMeshState>(L);
+        guard(L, [&] {
+            box = std::make_shared<AssemblyMeshState>(
+                AssemblyMeshState{std::move(*parts), std::nullopt, seconds});
+        });
+        return;
+    }
+    auto& box = new_box<MeshState>(L);
+    guard(L, [&] {
+        box = std::make_shared<MeshState>(
+            MeshState{std::move(std::get<fill::FilledVolume>(filled.mesh)), seconds});
+    });
 }
 
 namespace {
@@ -335,8 +199,9 @@ int report_to_string(lua_State* L)
 
 } // namespace
 
-void set_report_meta(lua_State* L, const StageSeconds& seconds)
+void push_report(lua_State* L, const std::vector<std::string>& lines, const StageSeconds& seconds)
 {
+    push_strings(L, lines);
     lua_createtable(L, 0, static_cast<int>(seconds.size()));
     for (const auto& [stage, taken] : seconds) set_number(L, stage.c_str(), taken);
     lua_setfield(L, -2, "seconds");

@@ -7,21 +7,15 @@
 #include "bindings/box.h"
 #include "bindings/stage_clock.h"
 
-#include <lacuna/closure/close.h>
-#include <lacuna/closure/readings.h>
 #include <lacuna/core/run_context.h>
+#include <lacuna/fill.h>
 #include <lacuna/healing/split_facets.h>
-#include <lacuna/io/deck.h>
-#include <lacuna/matching/match.h>
-#include <lacuna/quality/quality.h>
-#include <lacuna/sweep/assembly.h>
-#include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/model.h>
-#include <lacuna/topology/open_volume.h>
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lacuna::lua {
@@ -60,25 +54,14 @@ FaceId face_now(const FaceHandle& handle);
 /// @throw InvalidInput "lua.face_grown_over"  it is part of another by now.
 FaceId face_of(const FaceHandle& handle);
 
-struct VolumeState {
-    topology::OpenVolume volume;
-    const char* busy = nullptr;              ///< the method that works on it; null: none
-    std::vector<std::string> role_reasons;   ///< why the faces got their roles; empty where they were named
-    topology::Classification classification; ///< as the volume was given
-    std::optional<matching::Match> match;
-    std::optional<closure::Closure> closure;
-    std::optional<closure::SealedVolume> as_read; ///< where its roles were found: how it is closed by default
-    /// Of found roles: other ways to sweep what is enclosed, for where this one fails.
-    std::shared_ptr<const closure::OtherSweeps> others;
-    std::string name;        ///< of the region its cells are; empty: the default
-    bool take_guess = false; ///< whether a shape that nothing given tells is taken as it closes
-    bool told = false;       ///< whether the closure's notes were logged
-    int level = 0; ///< of a piece cut at steps: 0 goes from end to end, others have what layers are left
-    double turn_from = 0, turn_to = 1; ///< of a piece of a full turn: where it is, as shares of the turn
-    std::string turn_of;               ///< of a piece of a full turn: the region that all of it is
-    std::string material;              ///< name or number of its material; empty: none was said
-    std::vector<std::shared_ptr<const io::Deck>> decks; ///< those of the model it was made of
-    double scale = 1;                                   ///< of its coordinates to theirs
+struct VolumeState : fill::Volume {
+    const char* busy = nullptr; ///< the method that works on it; null: none
+    /// Take what a stage made of the volume.
+    VolumeState& operator=(fill::Volume made)
+    {
+        fill::Volume::operator=(std::move(made));
+        return *this;
+    }
 };
 
 /// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.
@@ -94,26 +77,18 @@ private:
     VolumeState& state_;
 };
 
-/// Match the ends unless that is done.
-void match_volume(VolumeState& state, const matching::MatchOptions& options, const RunContext& context);
-/// Seal the volume unless that is done; as it was before where it fails.
-void close_volume(VolumeState& state, const closure::CloseOptions& options, const RunContext& context);
-
-struct MeshState {
-    sweep::Swept swept;
-    std::string material; ///< of the volume
+struct MeshState : fill::FilledVolume {
     StageSeconds seconds; ///< of the sweep
 };
 
 /// The mesh of an assembly.
-struct AssemblyMeshState {
-    sweep::SweptAssembly swept;
-    std::vector<std::string> regions;   ///< of each part
-    std::vector<std::string> materials; ///< of each part; empty ones: none was said
-    std::vector<sweep::LeftOut> left_out;
+struct AssemblyMeshState : fill::FilledParts {
     std::optional<quality::Quality> quality;
     StageSeconds seconds; ///< of the sweep
 };
+
+/// Push the mesh of a sweep as a Mesh or an AssemblyMesh.
+void push_filled(lua_State* L, fill::Filled& filled, const StageSeconds& seconds);
 
 /// Volumes to be meshed as one, and meshes that stay as they are.
 struct AssemblyState {
@@ -127,14 +102,8 @@ struct AssemblyState {
     std::vector<Entry> entries;
 };
 
-/// The nodes and cells of all parts, numbered as one mesh.
-struct WholeCells {
-    std::vector<Vec3> nodes;
-    std::vector<Hex> hexes;              ///< corners; wedges as `mesh::is_wedge()` has them
-    std::vector<mesh::CellNodes> curved; ///< of order 2: all nodes
-    std::vector<Index> column;           ///< that each cell is of, numbered over all parts
-};
-WholeCells whole_cells(const sweep::SweptAssembly& swept);
+using fill::whole_cells;
+using fill::WholeCells;
 
 /// Push what a mesh's `fidelity` is to recipes: given faces by their tags, void ones by their groups' names.
 void push_fidelity(lua_State* L, const sweep::Fidelity& fidelity);
@@ -155,13 +124,6 @@ inline constexpr const char* kClassName<MeshState> = "Mesh";
 /// A context with the host's cancel flag and log, as a temporary on the stack.
 RunContext& push_context(lua_State* L);
 
-// --- texts a person reads -----------------------------------------------------------------------------
-
-/// Volume, faces, edges, vertices, void ones marked, with the geometry of each.
-std::string tree(const topology::OpenVolume& volume);
-/// Roles, class and why, what is void, what matched.
-std::string describe(const VolumeState& state);
-
 // --- pushing ------------------------------------------------------------------------------------------
 
 void push_vector(lua_State* L, const Vec3& vector);           ///< {x, y, z}
@@ -170,11 +132,13 @@ void set_count(lua_State* L, const char* key, std::size_t value);
 void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
-/// The array of lines on top prints as lines from now on, and gets the field `seconds`, a table by stage.
-void set_report_meta(lua_State* L, const StageSeconds& seconds);
+/// Near misses of an assembly, as `near_misses` of the report on top of the stack.
+void set_near_misses(lua_State* L, const fill::FilledParts& mesh);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
-void push_group(lua_State* L, const std::string& name, int dim,
-                std::size_t cells); ///< { name=, dim=, cells= }
+/// { { name=, dim=, cells= }, ... }
+void push_groups(lua_State* L, const std::vector<fill::Group>& groups);
+/// The array of lines as a report, that of mesh.report.
+void push_report(lua_State* L, const std::vector<std::string>& lines, const StageSeconds& seconds);
 
 /// The number at index 2, from 1 to `count`, as an index from 0; raises where it is none.
 std::size_t check_number(lua_State* L, const char* call, std::size_t count);
@@ -183,6 +147,57 @@ std::size_t check_number(lua_State* L, const char* call, std::size_t count);
 inline lua_Integer to_lua(std::size_t index) { return static_cast<lua_Integer>(index) + 1; }
 inline lua_Integer to_lua(Index index) { return static_cast<lua_Integer>(index) + 1; }
 inline std::size_t from_lua(lua_Integer number) { return static_cast<std::size_t>(number - 1); }
+
+/// An array of what `push` leaves on the stack for each item. Items are read one by one: a finalizer may put
+/// others in their place.
+template <class Items, class Push>
+void push_array(lua_State* L, const Items& items, const Push& push)
+{
+    lua_createtable(L, static_cast<int>(items.size()), 0);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        push(items[i]);
+        lua_rawseti(L, -2, to_lua(i));
+    }
+}
+/// Tags of entities of the model, as an array in the table on top.
+template <class Id>
+void set_tags(lua_State* L, const char* key, const topology::Model& model, const std::vector<Id>& ids)
+{
+    push_array(L, ids, [&](const auto& id) { lua_pushinteger(L, model[id].tag); });
+    lua_setfield(L, -2, key);
+}
+
+// --- fields and methods that a Mesh and an AssemblyMesh share ------------------------------------------
+
+template <auto Count, class State>
+std::size_t sum_of(const State& state)
+{
+    std::size_t all = 0;
+    for (const sweep::Swept& part : fill::parts(state)) all += (part.mesh.*Count)();
+    return all;
+}
+template <class State, auto Count>
+int push_sum(lua_State* L)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(sum_of<Count>(check<State>(L, 1))));
+    return 1;
+}
+template <class State>
+int mesh_order(lua_State* L)
+{
+    lua_pushinteger(L, fill::parts(check<State>(L, 1)).front().mesh.order());
+    return 1;
+}
+/// { {name=, dim=, cells=}, ... } = mesh:groups()
+template <class State>
+int mesh_groups(lua_State* L)
+{
+    const State& state = hold<State>(L, 1);
+    auto& groups = temporary<std::vector<fill::Group>>(L);
+    guard(L, [&] { groups = fill::groups(state); });
+    push_groups(L, groups);
+    return 1;
+}
 
 // --- one a kernel folder: adds its functions to the module's table, which is on top of the stack ------
 

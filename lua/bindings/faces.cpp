@@ -99,11 +99,6 @@ void read_free(lua_State* L, int index, const Where& where, Selector& selector)
     selector.free = read_boolean(L, index, where);
 }
 
-void read_within(lua_State* L, int index, const Where& where, Selector& selector)
-{
-    selector.within = read_positive(L, index, where);
-}
-
 void read_normal_within(lua_State* L, int index, const Where& where, Selector& selector)
 {
     selector.normal_within = read_positive(L, index, where);
@@ -128,13 +123,19 @@ void read_touching(lua_State* L, int index, const Where& where, Selector& select
 }
 
 const Option<Selector> kSelectorOptions[] = {
-    {"tags", read_tags},     {"name", read_text<&Selector::name>},
-    {"kind", read_kind},     {"facing", read_facing},
-    {"near", read_near},     {"area", read_area},
-    {"box", read_box},       {"touching", read_touching},
-    {"free", read_free},     {"region", read_text<&Selector::region>},
-    {"radius", read_radius}, {"normal_within", read_normal_within},
-    {"within", read_within},
+    {"tags", read_tags},
+    {"name", read_text<&Selector::name>},
+    {"kind", read_kind},
+    {"facing", read_facing},
+    {"near", read_near},
+    {"area", read_area},
+    {"box", read_box},
+    {"touching", read_touching},
+    {"free", read_free},
+    {"region", read_text<&Selector::region>},
+    {"radius", read_radius},
+    {"normal_within", read_normal_within},
+    {"within", positive<&Selector::within>},
 };
 
 /// Distance from a place to the facets of a face.

@@ -97,15 +97,13 @@ int triangles_from_lua(lua_State* L)
         options.interior_points = false;
         found = geometry::triangulate(points, loops, options, context);
     });
-    lua_createtable(L, static_cast<int>(found.triangles.size()), 0);
-    for (std::size_t t = 0; t < found.triangles.size(); ++t) {
+    push_array(L, found.triangles, [&](const auto& item) {
         lua_createtable(L, 3, 0);
         for (std::size_t k = 0; k < 3; ++k) {
-            lua_pushinteger(L, to_lua(index(found.triangles[t][k])));
+            lua_pushinteger(L, to_lua(index(item[k])));
             lua_rawseti(L, -2, to_lua(k));
         }
-        lua_rawseti(L, -2, to_lua(t));
-    }
+    });
     return 1;
 }
 

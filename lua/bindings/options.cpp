@@ -2,7 +2,6 @@
 #include "bindings/options.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
@@ -120,7 +119,7 @@ std::size_t read_word(lua_State* L, int index, const Where& where, const char* c
             return i;
         }
     fail_option(L, where, "must be one of %s; found \"%s\", did you mean \"%s\"?", known, word,
-                words[nearest(word, words, count)]);
+                words[nearest_word(word, {words, count})]);
 }
 
 bool has_options(lua_State* L, int index, const char* call)
@@ -148,36 +147,8 @@ void check_keys(lua_State* L, int index, const char* call, const char* const* ke
         const auto is_key = [key](const char* known) { return std::strcmp(known, key) == 0; };
         if (std::none_of(keys, keys + count, is_key))
             fail_as(L, "lua.unknown_option", "%s: unknown option '%s'; the nearest is '%s'. The keys are: %s",
-                    call, key, keys[nearest(key, keys, count)], push_list(L, keys, count));
+                    call, key, keys[nearest_word(key, {keys, count})], push_list(L, keys, count));
     }
-}
-
-std::size_t edit_distance(const char* a, const char* b)
-{
-    // Levenshtein over one row. Option names are short: of letters beyond the row only their number counts.
-    constexpr std::size_t kLongest = 63;
-    const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
-    std::array<std::size_t, kLongest + 1> row{};
-    for (std::size_t j = 0; j <= n; ++j) row[j] = j;
-    for (std::size_t i = 1; i <= m; ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= n; ++j) {
-            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    const std::size_t rest_a = std::strlen(a) - m, rest_b = std::strlen(b) - n;
-    return row[n] + std::max(rest_a, rest_b) - std::min(rest_a, rest_b);
-}
-
-std::size_t nearest(const char* word, const char* const* keys, std::size_t count)
-{
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < count; ++i)
-        if (edit_distance(word, keys[i]) < edit_distance(word, keys[best])) best = i;
-    return best;
 }
 
 const char* nearest_in_table(lua_State* L, int index, const char* word)

@@ -7,6 +7,7 @@
 
 #include "bindings/box.h"
 
+#include <lacuna/core/nearest_word.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>
@@ -115,6 +116,11 @@ void count(lua_State* L, int i, const Where& where, Options& o)
 {
     o.*Member = read_whole(L, i, where, 1);
 }
+template <auto Member, const auto& Words, class Options>
+void word(lua_State* L, int i, const Where& where, Options& o)
+{
+    o.*Member = read_word(L, i, where, Words);
+}
 template <auto Member, class Options>
 void boolean(lua_State* L, int i, const Where& where, Options& o)
 {
@@ -123,10 +129,6 @@ void boolean(lua_State* L, int i, const Where& where, Options& o)
 
 // --- nearest names ----------------------------------------------------------------------------------
 
-/// Number of letters to add, drop or change to make one word of the other.
-std::size_t edit_distance(const char* a, const char* b);
-/// Position of the key nearest to `word`. @pre count > 0.
-std::size_t nearest(const char* word, const char* const* keys, std::size_t count);
 /// The string nearest to `word` in the array at `index`; equally near ones by alphabet.
 const char* nearest_in_table(lua_State* L, int index, const char* word);
 

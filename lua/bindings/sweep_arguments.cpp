@@ -27,15 +27,10 @@ const Word<Spacing> kSpacings[] = {
     {"both_ends", Spacing::both_ends},
 };
 
-void read_spacing(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
-{
-    spec.spacing = read_word(L, index, where, kSpacings);
-}
-
 const Option<sweep::LayerSpec> kLayerOptions[] = {
     {"count", count<&sweep::LayerSpec::count>},
     {"bias", positive<&sweep::LayerSpec::bias>},
-    {"mode", read_spacing},
+    {"mode", word<&sweep::LayerSpec::spacing, kSpacings>},
 };
 
 void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
@@ -49,7 +44,7 @@ void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec&
 
 void read_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    sweep::LayerSpec& spec = arguments.options.layers;
+    sweep::LayerSpec& spec = arguments.layers;
     int whole = 0;
     if (lua_type(L, index) == LUA_TNUMBER && lua_tointegerx(L, index, &whole) > 0 && whole) {
         spec.count = read_whole(L, index, where, 1);
@@ -83,17 +78,12 @@ void read_field(lua_State* L, int index, const Where& where, surface::SizeField&
 
 void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    read_field(L, index, where, arguments.options.size, arguments.size_function);
+    read_field(L, index, where, arguments.size, arguments.size_function);
 }
 
 void read_row_height(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    read_field(L, index, where, arguments.options.row_height, arguments.row_height_function);
-}
-
-void read_rows(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.rows = read_whole(L, index, where, 1);
+    read_field(L, index, where, arguments.row_height, arguments.row_height_function);
 }
 
 // --- boundary layers and intervals ----------------------------------------------------------------------
@@ -150,36 +140,20 @@ void read_face_names(lua_State* L, int index, const Where& where, const VolumeSt
     read_face_name(L, index, where, volume, names);
 }
 
-struct LayerArguments {
-    surface::BoundaryLayer layer;
+struct LayerArguments : surface::BoundaryLayer {
     const VolumeState* volume = nullptr;
 };
 
 void read_layer_walls(lua_State* L, int index, const Where& where, LayerArguments& arguments)
 {
-    read_face_names(L, index, where, *arguments.volume, arguments.layer.walls);
-}
-
-void read_first(lua_State* L, int index, const Where& where, LayerArguments& arguments)
-{
-    arguments.layer.first = read_positive(L, index, where);
-}
-
-void read_growth(lua_State* L, int index, const Where& where, LayerArguments& arguments)
-{
-    arguments.layer.growth = read_positive(L, index, where);
-}
-
-void read_count(lua_State* L, int index, const Where& where, LayerArguments& arguments)
-{
-    arguments.layer.count = read_whole(L, index, where, 1);
+    read_face_names(L, index, where, *arguments.volume, arguments.walls);
 }
 
 const Option<LayerArguments> kBoundaryLayerOptions[] = {
     {"walls", read_layer_walls},
-    {"first", read_first},
-    {"growth", read_growth},
-    {"count", read_count},
+    {"first", positive<&LayerArguments::first>},
+    {"growth", positive<&LayerArguments::growth>},
+    {"count", count<&LayerArguments::count>},
 };
 
 void read_boundary_layer(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -189,10 +163,10 @@ void read_boundary_layer(lua_State* L, int index, const Where& where, SweepArgum
     auto& one = temporary<LayerArguments>(L);
     one.volume = arguments.volume;
     read_options(L, index, "sweep: boundary_layers", kBoundaryLayerOptions, one);
-    if (one.layer.walls.tags.empty() && one.layer.walls.names.empty())
+    if (one.walls.tags.empty() && one.walls.names.empty())
         fail_option(L, where, "has no 'walls': { walls =, first =, growth =, count = }");
-    if (one.layer.first == 0) fail_option(L, where, "has no 'first', the thickness of the first row");
-    guard(L, [&] { arguments.options.boundary_layers.push_back(one.layer); });
+    if (one.first == 0) fail_option(L, where, "has no 'first', the thickness of the first row");
+    guard(L, [&] { arguments.boundary_layers.push_back(one); });
 }
 
 void read_boundary_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -254,7 +228,7 @@ void read_interval(lua_State* L, int index, const Where& where, SweepArguments& 
         interval.of = Of::wall;
         read_face_names(L, what, where, *arguments.volume, interval.walls);
     }
-    guard(L, [&] { arguments.options.intervals.push_back(interval); });
+    guard(L, [&] { arguments.intervals.push_back(interval); });
 }
 
 void read_intervals(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -296,56 +270,26 @@ const Word<Quads> kQuads[] = {
     {"gmsh", Quads::gmsh},      {"keep", Quads::keep},
 };
 
-void read_quads(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.quads = read_word(L, index, where, kQuads);
-}
-
-void read_wedges(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.wedges = read_boolean(L, index, where);
-}
-
 const Word<sweep::Fallback> kFallbacks[] = {
     {"wedges", sweep::Fallback::wedges},
     {"leave_out", sweep::Fallback::leave_out},
 };
 
-void read_fallback(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.fallback = read_word(L, index, where, kFallbacks);
-}
-
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    arguments.options.order = read_whole(L, index, where, 1);
-    if (arguments.options.order > 2) fail_value(L, where, "1 or 2", index);
+    arguments.order = read_whole(L, index, where, 1);
+    if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
 }
 
 void read_serendipity(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    arguments.options.second_order.serendipity = read_boolean(L, index, where);
-}
-
-void read_min_scaled_jacobian(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.min_scaled_jacobian = read_number(L, index, where);
+    arguments.second_order.serendipity = read_boolean(L, index, where);
 }
 
 void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    arguments.options.curvature = read_whole(L, index, where, 0);
-    arguments.options.volume_share = 0; // who names the sides for a turn gets those
-}
-
-void read_gap(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.gap = read_whole(L, index, where, 1);
-}
-
-void read_max_deviation(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.max_deviation = read_positive(L, index, where);
+    arguments.curvature = read_whole(L, index, where, 0);
+    arguments.volume_share = 0; // who names the sides for a turn gets those
 }
 
 const Word<sweep::Interior> kInteriors[] = {
@@ -355,11 +299,6 @@ const Word<sweep::Interior> kInteriors[] = {
     {"normals", sweep::Interior::normals},
 };
 
-void read_interior(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.options.interior = read_word(L, index, where, kInteriors);
-}
-
 const Option<sweep::ImproveOptions> kImproveOptions[] = {
     {"iterations", count<&sweep::ImproveOptions::iterations>},
     {"seconds", positive<&sweep::ImproveOptions::seconds>},
@@ -368,9 +307,9 @@ const Option<sweep::ImproveOptions> kImproveOptions[] = {
 void read_improve(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     if (lua_type(L, index) == LUA_TTABLE) {
-        read_options(L, index, "sweep: improve", kImproveOptions, arguments.options.improving);
+        read_options(L, index, "sweep: improve", kImproveOptions, arguments.improving);
     } else if (lua_type(L, index) == LUA_TBOOLEAN) {
-        arguments.options.improve = read_boolean(L, index, where);
+        arguments.improve = read_boolean(L, index, where);
     } else {
         fail_value(L, where, "true, false or a table { iterations =, seconds = }", index);
     }
@@ -380,20 +319,20 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"layers", read_layers},
     {"size", read_size},
     {"curvature", read_curvature},
-    {"gap", read_gap},
-    {"max_deviation", read_max_deviation},
-    {"quads", read_quads},
-    {"wedges", read_wedges},
-    {"fallback", read_fallback},
-    {"rows", read_rows},
+    {"gap", count<&SweepArguments::gap>},
+    {"max_deviation", positive<&SweepArguments::max_deviation>},
+    {"quads", word<&SweepArguments::quads, kQuads>},
+    {"wedges", boolean<&SweepArguments::wedges>},
+    {"fallback", word<&SweepArguments::fallback, kFallbacks>},
+    {"rows", count<&SweepArguments::rows>},
     {"row_height", read_row_height},
     {"boundary_layers", read_boundary_layers},
     {"intervals", read_intervals},
     {"order", read_order},
     {"serendipity", read_serendipity},
-    {"min_scaled_jacobian", read_min_scaled_jacobian},
+    {"min_scaled_jacobian", number<&SweepArguments::min_scaled_jacobian>},
     {"improve", read_improve},
-    {"interior", read_interior},
+    {"interior", word<&SweepArguments::interior, kInteriors>},
     {"threads", count<&SweepArguments::threads>},
 };
 
@@ -413,15 +352,15 @@ SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, 
     auto& arguments = temporary<SweepArguments>(L);
     arguments.volume = &volume;
     read_options(L, index, call, kSweepOptions, arguments);
-    push_field(L, index, "size", arguments.size_function, arguments.options.size);
-    push_field(L, index, "row_height", arguments.row_height_function, arguments.options.row_height);
-    guard(L, [&] { arguments.options.quad_mesher = cad::recombine; });
+    push_field(L, index, "size", arguments.size_function, arguments.size);
+    push_field(L, index, "row_height", arguments.row_height_function, arguments.row_height);
+    guard(L, [&] { arguments.quad_mesher = cad::recombine; });
     // A height alone stands for one row of it.
-    if (arguments.options.row_height && arguments.options.rows == 0) arguments.options.rows = 1;
+    if (arguments.row_height && arguments.rows == 0) arguments.rows = 1;
     guard(L, [&] {
         RunContext context;
         context.threads = arguments.threads;
-        sweep::check(arguments.options, context);
+        sweep::check(arguments, context);
     });
     return arguments;
 }

@@ -5,27 +5,17 @@
 
 #include "bindings/classes.h"
 
-#include <array>
-#include <set>
-#include <string>
-
 struct lua_State;
 
 namespace lacuna::lua {
 
 /// Options of a sweep as a recipe gave them.
-struct SweepArguments {
-    sweep::SweepOptions options;
+struct SweepArguments : sweep::SweepOptions {
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
     const VolumeState* volume = nullptr; ///< that selectors choose the faces of
-    std::string name;                    ///< of that volume
-    std::set<std::string> own;           ///< options that were given for it alone, and name its faces
 };
-
-/// The options that name faces.
-inline constexpr std::array<const char*, 2> kOfFaces{"boundary_layers", "intervals"};
 
 /// Read the options at `index`, nil or a table, of the method `call`, as a temporary. Leaves the functions
 /// that sizes call on the stack.

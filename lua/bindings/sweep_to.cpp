@@ -31,45 +31,73 @@ void push_write_options(lua_State* L, int index)
         fail_value(L, {"sweep_to", "write"}, "a table of options { version =, binary =, quality = }", -1);
 }
 
-void set_told(lua_State* L, const Told& told)
+namespace {
+
+constexpr const char* kHeldWhole =
+    "sweep_to: the whole mesh was held in memory, since its nodes are more than "
+    "placed layers: moved to improve cells or to make them valid, laid along normals, or of "
+    "boundary layers";
+
+/// The numbers of a mesh, as fields of the report on top of the stack.
+void set_numbers(lua_State* L, const fill::Filled& filled)
 {
-    set_count(L, "nodes", told.nodes);
-    set_count(L, "hexes", told.hexes);
-    set_count(L, "wedges", told.wedges);
-    set_count(L, "layers", static_cast<std::size_t>(told.layers));
-    set_number(L, "min_scaled_jacobian", told.least);
-    set_boolean(L, "streamed", told.streamed);
-    set_count(L, "processes", static_cast<std::size_t>(told.processes));
+    std::size_t nodes = 0, hexes = 0, wedges = 0;
+    int layers = 0;
+    double least = 1;
+    bool streamed = true;
+    for (const sweep::Swept& part : fill::parts(filled)) {
+        nodes += mesh::corner_count(part.mesh) + mesh::middle_count(part.mesh);
+        hexes += part.mesh.hex_count();
+        wedges += part.mesh.wedge_count();
+        layers = std::max(layers, part.mesh.layers);
+        least = std::min(least, part.min_scaled_jacobian);
+        streamed = streamed && part.layers.has_value();
+    }
+    if (const auto* parts = std::get_if<fill::FilledParts>(&filled.mesh)) nodes = parts->swept.nodes;
+    set_count(L, "nodes", nodes);
+    set_count(L, "hexes", hexes);
+    set_count(L, "wedges", wedges);
+    set_count(L, "layers", static_cast<std::size_t>(layers));
+    set_number(L, "min_scaled_jacobian", least);
+    set_boolean(L, "streamed", streamed);
+    const Crew* const crew = host(L).crew;
+    set_count(L, "processes", static_cast<std::size_t>(streamed && crew != nullptr ? crew->size : 1));
 }
 
-void write_swept_parts(lua_State* L, const io::OutputPath& path, WriteArguments& file, const Crew* crew,
-                       const RunContext& context)
+} // namespace
+
+void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const RunContext& context)
 {
-    const int mesh = lua_gettop(L);
-    auto& state = *hold_box<AssemblyMeshState>(L, mesh);
-    Told told{.nodes = state.swept.nodes};
-    std::size_t held = 0;
-    for (const sweep::Swept& part : state.swept.parts) {
-        held += part.layers ? 0 : 1;
-        told.hexes += part.mesh.hex_count();
-        told.wedges += part.mesh.wedge_count();
-        told.layers = std::max(told.layers, part.mesh.layers);
-        told.least = std::min(told.least, part.min_scaled_jacobian);
-    }
-    told.streamed = held == 0;
-    told.processes = told.streamed && crew != nullptr ? crew->size : 1;
-    const Host& lent = host(L);
-    guard(L, [&] {
+    if (auto* whole = std::get_if<fill::FilledVolume>(&run.filled.mesh)) {
+        refuse_interfaces(*file.arguments);
+        if (!whole->swept.layers) whole->swept.report.emplace_back(kHeldWhole);
+        write_layered(whole->swept, whole->material, *file.path, *file.arguments, lent.crew, context);
+        run.report = whole->swept.report;
+    } else {
+        auto& mesh = std::get<fill::FilledParts>(run.filled.mesh);
+        const auto held = std::ranges::count_if(
+            mesh.swept.parts, [](const sweep::Swept& part) { return !part.layers.has_value(); });
         if (held > 0)
-            state.swept.report.push_back(
-                "sweep_to: " + std::to_string(held) + " of " + std::to_string(state.swept.parts.size()) +
+            mesh.swept.report.push_back(
+                "sweep_to: " + std::to_string(held) + " of " + std::to_string(mesh.swept.parts.size()) +
                 " parts were held in memory, since their nodes are more than placed layers, or the file is "
                 "not written so");
-        write_pieces(state, path, file, crew, context);
-        write_options_beside(lent, path, file);
-    });
-    lua_getfield(L, mesh, "report");
-    set_told(L, told);
+        write_pieces(mesh, *file.path, *file.arguments, lent.crew, context);
+        run.report = fill::report(mesh);
+    }
+    write_options_beside(lent, *file.path, *file.arguments);
+}
+
+int push_run(lua_State* L, SweepRun& run, bool has_file)
+{
+    if (!has_file) {
+        push_filled(L, run.filled, run.seconds);
+        return 1;
+    }
+    push_report(L, run.report, run.seconds);
+    if (const auto* parts = std::get_if<fill::FilledParts>(&run.filled.mesh)) set_near_misses(L, *parts);
+    set_numbers(L, run.filled);
+    return 1;
 }
 
 } // namespace lacuna::lua

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What volume:sweep_to and assembly:sweep_to share.
+// What the sweeps of volumes and of assemblies share, with and without a file.
 
 #include "bindings/classes.h"
 #include "bindings/write_mesh.h"
 
-#include <cstddef>
+#include <memory>
+#include <vector>
 
 struct lua_State;
 
@@ -15,20 +16,46 @@ namespace lacuna::lua {
 /// Take `write` out of a table of options: a copy without it stands at `index` then, and it on top.
 void push_write_options(lua_State* L, int index);
 
-/// What sweep_to tells of a mesh.
-struct Told {
-    std::size_t nodes = 0, hexes = 0, wedges = 0;
-    int layers = 0;
-    double least = 1; ///< scaled Jacobian
-    bool streamed = false;
-    int processes = 1;
+/// A file that a mesh is written to as it is made.
+struct SweepFile {
+    const io::OutputPath* path;
+    WriteArguments* arguments;
 };
 
-/// As fields of the report on top of the stack.
-void set_told(lua_State* L, const Told& told);
+/// A sweep, and the report of its file.
+struct SweepRun {
+    fill::Filled filled;
+    StageSeconds seconds;
+    std::vector<std::string> report;
+};
 
-/// Write the mesh of an assembly, which is on top of the stack, and leave its report there.
-void write_swept_parts(lua_State* L, const io::OutputPath& path, WriteArguments& file, const Crew* crew,
-                       const RunContext& context);
+/// Write a mesh and note in its report where it was held in memory.
+void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const RunContext& context);
+
+/// Push the mesh, or the report of its file.
+int push_run(lua_State* L, SweepRun& run, bool has_file);
+
+/// Sweep volumes of a recipe; then push the mesh, or write it and push the report of that. The volumes change
+/// when all is done.
+/// @param volumes  as those of the `fill::Filled` that `sweep()` returns.
+/// @param file     null: none
+template <class Sweep>
+int push_swept(lua_State* L, const std::vector<VolumeState*>& volumes, const char* call,
+               const SweepFile* file, RunContext& context, const Sweep& sweep)
+{
+    lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
+    auto& run = temporary<SweepRun>(L);
+    const Host& lent = host(L);
+    guard(L, [&] {
+        std::vector<std::unique_ptr<Busy>> busy;
+        for (VolumeState* volume : volumes) busy.push_back(std::make_unique<Busy>(*volume, call));
+        StageClock clock(context);
+        run.filled = sweep();
+        if (file != nullptr) write_filled(lent, run, *file, context);
+        for (std::size_t v = 0; v < volumes.size(); ++v) *volumes[v] = std::move(run.filled.volumes[v]);
+        run.seconds = clock.seconds();
+    });
+    return push_run(L, run, file != nullptr);
+}
 
 } // namespace lacuna::lua

@@ -33,7 +33,7 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
                    WriteArguments& arguments, const Crew* crew, const RunContext& context);
 
 /// Write the mesh of an assembly, whose nodes may be still to be made, as assembly_mesh:write does.
-void write_pieces(const AssemblyMeshState& state, const io::OutputPath& path, WriteArguments& arguments,
+void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                   const Crew* crew, const RunContext& context);
 
 } // namespace lacuna::lua

@@ -110,9 +110,9 @@ std::string like_command(const std::string& word)
         names[i + 1] = kCommands[i].name;
         all += std::string(kCommands[i].name) + ", ";
     }
-    const std::string near = names[lua::nearest(word.c_str(), names, std::size(names))];
+    const std::string near = names[nearest_word(word.c_str(), names)];
     constexpr std::size_t kSlips = 2; // two letters changed places, or one that is wrong, missing or too many
-    if (near.starts_with(word) || lua::edit_distance(word.c_str(), near.c_str()) <= kSlips)
+    if (near.starts_with(word) || edit_distance(word.c_str(), near.c_str()) <= kSlips)
         return "did you mean " + near + "?";
     return "the commands are " + all + "help";
 }
@@ -302,7 +302,7 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
     else if (const Command* command = find_command(word))
         read_command(*command, words, line);
     else if (word != "-" && word.starts_with("-")) {
-        const std::size_t near = lua::nearest(word.c_str(), kFlags, std::size(kFlags));
+        const std::size_t near = nearest_word(word.c_str(), kFlags);
         throw BadUsage("unknown option " + word + "; the nearest is " + kFlags[near]);
     } else if (word != "-" && is_misspelt(word)) {
         throw BadUsage(

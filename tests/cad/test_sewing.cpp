@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
-#include <lacuna/cad/left_out.h>
-
 #include <doctest/doctest.h>
 #include <gmsh.h>
 
@@ -240,7 +238,7 @@ TEST_CASE("a face no wider than the tolerance is left out, and its neighbours ar
         CHECK(model.faces[1].tag == 3);
         CHECK(model.edges.size() == 7);
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].starts_with("face 2 is no wider than the tolerance and is left out"));
+        CHECK(model.notes[0].starts_with("face 2 is narrower than the tolerance and is left out"));
     }
 }
 
@@ -275,7 +273,7 @@ TEST_CASE("a face whose boundary runs over itself is left out by name, and the o
             CHECK(model.edges[e].points.size() == sound.edges[e].points.size());
         CHECK(test::enclosed_volume(model) == doctest::Approx(6));
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].starts_with("face 7 could not be cut into facets"));
+        CHECK(model.notes[0].starts_with("face 7 could not be triangulated"));
 
         const std::string only = folder.gmsh("only.brep", [&] { outline(corners); });
         CHECK_THROWS_AS((void)cad::load({only}), BackendError);
@@ -324,7 +322,7 @@ TEST_CASE("a face left out is known by the edges it had, in every model taken ou
         return faces;
     };
     const topology::Model sound = cad::load({folder.gmsh("sound.brep", [&] { box(false); })});
-    CHECK(cad::left_out_beside(sound, all_but(sound, 6)).empty());
+    CHECK(topology::left_out_beside(sound, all_but(sound, 6)).empty());
 
     for (const bool loose : {false, true}) {
         CAPTURE(loose);
@@ -339,17 +337,17 @@ TEST_CASE("a face left out is known by the edges it had, in every model taken ou
         const auto is_note = [](const std::string& line) { return line.starts_with("note: face 6 could"); };
         CHECK(std::ranges::count_if(told, is_note) == 1);
 
-        const auto missing = cad::left_out_beside(model, all_but(model, 0));
+        const auto missing = topology::left_out_beside(model, all_but(model, 0));
         REQUIRE(missing.size() == 1);
         CHECK(missing[0].face.tag == 6);
         CHECK(missing[0].edges.size() == 4);
-        CHECK_THROWS_AS(cad::require_none_left_out(model, all_but(model, 0), "walls"), InvalidInput);
+        CHECK_THROWS_AS(topology::require_none_left_out(model, all_but(model, 0), "walls"), InvalidInput);
         // The front touches no edge of the back.
-        CHECK(cad::left_out_beside(model, {FaceId(2)}).empty());
+        CHECK(topology::left_out_beside(model, {FaceId(2)}).empty());
 
         const topology::OpenVolume volume = topology::open_volume(
             model, {{FaceId(0)}, {FaceId(1)}, {FaceId(2), FaceId(3), FaceId(4)}});
-        const std::vector<std::string> words = cad::left_out_in_words(volume);
+        const std::vector<std::string> words = topology::left_out_in_words(volume);
         REQUIRE(words.size() == 1);
         CHECK(words[0].starts_with("face 6 of " + path + " was left out"));
     }

@@ -406,7 +406,8 @@ TEST_CASE("commands of a script that write files, run plugins or mesh are skippe
         const topology::Model model = cad::load({path}, {}, context);
         CHECK(test::total_area(model) == doctest::Approx(area));
         CHECK(model.faces[0].name == "all"); // what follows is read
-        const std::string begin = "note: " + path + ": of this script only the geometry is read; skipped: ";
+        const std::string begin = "note: " + path +
+                                  ": only the geometry of the script is read. Skipped commands: ";
         CHECK(std::ranges::count_if(told, [&](const std::string& text) { return text.starts_with(begin); }) ==
               1);
         CHECK(!fs::exists(made));
@@ -520,11 +521,11 @@ TEST_CASE("the CAD process survives a host that lies")
     const auto ask = [&](Opcode opcode, const auto& request) {
         return failure([&] { (void)worker->ask<EvaluateReply>(opcode, request, task); });
     };
-    CHECK(has(ask(Opcode::evaluate, EvaluateRequest{77, 1, {0.5}}), "no such model"));
+    CHECK(has(ask(Opcode::evaluate, EvaluateRequest{77, 1, {0.5}}), "model number is unknown"));
     CHECK(has(ask(Opcode::project, ProjectRequest{1, 77, {Vec3(0, 0, 0)}, {Vec2(0, 0)}}), "cad"));
     CHECK(has(ask(Opcode::project, ProjectRequest{1, 1, {Vec3(0, 0, 0)}, {}}), "cad.protocol"));
     CHECK(has(ask(Opcode::load, EvaluateRequest{1, 1, {1, 2, 3}}), "cad.protocol"));
-    CHECK(has(ask(Opcode(99), ReleaseRequest{1}), "no such request"));
+    CHECK(has(ask(Opcode(99), ReleaseRequest{1}), "request is unknown"));
     CHECK(has(ask(Opcode::evaluate, EvaluateRequest{1, 4711, {0.5}}), "cad"));
     std::vector<Vec3> points{{1, 0, 0}};
     std::vector<Vec2> uv{{0, 0}};

@@ -395,7 +395,7 @@ TEST_CASE("flat faces of facets become planes; bent ones are refused with what t
     const topology::OpenVolume round = test::prism({.sides = 0}).open();
     const std::size_t before = entries(folder.path(""));
     CHECK(refusal([&] { cad::write_cad(round, folder.path("round.step")); },
-                  {"facets alone", "write_facets"}) == "cad.facets_alone");
+                  {"only facets", "write_facets"}) == "cad.facets_alone");
     CHECK(entries(folder.path("")) == before);
 }
 

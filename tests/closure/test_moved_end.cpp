@@ -259,3 +259,49 @@ TEST_CASE("a missing top whose rim lies on a ball or a cylinder is closed, for t
         }
     }
 }
+
+namespace {
+
+template <class Options>
+concept SaysWhetherToHint = requires(Options options)
+{
+    options.hints;
+};
+
+} // namespace
+
+TEST_CASE("what closing gives does not depend on who asks: a host, a recipe, or whoever looks for roles")
+{
+    // There was an option for messages that also chose how an end without walls is closed.
+    static_assert(!SaysWhetherToHint<closure::CloseOptions>);
+    int compared = 0;
+    for (const std::vector<Vec2>& outline : outlines()) {
+        for (const double taper : {1.0, 0.7}) {
+            for (int missing = 0; missing < static_cast<int>(outline.size()); ++missing) {
+                CAPTURE(missing);
+                CAPTURE(taper);
+                const auto prism = test::prism(
+                    {.height = 4, .outline = outline, .taper = taper, .drop = without_end({missing}, false)});
+                std::optional<closure::Reading> found;
+                try {
+                    found = closure::find_reading(prism.model, all_faces(prism.model), 1);
+                } catch (const InvalidInput&) {
+                    continue;
+                }
+                OpenVolume named = prism.open();
+                const closure::Closure closure = closure::close(named, {}, {.take_guess = true});
+                CHECK(closure.value == VolumeClass::IV);
+                // Of the taper nothing tells where a moved end is not known to shrink.
+                if (found->classification.value != VolumeClass::IV) continue;
+                ++compared;
+                CHECK(closure::enclosed_volume(named) == doctest::Approx(found->enclosed).epsilon(1e-9));
+                OpenVolume again = found->volume;
+                if (!found->sealed) continue;
+                closure::close(again, found->sealed->match, {.take_guess = true});
+                CHECK(closure::enclosed_volume(again) ==
+                      doctest::Approx(closure::enclosed_volume(found->sealed->volume)).epsilon(1e-12));
+            }
+        }
+    }
+    CHECK(compared > 20);
+}

@@ -7,7 +7,7 @@
 --
 -- First the rules are tried on wrong samples, each of which must be found out; then on the kernel.
 
--- A folder may include what it names here and all that those may include.
+-- A folder may include what it names here and all that those may include. `<lacuna/fill.h>` is of `fill`.
 local plan = {
   core = {},
   geometry = { "core" },
@@ -21,6 +21,7 @@ local plan = {
   quality = { "mesh" },
   sweep = { "closure", "surface", "quality" },
   io = { "mesh", "healing" },
+  fill = { "sweep", "io" },
   view = { "closure", "io", "quality" },
   team = { "sweep", "io" },
   mpi = { "team" },
@@ -96,7 +97,7 @@ local function faults(folder, path, text)
     number = number + 1
     local include = line:match('^%s*#%s*include%s*[<"]([^>"]+)[>"]')
     if include then
-      local other = include:match("^lacuna/([^/]+)/")
+      local other = include:match("^lacuna/([^/]+)/") or include:match("^lacuna/([^/]+)%.h$")
       if other and not plan[other] then
         fault(number, ("includes <%s>, and the plan has no folder %s"):format(include, other))
       elseif other and not allowed[other] then
@@ -152,6 +153,8 @@ local samples = {
   { "team", mit .. "#include <mpi.h>\n", "only mpi/" },
   { "mpi", mit .. "#include <mpi.h>\n#include <lacuna/core/team.h>\n" },
   { "io", mit .. "#include <lacuna/team/tasks.h>\n", "not below it" },
+  { "sweep", mit .. "#include <lacuna/fill.h>\n", "not below it" },
+  { "fill", mit .. "#include <lacuna/fill.h>\n#include <lacuna/io/deck.h>\n" },
   { "cad_worker", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
   { "cad_worker", mit .. "#include <gmsh.h>\n", "licence GPL" },
   { "cad", gpl, "licence MIT" },
@@ -213,7 +216,7 @@ local files = 0
 local list = assert(io.popen(
     ("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
 for path in list:lines() do
-  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$")
+  local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$") or path:match("/kernel/lacuna/([^/]+)%.h$")
       or path:match("/kernel/lacuna/([^/]+)/detail/[^/]+$")
   if not folder or not plan[folder] then
     wrong = wrong + 1

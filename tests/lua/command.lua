@@ -335,7 +335,7 @@ print(void:describe())
 ]]):format(roles))
     return { "holed.lua" }
   end
-  local told = "lacuna: note: face 6 could not be cut into facets"
+  local told = "lacuna: note: face 6 could not be triangulated"
   for _, roles in ipairs { "", "faces = { 1, 2, 3, 4, 5 }", "source = 1, target = 2, walls = 'auto'",
                            "source = 1, walls = 'auto'" } do
     expect(sweep_holed(roles), 1, {}, { told, "cad.face_left_out", "face 6 of holed.geo", "repair it" })
@@ -343,7 +343,7 @@ print(void:describe())
   expect(sweep_holed "faces = { 2, 6 }", 1, {}, { told, "names face 6, which was not read" })
   expect(sweep_holed "source = 1, target = 2, walls = { 3, 4, 5 }", 0,
     { "closed: face 6 of holed.geo was left out", "\nface 6 of holed.geo was left out",
-      "where it was stands void face 1" }, { told })
+      "its place is taken by void face 1" }, { told })
 end
 
 -- Ctrl-C: loops, coroutines and pcall cannot hold it up; nor can the kernel.

@@ -91,10 +91,10 @@ end
 check.equal(select(2, drawn { width = 64, height = 32 }), 64)
 for _, wrong in ipairs {
   { { cut = { point = { 0, 0, 0 } } }, "no 'normal'" }, { { cut = "x" }, "a table" },
-  { { cut = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } }, "no length" },
-  { { cut = { point = { -99, 0, 0 }, normal = { 1, 0, 0 } } }, "no cell" },
+  { { cut = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } }, "zero length" },
+  { { cut = { point = { -99, 0, 0 }, normal = { 1, 0, 0 } } }, "hides all cells" },
   { { layers = { 1 } }, "two numbers" }, { { layers = { 3, 4, 5 } }, "two numbers" },
-  { { layers = { 4, 4 } }, "there are 1 to 3" }, { { layers = { 2, 1 } }, "there are 1 to 3" },
+  { { layers = { 4, 4 } }, "layers 1 to 3" }, { { layers = { 2, 1 } }, "layers 1 to 3" },
   { { colour = "qality" }, 'did you mean "quality"?' },
 } do
   check.fails(function() mesh:picture(picture, wrong[1]) end, "picture:", wrong[2])
@@ -463,7 +463,7 @@ for row in (picks[1] .. "|"):gmatch("(.-)|") do
 end
 check.equal(shown, #told.faces)
 local bore = told.cavities[2]
-check.that(picks[2]:find("|bore, faces " .. table.concat(bore.faces, ", ") .. "  class V, volume", 1, true),
+check.that(picks[2]:find("|bore, faces " .. table.concat(bore.faces, ", ") .. "  likely class V, volume", 1, true),
     picks[2])
 check.equal(picks[3],
     ("local void = model:open_volume {|  faces = { %s },|}"):format(table.concat(bore.faces, ", ")),

@@ -6,6 +6,7 @@
 
 #include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/surface/boundary_layers.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>

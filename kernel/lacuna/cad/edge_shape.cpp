@@ -13,7 +13,7 @@ using namespace topology;
 
 namespace {
 
-/// Parts each side of an exact edge is divided into to measure its length.
+/// Number of samples of an exact edge for measuring its arc length.
 constexpr std::size_t kParts = 16;
 
 bool collinear(std::span<const Vec3> points, double tolerance)
@@ -64,7 +64,7 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     } else if (collinear(points_, model.tolerance)) {
         kind_ = Kind::straight;
     } else if (edge.origin == Origin::made_void) {
-        kind_ = Kind::smooth; // its points were made at even shares of its way
+        kind_ = Kind::smooth; // its points were placed at equidistant shares
         for (std::size_t i = 0; i < shares_.size(); ++i)
             shares_[i] = static_cast<double>(i) / static_cast<double>(shares_.size() - 1);
     } else {
@@ -72,7 +72,7 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic through the four measured places around: what is left of kinks in the parameter is far below any
+/// Cubic interpolation through the four nearest samples: the error of the arc length is far below any
 /// tolerance.
 double EdgeShape::parameter(double share) const
 {

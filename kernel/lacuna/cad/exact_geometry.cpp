@@ -9,19 +9,20 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Points of one request: large enough that asking costs nothing beside the answer, small enough that a
-/// cancel and other threads need not wait long. Measured on a million points of a sphere: 0.1 s each, and
-/// 0.7 times as long altogether as 100,000 at once.
+/// Points per request: enough that the cost of a request is negligible, few enough that cancelling and other
+/// threads wait only briefly (0.1 s; measured on a million points of a sphere, where it is also faster than
+/// 100,000 points per request).
 constexpr std::size_t kAtOnce = 20'000;
-/// How long a request for points may go on once it is cancelled [s]: one that
-/// ends by itself within that leaves the process with all it holds alive. A choice, not a measurement.
+/// How long a request for points may continue after it is cancelled [s]. If it ends within this time the
+/// process, with the models it holds, need not be killed.
 constexpr double kGrace = 0.3;
 
 void require_same(std::size_t asked, std::size_t came, const CadSource& source)
 {
     if (asked != came)
         throw BackendError("cad.protocol",
-                           source.path() + ": the CAD process answered for another number of points");
+                           source.path() +
+                               ": the CAD process returned the wrong number of points; load the file again");
 }
 
 Task points_task(const CadSource& source, std::string doing, std::size_t points, const RunContext& context)
@@ -54,7 +55,7 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(worker, path_ + " is needed by another CAD process", context);
+    held_ = load_again(worker, path_ + " must be read by another CAD process", context);
     before.worker->release(before.handle);
     return held_.handle;
 }
@@ -62,14 +63,14 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
 void CadSource::renew(const Held& gone, const std::string& why, const RunContext& context) const
 {
     const std::lock_guard lock(mutex_);
-    if (held_.worker != gone.worker) return; // another thread has
+    if (held_.worker != gone.worker) return; // another thread has reloaded it
     held_ = load_again(Worker::current(&context, path_), why, context);
 }
 
 CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const std::string& why,
                                       const RunContext& context) const
 {
-    RunContext quiet = context; // the work under way has a progress of its own
+    RunContext quiet = context; // the progress shown is that of the current stage, not of reloading
     quiet.progress = {};
     std::string trouble;
     try {
@@ -78,7 +79,7 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const std:
             const LoadReply reply = read_cad_files(*worker, order_, files, quiet);
             return {std::move(worker), reply.model};
         }
-        trouble = path_ + " has changed since";
+        trouble = path_ + " has changed";
     } catch (const Cancelled&) {
         throw;
     } catch (const WorkerGone&) {

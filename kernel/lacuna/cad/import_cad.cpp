@@ -24,7 +24,7 @@ void add_edges(topology::Model& model, LoadReply& reply, double scale,
         edge.to = VertexId(cad.to);
         edge.points = std::move(cad.points);
         edge.params = std::move(cad.params);
-        std::vector<LeftOutFace> left_out;
+        std::vector<topology::LeftOutFace> left_out;
         for (const Index f : cad.left_out) {
             const LoadReply::LeftOut& face = reply.left_out[index(f)];
             left_out.push_back({face.tag, source->path(), face.why});
@@ -36,7 +36,7 @@ void add_edges(topology::Model& model, LoadReply& reply, double scale,
     }
 }
 
-/// Leave out points and vertices that no edge and no facet uses, and set the diagonal.
+/// Remove points and vertices that no edge or facet uses, and set the diagonal.
 void compact(topology::Model& model)
 {
     std::vector<Index> place(model.points.size(), -1);

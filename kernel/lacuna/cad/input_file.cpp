@@ -23,11 +23,11 @@ using io::ending_of;
 
 namespace {
 
-constexpr std::size_t kHead = 4096; // bytes at the beginning, in which a file says what it is
+constexpr std::size_t kHead = 4096; // bytes at the beginning, from which the format is recognised
 constexpr std::size_t kBlock = std::size_t{1} << 20;
-/// Scripts longer than this are not written by hand, nor by Gmsh. A choice, not a measurement.
+/// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
-/// Files one script may bring along.
+/// Most files that a script may include and merge, itself included.
 constexpr std::size_t kMostContents = 100;
 
 [[noreturn]] void fail(const std::string& path, int error)
@@ -59,7 +59,7 @@ bool is_brep(const std::string& head)
 
 std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-/// What Gmsh would run as a script when a script merges it.
+/// Whether Gmsh treats a merged file as a script.
 bool runs_as_script(const std::string& name, const std::string& head)
 {
     const std::string ending = ending_of(name);
@@ -68,18 +68,18 @@ bool runs_as_script(const std::string& name, const std::string& head)
     return !is_step(head) && !is_brep(head);
 }
 
-/// Copy a regular file to memory, to the end of an input. A script gets a last newline: where it has none,
-/// Gmsh's parser drops a last command that is not whole without a word.
+/// Append a copy of a regular file to the input. A newline is added to a script: without one, Gmsh's parser
+/// silently drops an incomplete last command.
 void add_copy(InputFile& input, const std::string& name, const std::string& path, int flags,
               const RunContext& context)
 {
-    // Not to wait for a writer where it is a pipe.
+    // O_NONBLOCK: do not wait for a writer if the file is a pipe.
     const Descriptor from(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | flags));
     if (!from) fail(path, errno);
     struct stat status {};
     if (::fstat(from.get(), &status) != 0) fail(path, errno);
     if (!S_ISREG(status.st_mode))
-        throw InvalidInput("cad.not_a_file", path + " is no regular file; name a file that is on a disk");
+        throw InvalidInput("cad.not_a_file", path + " is not a regular file; name a file on a disk");
     Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!copy) fail(path, errno);
     std::vector<char> block(kBlock);
@@ -108,7 +108,7 @@ void add_copy(InputFile& input, const std::string& name, const std::string& path
     input.file.contents.push_back({name});
 }
 
-/// Every line of an IGES file has its section's letter in column 73.
+/// In an IGES file, column 73 of each line contains the letter of its section.
 bool is_iges(const std::string& head)
 {
     constexpr std::size_t kColumn = 72;
@@ -118,8 +118,7 @@ bool is_iges(const std::string& head)
 
 [[noreturn]] void throw_not_of_kind(const std::string& path, const std::string& kind)
 {
-    throw InvalidInput("cad.unreadable", path + " does not hold what its ending promises: this is no " +
-                                             kind +
+    throw InvalidInput("cad.unreadable", path + " is not a valid " + kind +
                                              " file; check the file, or give it the ending of what it holds");
 }
 
@@ -138,7 +137,7 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
         if (!is_brep(head)) throw_not_of_kind(path, "BREP");
         return LoadFile::brep;
     }
-    // A script is a program: its ending is meant, not met by chance.
+    // A script can run commands, so its ending must match exactly.
     const std::string written = path.substr(path.size() - ending.size());
     const bool meant = written == ending || std::none_of(written.begin(), written.end(),
                                                          [](unsigned char c) { return std::islower(c); });
@@ -147,7 +146,7 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     return LoadFile::script;
 }
 
-/// Write blanks over the commands of a copied script that are skipped, and note them.
+/// Replace skipped commands by blanks in the copy of a script, and add a note that lists them.
 void skip_commands(InputFile& input, const Descriptor& script, const std::string& path, std::string text,
                    const std::vector<SkippedCommand>& commands)
 {
@@ -158,7 +157,7 @@ void skip_commands(InputFile& input, const Descriptor& script, const std::string
         named += (named.empty() ? "" : ", ") + command.word + " (line " + std::to_string(command.line) + ")";
     }
     if (named.empty()) return;
-    input.notes.push_back(path + ": of this script only the geometry is read; skipped: " + named);
+    input.notes.push_back(path + ": only the geometry of the script is read. Skipped commands: " + named);
     for (std::size_t done = 0; done < text.size();) {
         const ssize_t now = ::pwrite(script.get(), text.data() + done, text.size() - done,
                                      static_cast<off_t>(done));
@@ -167,7 +166,7 @@ void skip_commands(InputFile& input, const Descriptor& script, const std::string
     }
 }
 
-/// Look through a script and bring along what it merges, and what that merges in turn.
+/// Parse a script, and add the files that it merges, recursively.
 void add_merged(InputFile& input, const std::string& path, const RunContext& context)
 {
     for (std::size_t i = 0; i < input.descriptors.size(); ++i) {
@@ -175,7 +174,8 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
         if (i > 0 && !runs_as_script(name, text_of(input.descriptors[i], kHead))) continue;
         const std::string own = i == 0 ? path : path.substr(0, path.size() - name_of(path).size()) + name;
         std::string text = text_of(input.descriptors[i], kLongestScript + 1);
-        if (text.size() > kLongestScript) throw InvalidInput("cad.script", own + " is too long for a script");
+        if (text.size() > kLongestScript)
+            throw InvalidInput("cad.script", own + " is too long for a script (64 MiB at most)");
         const ScriptContent found = look_through_script(own, text);
         skip_commands(input, input.descriptors[i], own, std::move(text), found.skipped);
         for (const ScriptFile& wanted : found.files) {
@@ -185,8 +185,8 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
             const std::string beside = path.substr(0, path.size() - name_of(path).size()) + wanted.name;
             if (::access(beside.c_str(), F_OK) != 0 || input.descriptors.size() == kMostContents) {
                 throw InvalidInput("cad.script", own + ", line " + std::to_string(wanted.line) +
-                                                     ": the script asks for " + wanted.name +
-                                                     ", which is not beside it");
+                                                     ": the script includes " + wanted.name +
+                                                     ", which is not in its folder; put it there");
             }
             add_copy(input, wanted.name, beside, O_NOFOLLOW, context);
         }
@@ -199,7 +199,7 @@ std::uint64_t digest_of(std::uint64_t word, std::uint64_t before)
 {
     constexpr std::uint64_t kOffset = 0xcbf29ce484222325ULL, kPrime = 0x100000001b3ULL;
     const std::uint64_t mixed = ((before ^ kOffset) ^ word) * kPrime;
-    return mixed ^ (mixed >> 32); // a word's upper half would move no lower bit
+    return mixed ^ (mixed >> 32); // multiplication leaves low bits independent of a word's upper half
 }
 
 std::uint64_t digest_of(std::span<const char> bytes, std::uint64_t before)
@@ -220,7 +220,7 @@ InputFile open_input(const std::string& path, const RunContext& context)
     input.file.path = path;
     input.file.format = format_of(path, text_of(input.descriptors.front(), kHead));
     if (input.file.format == LoadFile::script) add_merged(input, path, context);
-    // From here on no one can change the copies any more.
+    // Seal the copies: no process can modify them any more.
     for (const Descriptor& copy : input.descriptors)
         ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
     return input;

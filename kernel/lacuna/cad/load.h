@@ -16,33 +16,33 @@ using io::LoadOptions;
 
 /// Read files into one model: STEP, IGES, BREP, GEO, and what io::load_facets() reads.
 ///
-/// CAD faces get facets (chord error and turn bounded by curvature), exact curves and surfaces, and the
-/// tags Gmsh shows for the file; loose faces are sewn; orientation is made consistent. What then still does
-/// not share edges is joined by healing::stitch(); what it left out or apart is in Model::notes.
+/// CAD faces get facets (chord error and angle bounded by curvature), exact curves and surfaces, and the tags
+/// that Gmsh shows for the file. Loose faces are sewn and oriented consistently. Faces that still do not
+/// share edges are joined by healing::stitch(); Model::notes lists what it leaves out or apart.
 ///
-/// CAD files are read by a process of their own (lacuna-cad), started at the first of them, which may
-/// crash, hang or be cancelled without harm; it holds the exact geometry for as long as the model lives. A
-/// GEO script runs no commands, writes nothing, and includes and merges only files beside it. Other files
-/// start no process.
+/// CAD files are read by a separate process (lacuna-cad), started at the first CAD file, so that it can
+/// crash, hang or be cancelled without harm. It holds the exact geometry for the lifetime of the model. A GEO
+/// script runs no commands, writes nothing, and includes and merges only files of its own folder. Other
+/// formats do not need the process.
 /// @param limits  of that process.
-/// @throw InvalidInput  as io::load_facets(); a file that is no CAD file of its kind, a script that asks
-///                      for more than geometry ("cad.script"); names the file.
-/// @throw BackendError  Gmsh's own words, with the file; what became of the process ("cad.worker_ended",
-///                      "cad.time_limit", "cad.memory_limit"), or that there is none ("cad.no_worker").
+/// @throw InvalidInput  as io::load_facets(); a file is not of its CAD format, or a script does more than
+///                      make geometry ("cad.script"); names the file.
+/// @throw BackendError  the error of Gmsh, with the file; how the process ended ("cad.worker_ended",
+///                      "cad.time_limit", "cad.memory_limit"), or that it was not found ("cad.no_worker").
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
                      const RunContext& context = {}, const Limits& limits = {});
-/// load() that hands over the meshes of finite element files as well.
+/// As load(), and also returns the meshes of finite element files.
 io::LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions& options = {},
                            const RunContext& context = {}, const Limits& limits = {});
 
-/// Gmsh's recombination of a planar region into quads, boundary nodes kept, by the same process. Sizes are
-/// asked on a raster of 96 crossings along the longer side, within the region.
-/// @throw NotSweepable  an odd number of boundary sides ("cad.odd_rim"), or triangles left
+/// Fill a planar region with quads by Gmsh's recombination, in the CAD process; boundary nodes are kept.
+/// Target sizes are sampled inside the region, on a raster with 96 points along its longer side.
+/// @throw NotSweepable  an odd number of boundary segments ("cad.odd_rim"), or triangles remain
 ///                      ("cad.recombine"). InvalidInput  as quads::check(). BackendError  the process ended.
 quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext& context = {});
 
-/// Version of Gmsh in the CAD process, and what this system lacks to confine it; "none" where there is no
-/// such process.
+/// Version of Gmsh in the CAD process, and the confinement features that this system lacks; "none" if the
+/// CAD process is not installed.
 std::string gmsh_version();
 
 } // namespace lacuna::cad

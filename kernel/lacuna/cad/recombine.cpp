@@ -13,8 +13,8 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Crossings of the size raster along the longer side of a region: a choice, fine enough that sizes which
-/// change over a tenth of the region are met to a percent.
+/// Number of points of the size raster along the longer side of a region: fine enough for an error of one
+/// percent if the sizes vary over a tenth of the region.
 constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
@@ -24,7 +24,7 @@ std::size_t side_count(const quads::PlanarRegion& region)
     return sides;
 }
 
-/// Where a horizontal line meets the loops, from left to right.
+/// Abscissas at which a horizontal line crosses the loops, ascending.
 std::vector<double> cuts_at(const quads::PlanarRegion& region, double y)
 {
     std::vector<double> cuts;
@@ -40,8 +40,8 @@ std::vector<double> cuts_at(const quads::PlanarRegion& region, double y)
     return cuts;
 }
 
-/// The region's sizes on a raster over it. They are asked within the region alone; crossings outside take
-/// the mean of their neighbours, from the border outwards.
+/// Target sizes of a region, on a raster over it. They are evaluated inside the region only; points outside
+/// get the average of their neighbours, from the border outwards.
 SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBox2d& box,
                        const RunContext& context)
 {
@@ -72,7 +72,7 @@ SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBo
             }
         }
     }
-    if (!any) { // thinner than the raster
+    if (!any) { // the region is thinner than the spacing of the raster
         raster.sizes.assign(raster.sizes.size(),
                             region.size(region.points[index(region.loops.front().front())]));
         return raster;
@@ -89,7 +89,7 @@ SizeRaster size_raster(const quads::PlanarRegion& region, const Eigen::AlignedBo
                     for (int x = std::max(0, i - 1); x <= std::min(columns - 1, i + 1); ++x) {
                         const double size = before[index(y) * index(columns) + index(x)];
                         if (std::isnan(size)) continue;
-                        // Differences from the first, so that equal sizes have themselves for a mean.
+                        // Averaging differences keeps equal sizes exactly equal.
                         if (count == 0) first = size;
                         sum += size - first;
                         ++count;
@@ -114,7 +114,7 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
             "a region with " + std::to_string(sides) +
                 " boundary sides cannot be filled with quads; their number must be even and 4 at least");
     }
-    // Gmsh ends its process over loops that cross.
+    // Gmsh crashes on loops that intersect.
     quads::check(region);
     check_cancelled(context);
     RecombineRequest request{region.points, region.loops, {}};
@@ -126,22 +126,23 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     }
     Task task{"a region of " + std::to_string(sides) + " boundary sides", "filling it with quads"};
     task.context = &context;
-    task.points = sides * sides / 16; // as many quads as a round region of so many sides has
+    task.points = sides * sides / 16; // quads of a round region with this number of boundary segments
     const auto fill = [&] {
         try {
             return Worker::current(&context, task.subject)
                 ->ask<RecombineReply>(Opcode::recombine, request, task);
         } catch (const BackendError& error) {
             if (error.code() != "cad.worker_ended") throw;
-            // No file is to blame, as the worker's own words have it.
-            throw BackendError(error.code(), "Gmsh's quad mesher ended its process over " + task.subject +
-                                                 "; quads = \"paved\" does without it");
+            // No input file is involved, so the standard message of a crash does not apply.
+            throw BackendError(error.code(), "Gmsh's quad mesher crashed on " + task.subject +
+                                                 "; use quads = \"paved\", which does not need Gmsh");
         }
     };
     auto reply = fill();
     if (reply.points.size() < region.points.size() ||
         !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
-        throw BackendError("cad.protocol", "the CAD process moved nodes of the boundary of a region");
+        throw BackendError("cad.protocol",
+                           "the CAD process moved boundary nodes of a region; use quads = \"paved\"");
     return {std::move(reply.points), std::move(reply.quads), "gmsh"};
 }
 

@@ -11,7 +11,7 @@ namespace lacuna::cad {
 
 namespace {
 
-/// Words that reach beyond the geometry, and what they would do.
+/// Forbidden commands, and what they do.
 struct Word {
     std::string_view word, does;
 };
@@ -24,11 +24,11 @@ constexpr std::array kRefused{
     Word{"CreateOverlay", "writes files"},
     Word{"Exit", "ends Gmsh"},
 };
-/// Commands that make no geometry, but a file or a mesh; a blank on either side.
+/// Commands that write files or mesh instead of making geometry, each between blanks.
 constexpr std::string_view kSkipped =
     " Save Print CreateFile Plugin Mesh Remesh RefineMesh OptimizeMesh AdaptMesh RelocateMesh RecombineMesh "
     "TransformMesh SetOrder PartitionMesh UnpartitionMesh RenumberMeshNodes RenumberMeshElements ";
-/// Words a file name follows.
+/// Commands that are followed by a file name.
 constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile",
                                                  "ListFromFile"};
 
@@ -45,7 +45,7 @@ public:
             } else if (is_letter(c)) {
                 word();
             } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
-                // 1e5 holds no word.
+                // Skip the exponent of a number, as in 1e5: it is not a word.
                 while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
             } else {
                 ++at_;
@@ -61,7 +61,7 @@ private:
     {
         throw InvalidInput("cad.script",
                            path_ + ", line " + std::to_string(line_) + ": " + what +
-                               "; a script may make geometry, and include and merge files beside it");
+                               "; a script may make geometry, and include or merge files of its own folder");
     }
     void step()
     {
@@ -90,7 +90,7 @@ private:
         const char quote = text_[at_];
         std::string inside;
         for (++at_; at_ < text_.size() && text_[at_] != quote; step()) {
-            // Gmsh takes a backslash before a quote for the quote.
+            // In Gmsh, a backslash before a quote escapes the quote.
             if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] == quote) step();
             inside += text_[at_];
         }
@@ -102,7 +102,7 @@ private:
         const std::size_t from = at_;
         while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
         const std::string_view found = text_.substr(from, at_ - from);
-        // "Print.Background" is an option, and a script may set those.
+        // "Print.Background" is an option, and scripts may set options.
         if (at_ < text_.size() && text_[at_] == '.') return;
         for (const Word& refused : kRefused)
             if (found == refused.word) refuse(std::string(found) + " " + std::string(refused.does));
@@ -110,7 +110,7 @@ private:
         if (found == "Printf" || (skipped && begins_command(found))) command(found, from);
         if (std::find(kFiles.begin(), kFiles.end(), found) != kFiles.end()) file(found);
     }
-    /// Whether the word is a command here and no variable of that name.
+    /// Whether the word is used as a command and not as a variable name.
     bool begins_command(std::string_view found)
     {
         skip_to_code();
@@ -118,7 +118,7 @@ private:
         return next == '"' || next == '\'' || next == '(' || is_letter(next) ||
                (found != "Mesh" && (next == ';' || next == '{'));
     }
-    /// Leave out the command that began at `from`; of Printf only one that writes to a file:
+    /// Remove the command that began at `from`. Printf is removed only if it writes to a file:
     /// Printf ("…") > "file".
     void command(std::string_view found, std::size_t from)
     {
@@ -138,7 +138,7 @@ private:
         if (!leaves) return;
         if (at_ < text_.size()) return content_.skipped.push_back({word, line, from, ++at_});
         line_ = line;
-        refuse(word + " has no ; at its end");
+        refuse(word + " has no ';' at its end");
     }
     void file(std::string_view found)
     {

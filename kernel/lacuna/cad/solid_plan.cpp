@@ -19,11 +19,10 @@ using namespace cad_protocol;
 
 namespace {
 
-/// How exactly splines meet what they stand for, as a part of the diagonal: a hundredth of the tolerance
-/// there is by default.
+/// Precision of splines relative to the diagonal: a hundredth of the default tolerance.
 constexpr double kPrecision = 1e-8;
-/// Points a filled surface is led through at most, of each inner loop and of the facets: the time it takes
-/// grows with their cube.
+/// Most interpolation points of a filled surface, for each inner loop and for the facets: its cost grows with
+/// the cube of their number.
 constexpr std::size_t kLeadingPoints = 40;
 
 bool is_plane(const Model& model, const Face& face)
@@ -42,7 +41,7 @@ bool is_plane(const Model& model, const Face& face)
     return true;
 }
 
-/// The loop round the others first.
+/// Sort loops so that the outer loop comes first.
 std::vector<Loop> outermost_first(const Model& model, std::vector<Loop> loops)
 {
     const auto extent = [&](const Loop& loop) {
@@ -105,7 +104,7 @@ private:
 
     // --- edges ------------------------------------------------------------------------------------------
 
-    /// The curve an edge is all of.
+    /// Make the edge an exact curve if it covers the whole curve of the source.
     bool exact_curve(const Edge& edge, SolidEdge& made) const
     {
         const auto* curve = dynamic_cast<const CadCurve*>(edge.curve.get());
@@ -114,7 +113,7 @@ private:
         if (source == source_.end()) return false;
         const auto known = source->second.curves.find(curve->tag());
         if (known == source->second.curves.end()) return false;
-        // Scaling may have changed the curve's parameters, so ends and middle tell.
+        // Scaling may have changed the parameters of the curve, so compare its end points and middle.
         const double first = edge.params.front(), last = edge.params.back();
         const std::array<double, 3> params{first, (first + last) / 2, last};
         std::array<Vec3, 3> own;
@@ -178,7 +177,7 @@ private:
 
     void plane(FaceId id, SolidFace& made)
     {
-        // Without seams, which mean nothing in a plane.
+        // Seams are dropped: they have no meaning in a plane.
         for (const Loop& loop : outermost_first(model_, border_loops(model_, id)))
             made.loops.push_back(wire(loop));
     }
@@ -190,8 +189,8 @@ private:
             made.surfaces.push_back({data_of(surface.u), data_of(surface.v), surface.poles});
     }
 
-    /// A smooth surface over the outer loop, led through points of the facets and of inner loops, which
-    /// divide it.
+    /// A smooth surface over the outer loop, through points of the facets and of the inner loops, which are
+    /// then trimmed from it.
     void filling(FaceId id, SolidFace& made)
     {
         made.kind = SolidFace::filling;
@@ -232,9 +231,8 @@ private:
         }
         if (!is_void) {
             throw InvalidInput("cad.facets_alone",
-                               made.name +
-                                   " is bent and has facets alone, no exact surface a CAD file could hold; "
-                                   "write the volume with write_facets (.stl, .msh, .obj)");
+                               made.name + " is curved and has only facets, no exact surface for a CAD file; "
+                                           "write the volume with write_facets (.stl, .msh, .obj)");
         }
         ++plan_.fitted;
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
@@ -251,7 +249,7 @@ private:
     const RunContext& context_;
     double precision_ = 0;
     std::map<const CadSource*, Source> source_;
-    std::vector<Index> edge_at_; ///< in the plan, of every edge of the model; -1: not yet there
+    std::vector<Index> edge_at_; ///< position in the plan of each edge of the model; -1: not added yet
     SolidPlan plan_;
 };
 
@@ -259,7 +257,7 @@ private:
 
 namespace {
 
-/// Have all sources in one process.
+/// Load all sources into one process.
 void hold_in_one(SolidSources& sources, const RunContext& context)
 {
     if (sources.order.empty()) return;

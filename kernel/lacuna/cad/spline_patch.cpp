@@ -11,9 +11,10 @@ namespace lacuna::cad {
 
 namespace {
 
-/// Sides between the points of a spline at most. A full turn is then met to 3e-10 of its radius.
+/// Most intervals between the interpolated points of a spline. A full circle is then met to 3e-10 of its
+/// radius.
 constexpr std::size_t kMostSides = 256;
-/// Lines across along which a surface is probed.
+/// Number of lines in each direction along which a surface is probed.
 constexpr std::size_t kProbes = 5;
 
 std::vector<double> evenly(std::size_t sides)
@@ -31,7 +32,7 @@ std::vector<double> halfway(const std::vector<double>& parameters)
     return middles;
 }
 
-/// Poles of several curves with the same axis: a column a coordinate.
+/// Interpolate several curves with the same axis: one column for each coordinate.
 Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& values)
 {
     const auto count = static_cast<std::size_t>(values.rows());
@@ -40,7 +41,7 @@ Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& val
     for (std::size_t i = 0; i < count; ++i)
         collocation.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
     Eigen::MatrixXd poles = collocation.partialPivLu().solve(values);
-    poles.row(0) = values.row(0); // the ends to the bit, as corners are shared
+    poles.row(0) = values.row(0); // exactly, as other splines share these corners
     poles.bottomRows(1) = values.bottomRows(1);
     return poles;
 }
@@ -60,13 +61,13 @@ double greatest_distance(std::span<const Vec3> a, std::span<const Vec3> b)
     return greatest;
 }
 
-/// Sides a function of one parameter, with values of any number of places, must be divided into.
+/// Number of intervals needed to interpolate a function of one parameter whose values are lists of points.
 std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines,
                       double precision)
 {
     for (std::size_t sides = 1; sides < kMostSides; sides = sides == 1 ? 4 : 2 * sides) {
         const std::vector<double> at = evenly(sides);
-        // A straight side is one whose quarters lie on its chord too.
+        // A side counts as straight only if its quarter points lie on the chord as well.
         const std::vector<double> probes = sides == 1 ? evenly(4) : halfway(at);
         const auto values = lines(at);
         const auto wanted = lines(probes);
@@ -90,7 +91,7 @@ SplineAxis SplineAxis::even(std::size_t count)
     axis.degree = static_cast<int>(std::min<std::size_t>(3, count - 1));
     const std::vector<double> at = evenly(count - 1);
     axis.knots.push_back(0);
-    // Not-a-knot: the first and last inner parameters of a cubic give none.
+    // Not-a-knot: the first and last inner parameters of a cubic are not knots.
     for (std::size_t i = 2; axis.degree == 3 && i + 2 < at.size(); ++i) axis.knots.push_back(at[i]);
     axis.knots.push_back(1);
     axis.multiplicities.assign(axis.knots.size(), 1);
@@ -122,7 +123,7 @@ Eigen::VectorXd SplineAxis::basis(double parameter) const
     const auto p = static_cast<std::size_t>(degree);
     std::size_t span = p;
     while (span + p + 2 < flat.size() && parameter >= flat[span + 1]) ++span;
-    // Cox and de Boor, from the one function of degree 0 up.
+    // Cox-de Boor recursion, starting from the basis function of degree 0.
     std::vector<double> value(p + 1, 0.0);
     value[0] = 1;
     for (std::size_t d = 1; d <= p; ++d) {
@@ -161,7 +162,7 @@ SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns)
 {
     const std::size_t rows = grid.size() / columns;
     SplineSurface surface{SplineAxis::even(columns), SplineAxis::even(rows), {}};
-    // First along every row, then across the rows' poles.
+    // Interpolate each row, then the poles of the rows in the other direction.
     Eigen::MatrixXd values(static_cast<Eigen::Index>(columns), static_cast<Eigen::Index>(3 * rows));
     for (std::size_t j = 0; j < rows; ++j)
         values.middleCols(static_cast<Eigen::Index>(3 * j), 3) = rows_of(grid.subspan(j * columns, columns));

@@ -18,11 +18,11 @@ using namespace topology;
 
 namespace {
 
-/// Spans of the correction along a side at most; powers of two, so that its knots are among those of the
-/// surface.
+/// Most spans of the correction in each direction. A power of two: its knots are then knots of the surface.
 constexpr std::size_t kMostSpans = 16;
 
-/// Piecewise linear from the patch's parameter to a side's share, so that breaks of opposite sides meet.
+/// Piecewise linear map from the parameter of the patch to the share of a side, so that the breaks of
+/// opposite sides get the same parameter.
 struct BreakMap {
     std::vector<double> patch{0}, side{0};
 
@@ -44,7 +44,8 @@ struct BreakMap {
     }
 };
 
-/// As many breaks on both sides belong to each other in order; else every break is one of both.
+/// Pair the breaks of opposite sides: in order if their numbers agree, else every break is used on both
+/// sides.
 std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const std::vector<double>& b)
 {
     BreakMap on_a, on_b;
@@ -59,7 +60,7 @@ std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const st
     } else {
         std::vector<double> all;
         std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-        constexpr double kApart = 1e-9; // of a side: closer breaks are one
+        constexpr double kApart = 1e-9; // relative to the side: breaks closer than this are merged
         for (const double x : all) {
             if (x - on_a.patch.back() < kApart) continue;
             for (BreakMap* map : {&on_a, &on_b}) {
@@ -82,13 +83,13 @@ std::vector<EdgeUse> backward(std::vector<EdgeUse> uses)
     return uses;
 }
 
-/// What is added to the Coons patch: zero on all four sides.
+/// A displacement added to the Coons patch; zero on all four sides.
 struct Correction {
     SplineAxis u, v;
     std::array<Eigen::MatrixXd, 3> poles; ///< u by v; the outermost are zero
 };
 
-/// The patch over the unit square: bottom and top run with u, left and right with v.
+/// A Coons patch over the unit square: bottom and top are curves in u, left and right in v.
 class Patch {
 public:
     Patch(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
@@ -104,7 +105,7 @@ public:
     [[nodiscard]] const std::vector<double>& breaks_u() const { return on_bottom_.patch; }
     [[nodiscard]] const std::vector<double>& breaks_v() const { return on_left_.patch; }
 
-    /// Rows of u at each v.
+    /// Points of the patch: one row of u for each v.
     [[nodiscard]] std::vector<Vec3> grid(std::span<const double> u, std::span<const double> v) const
     {
         std::vector<Vec3> places = coons(u, v);
@@ -126,16 +127,16 @@ public:
         return places;
     }
 
-    /// Bend the patch to the facets, where their points are off it by more than their chords are off the
+    /// Fit the patch to the facets, if their points are farther from the patch than their chords are from the
     /// sides.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 
 private:
-    /// The sides at parameters across and along, and what the formula makes of them.
+    /// The points of the sides at given parameters, from which the Coons formula is evaluated.
     struct Sides {
         std::vector<Vec3> bottom, top, left, right;
-        std::array<Vec3, 4> corner; ///< bottom's two, top's two
+        std::array<Vec3, 4> corner; ///< two of the bottom, two of the top
         [[nodiscard]] Vec3 at(std::size_t i, double u, std::size_t j, double v) const
         {
             const Vec3 corners = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
@@ -168,7 +169,7 @@ private:
     friend struct Laid;
 };
 
-/// A face cut open along its loop and laid into the unit square.
+/// A face cut open along its loop and mapped to the unit square.
 struct Laid {
     std::vector<Vec3> points;
     std::vector<Vec2> uv;
@@ -203,21 +204,21 @@ struct Laid {
     }
 
 private:
-    /// Facets over points of their own: a point on a seam, which the loop passes twice, becomes two.
+    /// Give the facets their own points: a point on a seam, which the loop passes twice, is duplicated.
     std::vector<Triangle> cut_open(const Model& model, const Face& face)
     {
-        std::map<Segment, std::size_t> facet_at; // directed sides
+        std::map<Segment, std::size_t> facet_at; // facet of each directed side
         for (std::size_t t = 0; t < face.triangles.size(); ++t)
             for (std::size_t i = 0; i < 3; ++i)
                 facet_at[{face.triangles[t][i], face.triangles[t][(i + 1) % 3]}] = t;
-        std::map<Segment, int> rim; // sides the loops run along
+        std::map<Segment, int> rim; // position in the loop of each directed rim side
         for (const Loop& loop : face.loops) {
             for (const EdgeUse& use : loop.uses) {
                 const std::vector<Index> chain = use_points(model, use);
                 for (std::size_t k = 0; k + 1 < chain.size(); ++k) rim[{chain[k], chain[k + 1]}] = 1;
             }
         }
-        // Corners of facets that meet at a side off the rim are one.
+        // Merge facet corners that meet at a side that is not on the rim.
         geometry::UnionFind same(3 * face.triangles.size());
         const auto corner_of = [&](std::size_t t, Index p) {
             const Triangle& corners = face.triangles[t];
@@ -240,7 +241,7 @@ private:
         return open;
     }
 
-    std::map<Segment, Index> corner_; ///< the point a directed side begins at
+    std::map<Segment, Index> corner_; ///< the point at which a directed side starts
 };
 
 void Patch::follow(const Model& model, const Face& face)
@@ -286,7 +287,7 @@ void Patch::follow(const Model& model, const Face& face)
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
         right += row * off[i].transpose();
     }
-    // Poles no point says anything about stay where the patch is.
+    // Poles without data near them keep the shape of the patch.
     normal.diagonal().array() += 1e-8 * static_cast<double>(inner) / static_cast<double>(unknowns);
     const Eigen::MatrixXd solved = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
     for (Eigen::Index d = 0; d < 3; ++d) {
@@ -305,7 +306,7 @@ std::vector<SplineSurface> void_patches(const Model& model, const Face& face,
 {
     Patch patch(model, sides);
     patch.follow(model, face);
-    // What is led by facets is no better known than they are.
+    // A surface fitted to facets is not more precise than the facets.
     if (patch.follows()) precision *= 10;
     std::vector<SplineSurface> surfaces;
     const std::vector<double>&u = patch.breaks_u(), &v = patch.breaks_v();

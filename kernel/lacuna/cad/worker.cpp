@@ -23,7 +23,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ; // NOLINT(readability-redundant-declaration): POSIX does not say who declares it
+extern char** environ; // NOLINT(readability-redundant-declaration): not declared by every POSIX system
 
 namespace lacuna::cad {
 
@@ -32,16 +32,16 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// Seconds for a request, and more for each million bytes of files and for each thousand points. The shared
-/// CAD cases (10 to 86 kB) take 0.1 to 1 s; files made to hang must not hold a person for over 20 s.
+/// Time limit of a request: a constant, plus a share for each million bytes of files and each thousand
+/// points. The shared CAD cases (10 to 86 kB) take 0.1 to 1 s; a file that hangs must fail within 20 s.
 constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
 constexpr double kMostSeconds = 3600;
-/// Address space for a request: libraries take some 0.6 GB of it, a model of 86 kB less than 0.2 GB.
+/// Address space of a request: the libraries take about 0.6 GB, a model of 86 kB less than 0.2 GB.
 constexpr std::uint64_t kMemory = std::uint64_t{1792} << 20;
 constexpr std::uint64_t kMemoryPerByte = 2000, kMemoryPerPoint = 2000;
-/// The longest a worker may take to start [s]: libraries come from a cold disk.
+/// Time limit of starting a process [s]: libraries may be read from a slow disk.
 constexpr double kStartSeconds = 60;
-/// Bytes of what a worker printed that an error repeats.
+/// Bytes of a process's output that an error message quotes.
 constexpr std::size_t kLastWords = 300;
 
 double from_environment(const char* name)
@@ -63,7 +63,7 @@ double seconds_for(const Task& task)
     return task.limits.may_raise ? task.limits.seconds : std::min(task.limits.seconds, seconds);
 }
 
-/// @param charged  what files and points that the process holds ask for beyond the least [bytes].
+/// @param charged  memory for files and points in the process, beyond the constant part [bytes].
 std::uint64_t memory_for(const Task& task, std::uint64_t charged)
 {
     auto memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
@@ -72,7 +72,7 @@ std::uint64_t memory_for(const Task& task, std::uint64_t charged)
     return task.limits.may_raise ? task.limits.memory : std::min(task.limits.memory, memory);
 }
 
-/// A number as a person writes it.
+/// A number for messages.
 std::string plain(double value)
 {
     std::ostringstream text;
@@ -81,7 +81,7 @@ std::string plain(double value)
     return text.str();
 }
 
-/// Thrown out of a wait whose time is over.
+/// Thrown when the time limit is exceeded.
 struct TimeOver {};
 
 Clock::time_point after(double seconds)
@@ -89,7 +89,7 @@ Clock::time_point after(double seconds)
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// Wait by the clock on the wall; once cancelled, for `grace` seconds more.
+/// Limit elapsed time; after cancelling, wait `grace` seconds more.
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace = 0)
 {
     std::optional<Clock::time_point> cancelled;
@@ -102,7 +102,7 @@ Channel::Patience patience_of(const RunContext* context, double seconds, double 
     };
 }
 
-/// Processor time a process has used [s]; 0 where it is gone.
+/// Processor time of a process [s]; 0 if it has ended.
 double processor_seconds(pid_t process)
 {
     clockid_t clock = {};
@@ -111,9 +111,8 @@ double processor_seconds(pid_t process)
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-/// A busy machine must not make a good file fail: what counts is the processor time of the worker. One that
-/// waits for nothing uses none, so that the clock on the wall ends it, after so many times as long. A choice,
-/// not a measurement.
+/// A request is limited by processor time, so that a good file does not fail on a busy machine. A process
+/// that waits uses none, so elapsed time is limited too, to this multiple.
 constexpr double kWallFactor = 4;
 
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace, pid_t worker)
@@ -125,9 +124,9 @@ Channel::Patience patience_of(const RunContext* context, double seconds, double 
     };
 }
 
-/// What the worker gets of the host's environment: where its libraries lie. FLTK, which Gmsh brings along,
-/// writes preferences to the home folder as it starts, and to /etc where there is none; below /dev/null it
-/// can write nothing.
+/// Environment variables passed to the CAD process: the library paths. FLTK, which is part of Gmsh, writes
+/// preferences to the home folder when it starts, or to /etc if there is none; HOME below /dev/null prevents
+/// this.
 std::vector<std::string> worker_environment()
 {
     std::vector<std::string> kept{"LC_ALL=C", "HOME=/dev/null"};
@@ -158,7 +157,7 @@ public:
     posix_spawnattr_t attributes{};
 };
 
-/// Start the program with `socket` as its descriptor 3, printing to `words`, in a group of its own.
+/// Start the program in its own process group, with `socket` as descriptor 3 and its output in `words`.
 pid_t spawn(const std::string& program, int socket, int words)
 {
     SpawnActions actions;
@@ -189,7 +188,7 @@ pid_t spawn(const std::string& program, int socket, int words)
     return pid;
 }
 
-/// A descriptor above the standard ones, which the worker's are laid over.
+/// A copy of a descriptor above the standard ones, which are overwritten in the CAD process.
 Descriptor raised(int number)
 {
     constexpr int kFirst = 10;
@@ -197,7 +196,8 @@ Descriptor raised(int number)
     return number > 3 ? std::move(low) : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFirst));
 }
 
-/// One to a process, made anew in a child of fork(); never destroyed, as a host's statics may outlive ours.
+/// The current process of this host, replaced in a child of fork(). Never destroyed, as static objects of the
+/// host may use it at exit.
 struct Current {
     pid_t owner = ::getpid();
     std::mutex mutex;
@@ -224,7 +224,7 @@ std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::st
     const std::lock_guard lock(current.mutex);
     if (current.worker && !current.worker->spent_) {
         const std::unique_lock busy(current.worker->busy_, std::try_to_lock);
-        // One that works is alive; of one that idles, see whether it still is.
+        // A busy process is running; check an idle one.
         if (busy) current.worker->notice_end();
         if (!busy || !current.worker->ended_) return current.worker;
     }
@@ -249,7 +249,7 @@ bool Worker::lives()
 {
     if (owner_ != ::getpid()) return false;
     const std::unique_lock lock(busy_, std::try_to_lock);
-    if (!lock) return true; // it works
+    if (!lock) return true; // busy, so it is running
     notice_end();
     return !ended_;
 }
@@ -262,7 +262,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
         throw BackendError("cad.no_worker",
                            std::string("the CAD process does not start: ") + std::strerror(errno));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
-    // Large enough that a bulk call is a few waits, not hundreds.
+    // Large enough that a large message needs few waits.
     constexpr int kBuffer = 1 << 20;
     for (const int end : {ours.get(), theirs.get()})
         ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
@@ -283,7 +283,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
             const auto failure = decode<Failure>(frame.bytes);
             throw BackendError(failure.code, failure.message);
         }
-        if (frame.opcode != Opcode::hello) throw ProtocolError("no greeting came");
+        if (frame.opcode != Opcode::hello) throw ProtocolError("it sent no greeting");
         hello_ = decode<Hello>(frame.bytes);
     } catch (const TimeOver&) {
         end();
@@ -295,8 +295,8 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                            program + " ended while it was started (" + how_it_ended() + last_words() + ")");
     } catch (const ProtocolError& error) {
         end();
-        throw BackendError("cad.no_worker", program + " is no CAD process of this Lacuna: " + error.what() +
-                                                " (" + how_it_ended() + last_words() + ")");
+        throw BackendError("cad.no_worker", program + " does not belong to this version of Lacuna: " +
+                                                error.what() + " (" + how_it_ended() + last_words() + ")");
     } catch (...) {
         end();
         throw;
@@ -314,7 +314,7 @@ void Worker::end() noexcept
     ended_ = true;
     siginfo_t info{};
     const auto id = static_cast<id_t>(process_.get());
-    // It may just have ended by itself: how, says more than our signal.
+    // If the process has just ended by itself, keep its own exit status.
     if (process_ && ::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG) == 0 && info.si_pid == 0) {
         ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
         while (::waitid(P_PIDFD, id, &info, WEXITED) != 0 && errno == EINTR) {}
@@ -325,9 +325,9 @@ void Worker::end() noexcept
 
 std::string Worker::how_it_ended() const
 {
-    if (status_ >= 0) return "it ended with " + std::to_string(status_);
+    if (status_ >= 0) return "exit code " + std::to_string(status_);
     const char* name = ::sigabbrev_np(-status_);
-    return std::string("it was ended by SIG") + (name != nullptr ? name : std::to_string(-status_));
+    return std::string("signal SIG") + (name != nullptr ? name : std::to_string(-status_));
 }
 
 std::string Worker::last_words() const
@@ -345,10 +345,10 @@ std::string Worker::last_words() const
 
 void Worker::died(const Task& task)
 {
-    // The stream may close a moment before the process is gone.
+    // The stream may close shortly before the process ends.
     if (!ended_) {
         siginfo_t info{};
-        constexpr int kTries = 100; // of 10 ms: writing out a large process takes a while
+        constexpr int kTries = 100; // of 10 ms: a large process takes time to end
         for (int i = 0; i < kTries; ++i) {
             if (::waitid(P_PIDFD, static_cast<id_t>(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) !=
                     0 ||
@@ -358,19 +358,19 @@ void Worker::died(const Task& task)
         }
         end();
     }
-    end_ = "it crashed over " + task.subject;
+    end_ = "it crashed on " + task.subject;
     throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing +
                                                ": " + how_it_ended() + last_words() +
-                                               "; the file is damaged, or Open CASCADE cannot cope with it: "
+                                               ". The file is damaged or Open CASCADE cannot read it; "
                                                "repair it in the CAD system or export it anew");
 }
 
 void Worker::give_up(const Task& task, const ProtocolError& error)
 {
-    end_ = "it made no sense over " + task.subject;
+    end_ = "it broke the protocol on " + task.subject;
     end();
-    throw BackendError("cad.protocol", task.subject + ": the CAD process made no sense while " + task.doing +
-                                           ": " + error.what());
+    throw BackendError("cad.protocol", task.subject + ": the CAD process sent invalid data while " +
+                                           task.doing + ": " + error.what());
 }
 
 std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
@@ -412,7 +412,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
                     task.context->progress(task.stage, fraction);
                 continue;
             }
-            if (frame.opcode != Opcode::failed) throw ProtocolError("an answer that is none");
+            if (frame.opcode != Opcode::failed) throw ProtocolError("unexpected kind of reply");
             const auto failure = decode<Failure>(frame.bytes);
             spent_ = spent_ || opcode == Opcode::load;
             switch (failure.kind) {
@@ -421,20 +421,20 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
             case Failure::not_sweepable:
                 throw NotSweepable(failure.code, failure.message);
             case Failure::out_of_memory:
-                // What it still holds of the attempt is not known, so it goes.
-                end_ = "it ran out of memory over " + task.subject;
+                // The process may hold memory of the failed attempt, so it is killed.
+                end_ = "it ran out of memory on " + task.subject;
                 end();
                 throw BackendError("cad.memory_limit",
                                    task.subject + ": " + task.doing + " took more than the " +
                                        std::to_string(memory >> 20) +
-                                       " MiB the CAD process may use; repair the file, or allow "
+                                       " MiB that the CAD process may use; repair the file, or allow "
                                        "more with LACUNA_CAD_MEGABYTES");
             default:
                 throw BackendError(failure.code, failure.message);
             }
         }
     } catch (const TimeOver&) {
-        end_ = "it took too long over " + task.subject;
+        end_ = "it exceeded its time limit on " + task.subject;
         end();
         throw BackendError(
             "cad.time_limit",
@@ -451,8 +451,8 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
         throw;
     } catch (const BackendError&) {
         throw;
-    } catch (...) { // Cancelled, or what a progress callback threw: the answer is not waited for.
-        end_ = "it was stopped over " + task.subject;
+    } catch (...) { // Cancelled, or an exception of the progress callback: do not wait for the reply.
+        end_ = "it was stopped while working on " + task.subject;
         end();
         throw;
     }
@@ -481,7 +481,7 @@ void Worker::flush_released()
     }
     for (const std::uint64_t handle : handles) {
         charged_.erase(handle);
-        constexpr double kSecondsToSend = 5; // it is idle, and the message is small
+        constexpr double kSecondsToSend = 5; // the process is idle and the message is small
         channel_->send(Opcode::release, encode(ReleaseRequest{handle}), {},
                        patience_of(nullptr, kSecondsToSend));
     }
@@ -497,7 +497,7 @@ void Worker::release(std::uint64_t handle) noexcept
         }
         const std::unique_lock lock(busy_, std::try_to_lock);
         if (lock && !ended_) flush_released();
-    } catch (...) { // It ended, or memory did; the next request will see.
+    } catch (...) { // The process ended, or memory is exhausted; the next request notices.
     }
 }
 

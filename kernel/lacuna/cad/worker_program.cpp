@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// Folders above a program or library that may be the root of its installation: lib/<machine>/lua/5.4 is
-/// the deepest.
+/// Number of folders above a program or library that may be the root of its installation: four for
+/// lib/<machine>/lua/5.4.
 constexpr int kMostLevels = 4;
 
-/// Beside a binary, and in libexec of the installation it is in.
+/// Add the folder of a binary, and libexec of its installation.
 void add_around(const fs::path& binary, std::vector<fs::path>& places)
 {
     std::error_code error;
@@ -40,8 +40,8 @@ std::string find_worker_program()
 {
     if (const char* named = std::getenv("LACUNA_CAD"); named != nullptr && *named != '\0') {
         if (::access(named, X_OK) == 0) return named;
-        throw BackendError("cad.no_worker", std::string("LACUNA_CAD names ") + named +
-                                                ", which is no program that can be started");
+        throw BackendError("cad.no_worker",
+                           std::string("LACUNA_CAD names ") + named + ", which is not an executable file");
     }
     std::vector<fs::path> places;
     add_around("/proc/self/exe", places);

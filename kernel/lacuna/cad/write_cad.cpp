@@ -20,27 +20,26 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Free edges a message names before it only counts.
+/// Most free edges that a message names.
 constexpr std::size_t kNamedEdges = 4;
-/// Sewing bridges no wider gaps than this part of the diagonal: what is that far apart does not belong
-/// together.
+/// Widest gap that sewing closes, relative to the diagonal: faces farther apart do not belong together.
 constexpr double kWidestGap = 1e-3;
 void check_sealed(const OpenVolume& volume)
 {
     if (closure::is_watertight(volume)) return;
     const std::vector<EdgeId> open = free_edges(volume);
-    std::string which = "it encloses nothing";
+    std::string which = "its faces enclose no space";
     if (!open.empty()) {
         which = std::to_string(open.size()) + (open.size() == 1 ? " edge is free: " : " edges are free: ");
         for (std::size_t i = 0; i < std::min(open.size(), kNamedEdges); ++i)
             which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
         if (open.size() > kNamedEdges) which += ", …";
     }
-    throw InvalidInput("cad.not_sealed",
-                       "the volume is not sealed, so it is no solid: " + which + "; close() it first");
+    throw InvalidInput("cad.not_sealed", "the volume is not sealed, so it cannot be written as a solid: " +
+                                             which + "; close() it first");
 }
 
-/// A STEP file's head without the time it was written at.
+/// Set the time stamp of a STEP file to a constant.
 void forget_time(std::string& bytes)
 {
     const std::size_t name = std::min(bytes.find("FILE_NAME("), bytes.size());
@@ -59,8 +58,8 @@ void forget_time(std::string& bytes)
     }
 }
 
-/// What the CAD process wrote; of a STEP file what it is every time: Open CASCADE notes when it wrote it, and
-/// names the product by how many it has written.
+/// The bytes that the CAD process wrote. In a STEP file, the time stamp and the product name, which Open
+/// CASCADE numbers, are replaced by constants.
 std::string bytes_of(int descriptor, bool step)
 {
     const off_t size = ::lseek(descriptor, 0, SEEK_END);
@@ -94,7 +93,7 @@ void check_options(const WriteCadOptions& options)
                                                 std::to_string(options.deviation));
 }
 
-/// A solid under way in the CAD process, forgotten there with the object.
+/// A solid under construction in the CAD process; released by the destructor.
 struct BegunSolid {
     BegunSolid(std::shared_ptr<Worker> worker_making_it, std::uint64_t its_handle)
         : worker(std::move(worker_making_it)), handle(its_handle)
@@ -116,9 +115,9 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     check_options(options);
     const std::string ending = io::ending_of(path.text());
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
-        throw InvalidInput("cad.unknown_ending",
-                           "cannot write a solid to '" + path.text() + "': the ending \"" + ending +
-                               "\" says no format; solids are written as .step, .stp and .brep");
+        throw InvalidInput("cad.unknown_ending", "cannot write a solid to '" + path.text() +
+                                                     "': the ending \"" + ending +
+                                                     "\" is not a CAD format; use .step, .stp or .brep");
     }
     check_sealed(volume);
     io::WholeFile file(path);
@@ -142,7 +141,8 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
         {source.get(), all.get(), result.get()});
     const BegunSolid begun(worker, found.solid);
     if (found.sources.size() != sources.order.size())
-        throw BackendError("cad.protocol", path.text() + ": the CAD process answered for other files");
+        throw BackendError("cad.protocol",
+                           path.text() + ": the CAD process returned other files than requested");
     SolidPlan plan = plan_solid(volume, sources, found, context);
 
     WrittenCad written;

@@ -12,38 +12,39 @@
 namespace lacuna::cad {
 
 struct WriteCadOptions {
-    /// Gaps sewn up [model length]; 0: the model's tolerance, and ten times more each try where that does not
-    /// seal it.
+    /// Largest gap that sewing closes [model length]; 0: the tolerance of the model, then ten times as much
+    /// in each further attempt.
     double tolerance = 0;
-    double deviation = 0.05; ///< the solid's volume may differ by this part from that within the facets [-]
-    Limits limits{};         ///< of the CAD process
+    double deviation =
+        0.05;        ///< allowed difference of the solid's volume from that inside the facets, relative [-]
+    Limits limits{}; ///< limits of the CAD process
 };
 
-/// What was written, as it reads back.
+/// The solid that was written, measured after reading it back.
 struct WrittenCad {
     double volume = 0;       ///< of the solid [model length³]
-    double facet_volume = 0; ///< within the facets of the sealed volume [model length³]
+    double facet_volume = 0; ///< inside the facets of the sealed volume [model length³]
     std::size_t faces = 0;   ///< of the solid
-    std::size_t planes = 0;  ///< void faces that became planes
-    std::size_t fitted = 0;  ///< void faces that became fitted surfaces, each of one or more
-    double tolerance = 0;    ///< of the sewing [model length]
+    std::size_t planes = 0;  ///< void faces written as planes
+    std::size_t fitted = 0;  ///< void faces written as one or more fitted surfaces
+    double tolerance = 0;    ///< used for sewing [model length]
 };
 
-/// Write a sealed volume as one CAD solid, whole or not at all: `.step`, `.stp` (lengths of the model as
-/// mm) or `.brep`.
+/// Write a sealed volume as one CAD solid: `.step`, `.stp` (lengths of the model in mm) or `.brep`. The file
+/// appears only if everything succeeds.
 ///
-/// Given CAD faces are those of the file they came from, scaled as the model was. A flat void face is a
-/// plane between the given edges themselves, lines and splines; one with four logical sides is a spline
-/// surface over its sides (see void_patches()); any other is filled in over its edges and through points of
-/// its facets. A given face that has facets alone is written where it is flat. All is sewn; what was
-/// written is read back, and must be one closed solid.
+/// Given CAD faces are copied from their source file, scaled as the model was. A planar void face becomes a
+/// plane bounded by the exact given edges, lines and splines. A void face with four logical sides becomes
+/// spline surfaces (see void_patches()). Other void faces become filled surfaces over their edges and some
+/// points of their facets. Given faces without an exact surface are written if they are planar. The faces are
+/// sewn, and the file is read back: it must contain one closed solid.
 ///
-/// @throw InvalidInput  the volume is not sealed (names free edges); a face that is bent and has facets
-///                      alone (names it; write_facets() can write it); an unknown ending, a missing folder.
+/// @throw InvalidInput  the volume is not sealed (names free edges); a curved face has no exact surface
+///                      (names it; write_facets() can write it); an unknown ending, a missing folder.
 /// @throw BackendError  a surface cannot be made (names the face), the faces cannot be sewn, the file does
-///                      not read back as one closed solid of the volume, the disk is full. Nothing is left
-///                      behind.
-/// @note  The same volume gives the same bytes; the time in a STEP file's head is that of 1970, its product
+///                      not read back as one closed solid of the right volume, the disk is full. No file is
+///                      left behind.
+/// @note  The same volume gives the same bytes: the time stamp of a STEP file is set to 1970, and its product
 ///        is called "volume".
 WrittenCad write_cad(const topology::OpenVolume& volume, const io::OutputPath& path,
                      const WriteCadOptions& options = {}, const RunContext& context = {});

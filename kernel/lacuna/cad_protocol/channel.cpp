@@ -15,14 +15,14 @@ namespace lacuna::cad_protocol {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
-constexpr std::uint16_t kVersion = 3;        // raised with every change of a message
-/// Descriptors of one frame: the kernel passes 253 at most. A choice, not a measurement.
+constexpr std::uint16_t kVersion = 3;        // incremented with every change of a message
+/// Most descriptors of one frame; the kernel allows 253.
 constexpr std::size_t kMostDescriptors = 250;
-/// Bytes of one frame: more than any model that can be meshed. A choice, not a measurement.
+/// Most bytes of one frame: more than any model that can be meshed.
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
-/// Bytes memory grows by while a frame arrives, so that a length alone allocates little.
+/// Memory grows in steps of this size while a frame arrives, so that a false length allocates little.
 constexpr std::size_t kGrowth = std::size_t{16} << 20;
-/// How often patience is asked [ms].
+/// Period at which `Patience` is called [ms].
 constexpr int kTick = 50;
 
 struct Head {
@@ -36,7 +36,7 @@ static_assert(sizeof(Head) == 24);
 
 bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 
-/// Take the descriptors that came with a piece of the stream.
+/// Take the descriptors that arrived with a part of the stream.
 void collect(msghdr& message, std::vector<Descriptor>& into)
 {
     for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
@@ -48,7 +48,7 @@ void collect(msghdr& message, std::vector<Descriptor>& into)
             into.emplace_back(number);
         }
     }
-    if ((message.msg_flags & MSG_CTRUNC) != 0) throw ProtocolError("more descriptors than a frame may carry");
+    if ((message.msg_flags & MSG_CTRUNC) != 0) throw ProtocolError("a frame has too many descriptors");
 }
 
 } // namespace
@@ -78,7 +78,7 @@ void Channel::wait_for(short events, const Patience& patience)
 void Channel::send(Opcode opcode, std::string_view bytes, const std::vector<int>& descriptors,
                    const Patience& patience)
 {
-    if (descriptors.size() > kMostDescriptors) throw ProtocolError("more descriptors than a frame may carry");
+    if (descriptors.size() > kMostDescriptors) throw ProtocolError("a frame has too many descriptors");
     Head head;
     head.opcode = static_cast<std::uint16_t>(opcode);
     head.descriptors = descriptors.size();
@@ -141,11 +141,10 @@ Frame Channel::receive(const Patience& patience)
         }
     };
     while (got < sizeof(head)) got += read_into(reinterpret_cast<char*>(&head) + got, sizeof(head) - got);
-    if (head.magic != kMagic) throw ProtocolError("what came is no frame");
-    if (head.version != kVersion)
-        throw ProtocolError("the other side speaks another version of the protocol");
-    if (head.length > kMostBytes) throw ProtocolError("a frame longer than any may be");
-    if (head.descriptors > kMostDescriptors) throw ProtocolError("more descriptors than a frame may carry");
+    if (head.magic != kMagic) throw ProtocolError("the data received is not a frame");
+    if (head.version != kVersion) throw ProtocolError("the CAD process has another protocol version");
+    if (head.length > kMostBytes) throw ProtocolError("a frame is too long");
+    if (head.descriptors > kMostDescriptors) throw ProtocolError("a frame has too many descriptors");
     const auto length = static_cast<std::size_t>(head.length);
     got = 0;
     while (got < length) {
@@ -153,7 +152,7 @@ Frame Channel::receive(const Patience& patience)
         got += read_into(frame.bytes.data() + got, frame.bytes.size() - got);
     }
     if (frame.descriptors.size() != head.descriptors)
-        throw ProtocolError("descriptors that were announced are missing");
+        throw ProtocolError("announced descriptors are missing");
     frame.opcode = static_cast<Opcode>(head.opcode);
     return frame;
 }

@@ -32,10 +32,10 @@ private:
     int number_ = -1;
 };
 
-/// The other side has closed its end.
+/// The other process has closed its end of the socket.
 class ChannelClosed : public ProtocolError {
 public:
-    ChannelClosed() : ProtocolError("the other side has gone") {}
+    ChannelClosed() : ProtocolError("the connection was closed") {}
 };
 
 struct Frame {
@@ -44,19 +44,19 @@ struct Frame {
     std::vector<Descriptor> descriptors;
 };
 
-/// One end of a stream socket that carries whole frames, each with descriptors if need be.
+/// One end of a stream socket that transports whole frames, optionally with file descriptors.
 ///
-/// A frame is a head of 24 bytes (magic, version, opcode, number of descriptors, length) and its bytes.
-/// Neither a length nor a number of descriptors is believed: memory grows as bytes arrive.
+/// A frame is a header of 24 bytes (magic, version, opcode, number of descriptors, length) and its payload.
+/// Lengths and numbers of descriptors are not trusted: memory is allocated as bytes arrive.
 class Channel {
 public:
-    /// Called at least every 50 ms while the channel waits; may throw to give up, after which the channel
-    /// is of no more use.
+    /// Called at least every 50 ms while the channel waits. May throw to give up; the channel must not be
+    /// used after that.
     using Patience = std::function<void()>;
 
     explicit Channel(Descriptor socket);
 
-    /// @throw ChannelClosed. Never raises SIGPIPE.
+    /// @throw ChannelClosed. SIGPIPE is not raised.
     void send(Opcode opcode, std::string_view bytes, const std::vector<int>& descriptors = {},
               const Patience& patience = {});
     /// @throw ChannelClosed, ProtocolError.

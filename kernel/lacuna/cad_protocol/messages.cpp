@@ -5,7 +5,7 @@
 
 namespace lacuna::cad_protocol {
 
-// The fields of every message in their order on the wire, once for writing and reading.
+// The fields of each message in their order in the byte stream; one list serves writing and reading.
 
 template <class A, class M>
 void put(A& with, M& m)
@@ -87,7 +87,7 @@ void require(bool right, const char* what)
     if (!right) throw ProtocolError(what);
 }
 
-/// Numbers that will be used as positions must be positions.
+/// Check that numbers used as indices are in range.
 template <class Range>
 void require_below(const Range& numbers, std::size_t count, const char* what)
 {
@@ -102,7 +102,7 @@ void require_finite(const Range& points, const char* what)
 
 bool is_file_name(const std::string& name)
 {
-    constexpr std::size_t kLongest = 255; // of a file system
+    constexpr std::size_t kLongest = 255; // limit of most file systems
     return !name.empty() && name.size() <= kLongest && name.find('/') == std::string::npos;
 }
 
@@ -121,146 +121,154 @@ template <>
 void check(const LoadRequest& m)
 {
     for (const LoadFile& file : m.files) {
-        require(file.format < LoadFile::count && !file.contents.empty(), "a file of no format");
+        require(file.format < LoadFile::count && !file.contents.empty(),
+                "a file has no format or no contents");
         for (const SentFile& sent : file.contents) {
-            require(is_file_name(sent.name), "a file name with a folder");
+            require(is_file_name(sent.name), "a file name contains a folder");
         }
     }
-    require(m.scale > 0 && std::isfinite(m.scale) && std::isfinite(m.tolerance), "a scale that is none");
+    require(m.scale > 0 && std::isfinite(m.scale) && std::isfinite(m.tolerance),
+            "a scale is not a positive number");
 }
 
 template <>
 void check(const LoadReply& m)
 {
-    require(std::isfinite(m.diagonal), "a diagonal that is no number");
-    require_finite(m.points, "a point that is none");
+    require(std::isfinite(m.diagonal), "the diagonal is not a finite number");
+    require_finite(m.points, "a point is not finite");
     require(m.points.size() <= 0x7fffffff && m.vertex_tags.size() <= m.points.size(),
-            "more vertices than points");
+            "there are more vertices than points");
     for (const LoadReply::Edge& edge : m.edges) {
-        require_below(std::array{edge.from, edge.to}, m.vertex_tags.size(), "an edge between no vertices");
-        require_below(edge.points, m.points.size(), "an edge through no points");
+        require_below(std::array{edge.from, edge.to}, m.vertex_tags.size(),
+                      "a vertex number of an edge is out of range");
+        require_below(edge.points, m.points.size(), "a point number of an edge is out of range");
         require(edge.points.size() >= 2 && edge.points.front() == edge.from &&
                     edge.points.back() == edge.to && edge.params.size() == edge.points.size(),
-                "an edge that does not run between its ends");
-        for (const double t : edge.params) require(std::isfinite(t), "a parameter that is no number");
-        require_below(edge.left_out, m.left_out.size(), "an edge of no face left out");
-        require(edge.form.empty() || edge.form.size() == 2 || edge.form.size() == 3, "a curve of no form");
-        require_finite(edge.form, "a curve's form that is none");
+                "an edge does not run between its vertices");
+        for (const double t : edge.params) require(std::isfinite(t), "a curve parameter is not finite");
+        require_below(edge.left_out, m.left_out.size(), "the number of a face left out is out of range");
+        require(edge.form.empty() || edge.form.size() == 2 || edge.form.size() == 3,
+                "a curve has an unknown form");
+        require_finite(edge.form, "the form of a curve is not finite");
     }
     for (const LoadReply::Face& face : m.faces) {
         for (const Triangle& t : face.triangles) {
-            require_below(t, m.points.size(), "a facet of no points");
-            require(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "a facet with a corner twice");
+            require_below(t, m.points.size(), "a point number of a facet is out of range");
+            require(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "a facet has the same corner twice");
         }
-        require(face.uv.size() == face.triangles.size(), "facets without parameters");
-        for (const auto& uv : face.uv) require_finite(uv, "a parameter that is no number");
+        require(face.uv.size() == face.triangles.size(), "facets have no surface parameters");
+        for (const auto& uv : face.uv) require_finite(uv, "a surface parameter is not finite");
     }
-    require(m.left_out.size() <= m.notes.size(), "faces left out without a word");
-    for (const auto& solid : m.solids) require_below(solid, m.faces.size(), "a solid of no faces");
+    require(m.left_out.size() <= m.notes.size(), "faces were left out without a note");
+    for (const auto& solid : m.solids)
+        require_below(solid, m.faces.size(), "a face number of a solid is out of range");
 }
 
 template <>
 void check(const ProjectRequest& m)
 {
-    require(m.points.size() == m.uv.size(), "points without a start each");
+    require(m.points.size() == m.uv.size(), "points have no start parameters");
 }
 
 template <>
 void check(const ProjectReply& m)
 {
-    require(m.points.size() == m.uv.size(), "points without parameters");
-    require_finite(m.points, "a projected point that is none");
-    require_finite(m.uv, "a projected point without a place");
+    require(m.points.size() == m.uv.size(), "projected points have no parameters");
+    require_finite(m.points, "a projected point is not finite");
+    require_finite(m.uv, "the parameters of a projected point are not finite");
 }
 
 template <>
 void check(const EvaluateReply& m)
 {
-    require_finite(m.points, "a point of a curve that is none");
+    require_finite(m.points, "a point of a curve is not finite");
 }
 
 template <>
 void check(const RecombineRequest& m)
 {
-    require_finite(m.points, "a point that is none");
-    for (const auto& loop : m.loops) require_below(loop, m.points.size(), "a loop through no points");
+    require_finite(m.points, "a point is not finite");
+    for (const auto& loop : m.loops)
+        require_below(loop, m.points.size(), "a point number of a loop is out of range");
     const SizeRaster& raster = m.size;
     require(raster.sizes.empty() || (raster.columns >= 2 && raster.step > 0 && raster.origin.allFinite() &&
                                      raster.sizes.size() % index(raster.columns) == 0 &&
                                      raster.sizes.size() / index(raster.columns) >= 2),
-            "a raster without two rows and columns");
+            "a size raster has fewer than two rows or columns");
 }
 
 template <>
 void check(const RecombineReply& m)
 {
-    require_finite(m.points, "a node that is none");
-    for (const Quad& quad : m.quads) require_below(quad, m.points.size(), "a quad of no nodes");
+    require_finite(m.points, "a node is not finite");
+    for (const Quad& quad : m.quads)
+        require_below(quad, m.points.size(), "a node number of a quad is out of range");
 }
 
 template <>
 void check(const BeginSolidRequest& m)
 {
-    require(is_file_name(m.result), "a file name with a folder");
+    require(is_file_name(m.result), "a file name contains a folder");
 }
 
 template <>
 void check(const BeginSolidReply& m)
 {
     for (const auto& source : m.sources)
-        require(source.curves.size() == source.curve_points.size(), "curves without points");
+        require(source.curves.size() == source.curve_points.size(), "curves have no points");
 }
 
 void check_axis(const SplineAxisData& axis)
 {
-    constexpr int kMostDegree = 25; // Open CASCADE's own limit
-    require(axis.degree >= 1 && axis.degree <= kMostDegree, "a spline of no degree");
+    constexpr int kMostDegree = 25; // the limit of Open CASCADE
+    require(axis.degree >= 1 && axis.degree <= kMostDegree, "the degree of a spline is out of range");
     require(axis.knots.size() >= 2 && axis.knots.size() == axis.multiplicities.size(),
-            "a spline without knots");
+            "a spline has no knots");
     for (const std::int32_t m : axis.multiplicities)
-        require(m >= 1 && m <= axis.degree + 1, "a knot of no multiplicity");
+        require(m >= 1 && m <= axis.degree + 1, "the multiplicity of a knot is out of range");
 }
 
 std::size_t poles_of(const SplineAxisData& axis)
 {
     std::size_t sum = 0;
     for (const std::int32_t m : axis.multiplicities) sum += index(m);
-    require(sum > index(axis.degree) + 1, "a spline with too few knots");
+    require(sum > index(axis.degree) + 1, "a spline has too few knots");
     return sum - index(axis.degree) - 1;
 }
 
 template <>
 void check(const MakeSolidRequest& m)
 {
-    require(m.format < MakeSolidRequest::format_count, "a file of no format");
-    require_finite(m.points, "a point that is none");
+    require(m.format < MakeSolidRequest::format_count, "a file has an unknown format");
+    require_finite(m.points, "a point is not finite");
     require(m.first_tolerance > 0 && m.last_tolerance >= m.first_tolerance && std::isfinite(m.last_tolerance),
-            "tolerances that are none");
+            "a tolerance is not a positive number");
     for (const SolidEdge& edge : m.edges) {
-        require(edge.kind < SolidEdge::count, "an edge of no kind");
-        require_below(edge.points, m.points.size(), "an edge through no points");
-        if (edge.kind == SolidEdge::lines) require(edge.points.size() >= 2, "an edge of one point");
+        require(edge.kind < SolidEdge::count, "an edge has an unknown kind");
+        require_below(edge.points, m.points.size(), "a point number of an edge is out of range");
+        if (edge.kind == SolidEdge::lines)
+            require(edge.points.size() >= 2, "an edge has fewer than two points");
         if (edge.kind != SolidEdge::spline) continue;
         check_axis(edge.curve_data.axis);
-        require_finite(edge.curve_data.poles, "a pole that is none");
+        require_finite(edge.curve_data.poles, "a pole is not finite");
         require(edge.curve_data.poles.size() == poles_of(edge.curve_data.axis),
-                "poles that are too many or few");
+                "a spline has the wrong number of poles");
     }
     for (const SolidFace& face : m.faces) {
-        require(face.kind < SolidFace::count, "a face of no kind");
+        require(face.kind < SolidFace::count, "a face has an unknown kind");
         for (const auto& loop : face.loops) {
             for (const auto& use : loop)
-                require_below(std::array{use[0]}, m.edges.size(), "a loop of no edges");
+                require_below(std::array{use[0]}, m.edges.size(), "an edge number of a loop is out of range");
         }
         const bool bordered = face.kind == SolidFace::plane || face.kind == SolidFace::filling;
-        require(!bordered || !face.loops.empty(), "a face without a border");
-        require_below(face.leading, m.points.size(), "a surface through no points");
+        require(!bordered || !face.loops.empty(), "a face has no boundary");
+        require_below(face.leading, m.points.size(), "a point number of a surface is out of range");
         for (const SplineSurfaceData& surface : face.surfaces) {
             check_axis(surface.u);
             check_axis(surface.v);
-            require_finite(surface.poles, "a pole that is none");
+            require_finite(surface.poles, "a pole is not finite");
             require(surface.poles.size() == poles_of(surface.u) * poles_of(surface.v),
-                    "poles that are too many or few");
+                    "a spline has the wrong number of poles");
         }
     }
 }

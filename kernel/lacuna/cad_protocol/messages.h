@@ -9,11 +9,10 @@
 #include <string_view>
 #include <vector>
 
-/// What the kernel and the CAD worker say to each other: plain arrays, no pointers, no callbacks.
+/// Messages between the kernel and the CAD process: plain arrays, no pointers, no callbacks.
 ///
-/// The kernel asks, the worker answers every request with `progress` any number of times and then with
-/// `done` or `failed`. `release` alone has no answer. The worker says `hello` once, before it is asked
-/// anything.
+/// The CAD process sends `hello` once when it starts. It answers each request with any number of `progress`
+/// messages and then `done` or `failed`. Only `release` has no answer.
 namespace lacuna::cad_protocol {
 
 using lacuna::ProtocolError;
@@ -34,30 +33,30 @@ enum class Opcode : std::uint16_t {
 
 struct Hello {
     std::string gmsh_version;
-    std::string missing; ///< parts of the confinement this system lacks, for a person; empty where none
+    std::string missing; ///< confinement features that this system lacks, for a person; empty: none
 };
 
 struct Progress {
     double fraction = 0; ///< [0, 1]
 };
 
-/// An error of the worker's; its kind says which class of ours it is.
+/// An error in the CAD process. Its kind selects the error class that the kernel throws.
 struct Failure {
     enum Kind : std::uint8_t { invalid_input, not_sweepable, backend, out_of_memory, count };
     std::uint8_t kind = backend;
     std::string code, message;
 };
 
-/// A file that came with the message as a descriptor.
+/// A file sent with the message as a descriptor.
 struct SentFile {
-    std::string name; ///< without a folder; how scripts name it and how Gmsh tells its format
+    std::string name; ///< without a folder; the name by which scripts include it; gives Gmsh its format
 };
 
 struct LoadFile {
     enum Format : std::uint8_t { step, iges, brep, script, count };
     std::uint8_t format = step;
-    std::string path;               ///< as the person named it, for messages
-    std::vector<SentFile> contents; ///< the file itself; after it what a script merges
+    std::string path;               ///< as given by the user, for messages
+    std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
 };
 
 struct LoadRequest {
@@ -72,13 +71,13 @@ struct LoadReply {
         std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
         std::vector<double> params;
         std::vector<Index> points;
-        std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces that had it
-        std::vector<Vec3> form = {};      ///< of the curve, as PlainCurve has it [file length]; or nothing
+        std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces with this edge
+        std::vector<Vec3> form = {};      ///< defining points as in PlainCurve [file length]; or empty
     };
-    /// A face that could not be cut, and is no sliver.
+    /// A face that could not be triangulated and is not a sliver.
     struct LeftOut {
         std::int32_t tag = 0;
-        std::string why; ///< goes on from "face 6 "
+        std::string why; ///< completes the sentence "face 6 …"
     };
     struct Face {
         std::int32_t tag = 0;
@@ -86,15 +85,15 @@ struct LoadReply {
         std::vector<Triangle> triangles;
         std::vector<std::array<Vec2, 3>> uv;
     };
-    std::uint64_t model = 0; ///< its handle
+    std::uint64_t model = 0; ///< handle of the model
     double diagonal = 0;     ///< of the exact bounding box [file length]
     std::vector<Vec3> points;
     std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those of none
+    std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those that are in no solid
     std::vector<LeftOut> left_out = {};
-    std::vector<std::string> notes; ///< what was left out, a sentence each; first those of `left_out`
+    std::vector<std::string> notes; ///< one sentence for each face left out, first those of `left_out`
 };
 
 struct EvaluateRequest {
@@ -117,7 +116,7 @@ struct ProjectReply {
     std::vector<Vec2> uv;
 };
 
-/// Target sizes at the crossings of a square grid, row by row; nothing where Gmsh shall choose.
+/// Target sizes at the points of a square grid, row by row; empty: Gmsh chooses the sizes.
 struct SizeRaster {
     Vec2 origin = Vec2::Zero();
     double step = 1;
@@ -134,18 +133,19 @@ struct RecombineReply {
     std::vector<Quad> quads;
 };
 
-/// Entities of loaded models a solid is to be made with. Three files in memory come along: two it goes
-/// through on its way, and the result.
+/// Entities of a loaded model that are used to make a solid. Three files in memory are sent along: two for
+/// intermediate results, and the result.
 struct SolidSource {
     std::uint64_t model = 0;
     std::vector<std::int32_t> faces, curves;
 };
 struct BeginSolidRequest {
     std::string subject; ///< the file to be written, for messages
-    std::string result;  ///< its name without a folder, whose ending says the format
+    std::string result;  ///< its name without a folder; the ending gives the format
     std::vector<SolidSource> sources;
 };
-/// Which of them there are in the workshop; of each curve its begin, middle and end [model length].
+/// The requested entities that exist in the CAD process; for each curve its start, middle and end [model
+/// length].
 struct BeginSolidReply {
     struct Found {
         std::vector<std::int32_t> faces, curves;
@@ -168,7 +168,7 @@ struct SplineSurfaceData {
     SplineAxisData u, v;
     std::vector<Vec3> poles; ///< u running fastest
 };
-/// An edge as what it shall be in the solid.
+/// An edge of the solid.
 struct SolidEdge {
     enum Kind : std::uint8_t { exact, lines, spline, count };
     std::uint8_t kind = lines;
@@ -181,10 +181,10 @@ struct SolidFace {
     std::uint8_t kind = plane;
     std::string name;                                     ///< for messages
     std::int32_t source = -1, face = 0;                   ///< exact
-    std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge, and 1 where it is used against its way
+    std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge number, and 1 if the edge is reversed
     std::vector<SplineSurfaceData> surfaces;              ///< patches
-    std::vector<Index> leading;                           ///< filling: points to lead it through
-    double area = 0;                                      ///< filling: of its facets
+    std::vector<Index> leading;                           ///< filling: points to interpolate
+    double area = 0;                                      ///< filling: area of its facets
 };
 struct MakeSolidRequest {
     enum Format : std::uint8_t { step, brep, format_count };
@@ -202,14 +202,14 @@ struct MakeSolidReply {
 };
 
 struct ReleaseRequest {
-    std::uint64_t handle = 0; ///< of a model or a solid under way
+    std::uint64_t handle = 0; ///< of a model or a solid under construction
 };
 
 // --- bytes --------------------------------------------------------------------------------------------
 
 template <class T>
 std::string encode(const T& message);
-/// @throw ProtocolError  the bytes are no such message, or a number in it points nowhere.
+/// @throw ProtocolError  the bytes are not such a message, or an index in it is out of range.
 template <class T>
 T decode(std::string_view bytes);
 

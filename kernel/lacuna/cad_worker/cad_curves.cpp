@@ -17,7 +17,7 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Sides of the polyline a curve is first looked at through.
+/// Number of segments of the first polyline of a curve.
 constexpr std::size_t kFineSides = 128;
 
 std::vector<double> evenly(double low, double high, std::size_t sides)
@@ -36,11 +36,11 @@ double polyline_length(const std::vector<Vec3>& points)
     return sum;
 }
 
-/// Smallest index of each set of points that are chained by distances within the tolerance.
+/// Single-linkage clusters of points within the tolerance: the smallest index in the cluster of each point.
 std::vector<std::size_t> clusters(const std::vector<CadVertex>& vertices, double tolerance)
 {
     geometry::UnionFind sets(vertices.size());
-    // Sorted along x, only neighbours within the tolerance need a look.
+    // After sorting along x, only neighbours within the tolerance are compared.
     std::vector<std::size_t> order(vertices.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -121,14 +121,14 @@ void read_curves(CadWire& wire)
         gmsh::model::getAdjacencies(1, curve.tag, up, down);
         if (down.empty()) {
             throw BackendError("cad.curve_without_ends", "curve " + std::to_string(curve.tag) +
-                                                             " has no end points; export the file anew");
+                                                             " has no end points; export the file again");
         }
         curve.from = vertex_of_tag.at(down.front());
         curve.to = vertex_of_tag.at(down.back());
         curve.params = evenly(curve.low, curve.high, kFineSides);
         curve.points = curve_points(curve.tag, curve.params);
         curve.length = polyline_length(curve.points);
-        // Some files run a curve against its own ends; the parameters are what counts here.
+        // In some files a curve runs opposite to its vertices; follow the parameters.
         const Vec3& begin = wire.vertices[static_cast<std::size_t>(curve.from)].at;
         const Vec3& end = wire.vertices[static_cast<std::size_t>(curve.to)].at;
         const double kept = (begin - curve.points.front()).norm() + (end - curve.points.back()).norm();
@@ -142,7 +142,7 @@ struct OnCurve {
     double distance = 0;
 };
 
-/// The place of a curve closest to a point, between two parameters.
+/// The point of a curve closest to `p`, between two parameters.
 OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, double high)
 {
     double best = std::numeric_limits<double>::infinity();
@@ -159,7 +159,7 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
         t = curve.params[i] + s * (curve.params[i + 1] - curve.params[i]);
     }
     t = std::clamp(t, low, high);
-    // The polyline is fine, so the start is good: Gauss-Newton gains digits at every step.
+    // The polyline is fine, so Gauss-Newton starts close and converges fast.
     constexpr int kSteps = 12;
     Vec3 at = curve_points(curve.tag, {t}).front();
     for (int i = 0; i < kSteps; ++i) {
@@ -176,13 +176,13 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
     return {t, (at - p).norm()};
 }
 
-/// Parameters where vertices of other loose faces lie on a loose curve, with the vertex.
+/// Parameters at which vertices of other faces lie on a curve used by one face, with these vertices.
 std::vector<std::pair<double, Index>> cuts_of(const CadWire& wire, const CadCurveInfo& curve,
                                               const std::vector<Index>& loose_points, double tolerance)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : curve.points) box.extend(p);
-    // An arc bulges out of the box of its polyline by less than one side.
+    // An arc extends beyond the box of its polyline by less than one segment.
     const double reach = curve.length / static_cast<double>(kFineSides) + tolerance;
     const Index from = wire.vertices[static_cast<std::size_t>(curve.from)].point;
     const Index to = wire.vertices[static_cast<std::size_t>(curve.to)].point;
@@ -229,7 +229,7 @@ void cut_into_pieces(CadWire& wire, double tolerance)
     }
 }
 
-/// Does piece `b` run along piece `a`, and if so against it?
+/// Whether piece `b` coincides with piece `a`, and if so, whether in the opposite direction.
 std::optional<bool> runs_against(const CadWire& wire, const CadPiece& a, const CadPiece& b, double tolerance)
 {
     const CadCurveInfo& on_a = wire.curves[a.curve];
@@ -251,7 +251,7 @@ void sew_pieces(CadWire& wire, double tolerance)
     std::map<std::pair<Index, Index>, std::vector<std::size_t>> with_ends;
     int next_tag = 0;
     for (const CadCurveInfo& curve : wire.curves) next_tag = std::max(next_tag, curve.tag);
-    // By the curves' tags, so that of sewn curves the first lends its tag and shape.
+    // Sort by curve tag: the curve with the lowest tag defines tag and shape of the edge.
     std::vector<std::size_t> order(wire.pieces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -265,7 +265,7 @@ void sew_pieces(CadWire& wire, double tolerance)
             const CadPiece& master = wire.pieces[wire.edges[e].master];
             if (master.curve == piece.curve) continue;
             const auto against = runs_against(wire, piece, master, tolerance);
-            // Both ways round, so that a short piece along a part of a longer one does not pass.
+            // Compare in both directions, so that a short piece is not merged with a part of a longer one.
             if (!against || !runs_against(wire, master, piece, tolerance)) continue;
             piece.edge = e;
             piece.reversed = *against;
@@ -280,9 +280,9 @@ void sew_pieces(CadWire& wire, double tolerance)
     }
 }
 
-/// A curve's polyline so fine that it turns little from side to side, but at kinks.
+/// A polyline of a curve, so fine that it turns little between segments except at kinks.
 struct FineCurve {
-    std::vector<double> params, weight; ///< weight of the side that ends at the parameter
+    std::vector<double> params, weight; ///< weight of the segment that ends at the parameter
 };
 
 FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Fineness& fineness)
@@ -318,7 +318,7 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
     FineCurve fine{{samples.front().t}, {0}};
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
         const double by_length = (samples[i + 1].at - samples[i].at).norm() / fineness.max_size;
-        // More than one at a kink would crowd points where none can round it.
+        // Limit the weight to 1 at a kink, where more points do not reduce the turn.
         const double by_turn = std::min(turn(samples[i], samples[i + 1]) / fineness.turn, 1.0);
         fine.params.push_back(samples[i + 1].t);
         fine.weight.push_back(std::max(by_length, by_turn));
@@ -326,11 +326,11 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
     return fine;
 }
 
-/// Parameters that share the weight out evenly.
+/// Parameters that divide the total weight evenly.
 std::vector<double> share_out(const FineCurve& fine, double refinement, std::size_t least)
 {
     const double total = std::accumulate(fine.weight.begin(), fine.weight.end(), 0.0);
-    // A whole circle should not get a side more for rounding.
+    // Rounding must not add a segment to a whole circle.
     const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - 1e-6)));
     const std::size_t sides = std::max(least, wanted);
     if (!(total > 0)) return evenly(fine.params.front(), fine.params.back(), sides);
@@ -368,7 +368,7 @@ void divide(CadWire& wire, const Fineness& fineness, const std::vector<double>& 
         CadEdge& edge = wire.edges[e];
         const CadPiece& piece = wire.pieces[edge.master];
         const CadCurveInfo& curve = wire.curves[piece.curve];
-        // Two sides at least: a single one could be mistaken for a facet side between the same two points.
+        // At least two segments: a single one could coincide with a facet side between the same two points.
         const std::size_t least = piece.from == piece.to ? 4 : 2;
         edge.params = share_out(weigh(curve, piece.low, piece.high, fineness), refinement[e], least);
         const std::vector<Vec3> at = curve_points(curve.tag, edge.params);

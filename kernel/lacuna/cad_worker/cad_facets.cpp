@@ -15,17 +15,17 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Places of one model point closer than this in the grid are one corner of the border. [grid cells]
+/// Images of one model point closer than this are merged into one corner of the boundary. [grid cells]
 constexpr double kSameCorner = 0.25;
-/// Grid points keep this far from the border. [grid cells]
+/// Distance that grid points keep from the boundary. [grid cells]
 constexpr double kClearance = 0.5;
 
-/// A curve as the face's parameter rectangle sees it.
+/// A curve in the parameter rectangle of a face.
 struct BorderChain {
     std::vector<Vec2> uv;
-    std::vector<Index> points; ///< of the model
-    bool pole = false;         ///< all one point
-    bool slit = false;         ///< the face on both sides, at the same place
+    std::vector<Index> points; ///< model points
+    bool pole = false;         ///< the curve is a single point
+    bool slit = false;         ///< the face is on both sides, at the same parameters
 };
 
 std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vector<double>& params, int face,
@@ -39,7 +39,7 @@ std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vecto
     return uv;
 }
 
-/// Where reparametrisation misses the points, the closest place of the surface stands in.
+/// Replace parameters that do not give back their points by those of the closest points of the surface.
 void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& uv, double allowed)
 {
     if (uv.size() == at.size()) {
@@ -65,7 +65,7 @@ void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& u
     }
 }
 
-/// How far places lie outside the face's parameter rectangle, all together.
+/// Total distance of parameter points from the parameter rectangle of the face.
 double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
 {
     double sum = 0;
@@ -73,8 +73,8 @@ double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
     return sum;
 }
 
-/// A curve that was a seam before the face was cut knows two places on the surface. The face has it on the
-/// side that is within its rectangle or, where both are, at which it meets the other curves.
+/// A curve that was a seam before the face was trimmed has two images. Choose the one inside the rectangle of
+/// the face or, if both are, the one that connects to the other curves.
 void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vector<Vec2>>& other_side,
                   int face)
 {
@@ -105,11 +105,11 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
     }
 }
 
-/// Every curve of the face as chains of places; a seam gives two.
+/// Each curve of the face as chains of parameter points; a seam gives two chains.
 std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face, double allowed)
 {
     std::vector<BorderChain> border;
-    std::vector<std::vector<Vec2>> other_side; // of each chain; empty where there is but one
+    std::vector<std::vector<Vec2>> other_side; // the other image of each chain; empty if there is one only
     for (const CadFaceInfo::Side& side : face.sides) {
         const CadCurveInfo& curve = wire.curves[side.curve];
         BorderChain chain;
@@ -169,7 +169,7 @@ ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& f
         const auto b = parameters_on_face(curve, {curve.low}, face.tag, 1);
         if (a.empty() || b.empty()) continue;
         for (int k = 0; k < 2; ++k) {
-            // A seam's two sides are one period apart, and nothing of the face lies beyond.
+            // The two images of a seam are one period apart, and the face lies between them.
             const double apart = std::abs(a[0][k] - b[0][k]);
             if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0)
                 box.closed[static_cast<std::size_t>(k)] = true;
@@ -178,11 +178,11 @@ ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& f
     return box;
 }
 
-/// The border and the grid points inside it, in grid coordinates.
+/// The boundary and the grid points inside it, in grid coordinates.
 struct GridDomain {
     struct Node {
         Vec2 grid, uv;
-        Index point; ///< of the model
+        Index point; ///< model point
     };
     struct Segment {
         Index a, b;
@@ -192,7 +192,7 @@ struct GridDomain {
     std::vector<Segment> segments;
 };
 
-/// Collects the chains' places as nodes, the ends of chains that meet as one.
+/// Collects the points of the chains as nodes; merges the ends of chains that meet.
 class DomainBuilder {
 public:
     explicit DomainBuilder(const FaceGrid& grid) : grid_(grid) {}
@@ -214,7 +214,7 @@ public:
         }
     }
 
-    /// Close what does not meet: some files leave out the curve at a pole.
+    /// Connect ends that do not meet: some files omit the curve at a pole.
     GridDomain finish()
     {
         std::vector<int> degree(domain_.nodes.size(), 0);
@@ -256,7 +256,7 @@ private:
         return same.back();
     }
 
-    /// A line of segments between two places of one point, about a cell each.
+    /// Insert segments of about one cell between two images of one point.
     void join(Index a, Index b)
     {
         const GridDomain::Node from = domain_.nodes[static_cast<std::size_t>(a)];
@@ -278,7 +278,7 @@ private:
     std::unordered_map<Index, std::vector<Index>> nodes_of_point_;
 };
 
-/// Grid crossings inside the border that keep their distance to it, as nodes without a model point yet.
+/// Add the grid points inside the boundary, at some distance from it, as nodes without model points.
 void add_grid_points(GridDomain& domain, const FaceGrid& grid)
 {
     const int nu = grid.axis[0].cells();
@@ -301,7 +301,7 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
                 if (geometry::distance_to_segment<Vec2>(Vec2(i, j), a, b) < kClearance) near[at(i, j)] = 1;
             }
             if (s.slit) continue;
-            // Half open, so that a corner on the line counts once.
+            // Half-open interval, so that a corner on the line counts once.
             if ((a.y() <= j) == (b.y() <= j)) continue;
             crossings[static_cast<std::size_t>(j)].push_back(a.x() +
                                                              (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
@@ -320,7 +320,7 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
     }
 }
 
-/// Triangles within the border; empty where its segments cross.
+/// Triangles inside the boundary; empty if its segments intersect.
 std::vector<Triangle> triangulate(const GridDomain& domain)
 {
     std::vector<Vec2> places;
@@ -333,7 +333,7 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     try {
         made.emplace(places, all);
         for (const GridDomain::Segment& s : domain.segments) made->fix_segment(s.a, s.b);
-    } catch (const Error&) { // A point of the border lies on another, or on a segment.
+    } catch (const Error&) { // A boundary point coincides with another one or lies on a segment.
         return {};
     }
     geometry::DelaunayMesh& mesh = *made;
@@ -351,8 +351,8 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     return inside;
 }
 
-/// Whether two facets have a side from one point to another in common: a surface that a file takes round its
-/// axis twice covers itself.
+/// Whether two facets have the same directed side: in some files, a surface of revolution covers itself
+/// because it turns twice around its axis.
 bool covers_itself(const std::vector<Triangle>& triangles)
 {
     std::vector<std::pair<Index, Index>> sides;
@@ -374,7 +374,7 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
         throw BackendError(
             "cad.no_border",
             "face " + std::to_string(face.tag) +
-                " has no boundary curves; split it in the CAD system, or export the file anew");
+                " has no boundary curves; split it in the CAD system, or export the file again");
     }
     CadFacets facets;
     facets.box = box_of(border, face, wire);
@@ -403,7 +403,7 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
             corners[k] = node.point;
             uv[k] = node.uv;
         }
-        // At a pole a side shrinks to a point, and the triangle with it.
+        // At a pole a side of a triangle has zero length; skip the triangle.
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         facets.triangles.push_back(corners);
         facets.uv.push_back(uv);

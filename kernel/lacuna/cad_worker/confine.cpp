@@ -30,13 +30,13 @@ namespace {
 
 // --- files by name ------------------------------------------------------------------------------------
 
-constexpr char kFolder[] = "/lacuna-cad/"; // there is no such folder: it stands for the offered files
+constexpr char kFolder[] = "/lacuna-cad/"; // not a real folder: a prefix for the names of offered files
 
 struct Offered {
     std::array<char, 512> path{};
     int descriptor = -1;
 };
-/// Read by a signal handler, so it neither grows nor moves: as many as one request may bring, and three more.
+/// Fixed array, as a signal handler reads it: the most files of one request, and three more.
 std::array<Offered, 256> offered_files;
 
 const Offered* find_offered(const char* path)
@@ -48,11 +48,11 @@ const Offered* find_offered(const char* path)
 
 // --- the trap -----------------------------------------------------------------------------------------
 
-/// What a call carries in its unused sixth argument when it is this file's own. Whoever knows it can open
-/// files to read, no more, and Landlock still holds.
+/// Value of the unused sixth argument in system calls of this file. Code that learns it can only open files
+/// for reading, within the limits of Landlock.
 std::uint64_t own_mark;
 
-/// Flags an open that only reads does not have.
+/// Flags that a read-only open does not have.
 constexpr int kWriting = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
 
 long own_call(long number, long a, long b, long c, long d, long e = 0)
@@ -75,7 +75,7 @@ long open_path(long folder, const char* path, long flags, long mode)
         const int copy = ::dup(file->descriptor);
         return copy < 0 ? -errno : copy;
     }
-    // Opened anew, so that every reader has a place of its own in the file.
+    // Open it again, so that each reader has its own file offset.
     std::array<char, 32> own{"/proc/self/fd/"};
     std::size_t end = std::strlen(own.data());
     std::array<char, 12> digits{};
@@ -86,7 +86,7 @@ long open_path(long folder, const char* path, long flags, long mode)
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
 
-/// Look at a path: an offered file's descriptor stands in for it.
+/// Inspect a path; for an offered file, inspect its descriptor.
 template <class At, class Real>
 long look_at(const char* path, At&& at, Real&& real)
 {
@@ -155,7 +155,7 @@ void on_trap(int, siginfo_t* info, void* context)
 
 // --- the filter ---------------------------------------------------------------------------------------
 
-/// A seccomp filter. Calls that no rule names fail with EPERM; those of another architecture end the process.
+/// A seccomp filter. Calls without a rule fail with EPERM; calls of another architecture kill the process.
 class Filter {
 public:
     Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM))}
@@ -165,7 +165,7 @@ public:
             seccomp_attr_set(rules_.get(), SCMP_FLTATR_CTL_TSYNC, 1) != 0)
             fail();
     }
-    /// What happens to a call where all conditions hold.
+    /// Action for a call if all conditions hold.
     void on(int number, std::uint32_t action, std::initializer_list<scmp_arg_cmp> conditions = {})
     {
         if (seccomp_rule_add_array(rules_.get(), action, number, static_cast<unsigned>(conditions.size()),
@@ -176,14 +176,14 @@ public:
     {
         for (const int number : numbers) on(number, SCMP_ACT_ALLOW);
     }
-    /// Allow a call where the lower half of an argument, masked, is a value.
+    /// Allow a call if the lower half of an argument, masked, has a given value.
     void allow_where(int number, unsigned argument, std::uint32_t mask, std::uint32_t value)
     {
         on(number, SCMP_ACT_ALLOW, {masked(argument, mask, value)});
     }
-    /// Trap a call that does not carry the mark.
+    /// Trap a call without the mark.
     void trap_unmarked(int number) { on(number, SCMP_ACT_TRAP, {{5, SCMP_CMP_NE, own_mark, 0}}); }
-    /// Allow it with the mark where the lower half of an argument has no bit of the mask.
+    /// Allow a call with the mark if the lower half of an argument has no bit of the mask.
     void allow_marked(int number, unsigned argument = 0, std::uint32_t mask = 0)
     {
         on(number, SCMP_ACT_ALLOW, {{5, SCMP_CMP_EQ, own_mark, 0}, masked(argument, mask, 0)});
@@ -199,7 +199,7 @@ private:
     [[noreturn]] static void fail()
     {
         throw BackendError("cad.no_wall",
-                           "the CAD process cannot be confined: no seccomp filter can be made");
+                           "the CAD process cannot be confined: libseccomp failed to make a filter");
     }
 
     struct Release {
@@ -211,7 +211,7 @@ private:
 Filter make_filter()
 {
     Filter filter;
-    // Files by name. Creating, removing, renaming, linking and the like are named nowhere, so they fail.
+    // Path-based calls that create, remove, rename or link have no rule, so they fail.
     for (const int number : {SCMP_SYS(openat), SCMP_SYS(newfstatat), SCMP_SYS(faccessat)})
         filter.trap_unmarked(number);
     filter.allow_marked(SCMP_SYS(openat), 2, kWriting);
@@ -220,15 +220,15 @@ Filter make_filter()
     for (const int number :
          {SCMP_SYS(faccessat2), SCMP_SYS(open), SCMP_SYS(stat), SCMP_SYS(lstat), SCMP_SYS(access)})
         filter.on(number, SCMP_ACT_TRAP);
-    // Threads, but no processes. clone3 hides its flags in memory; without it, clone is used.
+    // Threads are allowed, processes are not. clone3 has its flags in memory; without it, libc uses clone.
     filter.allow_where(SCMP_SYS(clone), 0, CLONE_THREAD, CLONE_THREAD);
     filter.on(SCMP_SYS(clone3), SCMP_ACT_ERRNO(ENOSYS));
-    // Signals to itself alone; the trap's own handler stays.
+    // Signals only to this process; the SIGSYS handler cannot be replaced.
     filter.allow_where(SCMP_SYS(tgkill), 0, ~0U, static_cast<std::uint32_t>(::getpid()));
     for (scmp_datum_t signal = 1; signal <= static_cast<scmp_datum_t>(SIGRTMAX); ++signal)
         filter.on(SCMP_SYS(rt_sigaction), signal == SIGSYS ? SCMP_ACT_ERRNO(0) : SCMP_ACT_ALLOW,
                   {{0, SCMP_CMP_EQ, signal, 0}});
-    // Limits can be read; a terminal asked for.
+    // Allow reading limits and checking for a terminal.
     filter.allow_where(SCMP_SYS(prlimit64), 2, ~0U, 0);
     filter.allow_where(SCMP_SYS(ioctl), 1, ~0U, 0x5401 /* TCGETS */);
     filter.allow_where(SCMP_SYS(prctl), 0, ~0U, PR_SET_NAME);
@@ -298,7 +298,7 @@ Filter make_filter()
 
 // --- Landlock -----------------------------------------------------------------------------------------
 
-/// As the newest kernels know it; older ones are given its beginning.
+/// The structure of the newest kernels; older kernels get its first part.
 struct Ruleset {
     std::uint64_t files = 0, net = 0, scoped = 0;
 };
@@ -311,11 +311,11 @@ bool restrict_files()
     const int bits = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
     rules.files = (std::uint64_t{1} << bits) - 1;
     if (version >= 4) rules.net = 3;    // bind and connect
-    if (version >= 6) rules.scoped = 3; // abstract sockets and signals of others
+    if (version >= 6) rules.scoped = 3; // abstract sockets and signals of other processes
     const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
     const int set = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, size, 0));
     if (set < 0) return false;
-    // What the libraries still load when they are first used.
+    // Folders of libraries that are loaded on first use.
     for (const char* folder : {"/usr", "/lib", "/lib64"}) {
         const int beneath = ::open(folder, O_PATH | O_CLOEXEC);
         if (beneath < 0) continue;

@@ -5,31 +5,29 @@
 
 namespace lacuna::cad_worker {
 
-/// Take from the process, for good, to write, make or remove any file by name, where the kernel has Landlock.
-/// For the time before `confine()`: libraries that come with Gmsh write preferences as it starts.
+/// Permanently prevent this process from creating, writing or removing files by name, if the kernel supports
+/// Landlock. Called before Gmsh starts, whose libraries write preferences; `confine()` follows.
 void keep_from_writing();
 
-/// Take from the process, for good, what reading and writing CAD needs not: starting programs, processes
-/// and sockets, changing its limits, opening any file for writing; where the kernel has Landlock, also
-/// reading any file but the system's libraries. Files of a request are opened by the names `offer()` gave
-/// them.
+/// Permanently remove the rights that reading and writing CAD does not need: starting programs, processes and
+/// sockets, changing limits, opening files for writing; with Landlock also reading files other than the
+/// system libraries. The files of a request are opened by the names that `offer()` returns.
 ///
-/// Every path that is opened or looked at is trapped by a seccomp filter and decided in a SIGSYS
-/// handler: names of offered files lead to their descriptors, other files can be opened
-/// to read.
+/// A seccomp filter traps every call that opens or inspects a path, and a SIGSYS handler decides: the name of
+/// an offered file leads to its descriptor, other files can only be opened for reading.
 ///
-/// @return  what this kernel lacks, for a person; empty where all is there.
-/// @throw BackendError  the kernel has no seccomp filters, without which nothing is run.
+/// @return  features that this kernel lacks, for a person; empty if none.
+/// @throw BackendError  the kernel has no seccomp filters; CAD files are then not read at all.
 std::string confine();
 
-/// Write the filter of `confine()` as libseccomp's pseudo filter code, for tests.
+/// Write the filter of `confine()` in the pseudo filter code of libseccomp, for tests.
 /// @return  false where that failed.
 bool write_filter(int descriptor);
 
-/// Make a descriptor known under a name; it stays open until `withdraw()`.
-/// @return  the path by which this process, and no other, opens it: to read, or to write it anew.
+/// Give a descriptor a name; it stays open until `withdraw()`.
+/// @return  the path by which only this process can open it, for reading or for overwriting.
 std::string offer(const std::string& folder, const std::string& name, int descriptor);
-/// Forget every name in a folder.
+/// Remove all names in a folder.
 void withdraw(const std::string& folder);
 
 } // namespace lacuna::cad_worker

@@ -32,23 +32,23 @@ std::vector<Vec3> unflat(const std::vector<double>& values)
     return points;
 }
 
-/// Steps with first derivatives alone before second ones are asked for as well. Near the surface the former
-/// gain a digit or more a step; a point as far off as the radius of curvature needs the latter.
+/// Steps with first derivatives before second derivatives are used too. Near the surface, each such step
+/// gains a digit or more; points as far away as the radius of curvature need second derivatives.
 constexpr int kCheapSteps = 8;
 constexpr int kMaxSteps = 60;
-/// Convergence, as a part of the model's diagonal.
+/// Convergence tolerance, relative to the diagonal of the model.
 constexpr double kPrecision = 1e-10;
 
-/// One projection under way, in file lengths.
+/// State of the projection of one point, in file lengths.
 struct Iterate {
     Vec3 target;
     Vec2 uv;
     Vec3 at;
-    double damping = 0; ///< Levenberg's, relative to the derivatives
+    double damping = 0; ///< Levenberg-Marquardt damping, relative to the derivatives
     bool done = false;
 };
 
-/// Parameters a step may change: those at a border stay there when the step would leave the box.
+/// Parameters that a step may change: those at the border of the box do not leave it.
 std::array<bool, 2> free_parameters(const ParameterBox& box, const Vec2& uv, const Vec2& descent)
 {
     std::array<bool, 2> open{true, true};
@@ -61,7 +61,7 @@ std::array<bool, 2> free_parameters(const ParameterBox& box, const Vec2& uv, con
     return open;
 }
 
-/// The step in the parameters towards the target, and how far it goes in space.
+/// The parameter step towards the target, and its length in space.
 std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, const SecondDerivatives* second,
                                 const ParameterBox& box)
 {
@@ -80,7 +80,7 @@ std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, co
     const std::array<bool, 2> open = free_parameters(box, it.uv, descent);
     Vec2 step = Vec2::Zero();
     if (open[0] && open[1]) {
-        // At a pole one derivative vanishes: the least of damping keeps the matrix regular.
+        // At a pole one derivative vanishes: a minimal damping keeps the matrix regular.
         const double least = 1e-14 * normal.trace();
         normal(0, 0) += it.damping * normal(0, 0) + least;
         normal(1, 1) += it.damping * normal(1, 1) + least;
@@ -93,7 +93,7 @@ std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, co
     return {step, (frame.du * step.x() + frame.dv * step.y()).norm()};
 }
 
-/// One step of every iterate that is not done. @return how many are left.
+/// One step of all active iterates. @return how many remain.
 std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active, int tag,
                     const ParameterBox& box, double precision, bool with_second)
 {
@@ -121,7 +121,7 @@ std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active,
         } else {
             it.done = false;
             it.damping = it.damping == 0 ? 0.1 : it.damping * 10;
-            // Damped to a standstill: rounding is all that is left.
+            // The step is zero up to rounding.
             if (it.damping > 1e12) it.done = true;
         }
     }
@@ -129,7 +129,7 @@ std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active,
     return active.size();
 }
 
-/// A start at a pole, where one parameter says nothing, is moved to the best of a few places around it.
+/// Move a start at a pole, where one parameter is undefined, to the best of a few points around the pole.
 void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const ParameterBox& box, double precision)
 {
     const Vec2 side = box.high - box.low;
@@ -138,7 +138,7 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
         const int other = 1 - k;
         if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
         constexpr int kDirections = 12;
-        constexpr double kInward = 0.02; // of the box: off the pole, still near it
+        constexpr double kInward = 0.02; // relative to the box: off the pole, but near it
         std::vector<Vec2> ring(kDirections);
         const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
         for (int i = 0; i < kDirections; ++i) {
@@ -242,9 +242,9 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
     gmsh::model::getType(1, tag, kind);
     const bool line = kind == "Line";
     if (!line && kind != "Circle" && kind != "Ellipse") return {};
-    // First derivatives are exact, second ones differences.
+    // Gmsh's first derivatives are exact, its second derivatives are finite differences.
     const Vec3 start = curve_points(tag, {0.0}).front();
-    constexpr double kQuarter = std::numbers::pi / 2; // not quite: its cosine is 6e-17
+    constexpr double kQuarter = std::numbers::pi / 2; // its computed cosine is 6e-17, not zero
     const std::vector<Vec3> along = curve_tangents(tag, {0.0, kQuarter});
     geometry::PlainCurve plain{{start, along[0]}};
     if (!line) {
@@ -260,7 +260,7 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
         size = std::max(size, points[i].cwiseAbs().maxCoeff());
         off = std::max(off, (plain.at(params[i]) - points[i]).norm());
     }
-    constexpr double kRounding = 1e-14; // of the coordinates
+    constexpr double kRounding = 1e-14; // relative to the coordinates
     return off <= kRounding * size ? std::move(plain.form) : std::vector<Vec3>();
 }
 

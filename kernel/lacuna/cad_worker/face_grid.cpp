@@ -11,10 +11,10 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// A facet may be this many times longer than wide: a cylinder's need no cuts across its rulings, but slivers
-/// serve the flattening of faces badly.
+/// Limit on the aspect ratio of cells: a cylinder needs no division along its rulings, but flattening faces
+/// does not work well with slivers.
 constexpr double kMaxAspect = 5;
-/// A face is at least this many cells along its longer side.
+/// Least number of cells along the longer side of a face.
 constexpr double kCellsAlong = 4;
 
 /// Derivatives and normals on a regular lattice over the rectangle.
@@ -47,7 +47,7 @@ Lattice sample(int tag, const ParameterBox& box, std::size_t sides)
     return lattice;
 }
 
-/// Angle between the normals of two frames; none where one is at a pole.
+/// Angle between the normals of two frames; zero if one is at a pole.
 double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
 {
     const Vec3 na = a.du.cross(a.dv);
@@ -58,7 +58,7 @@ double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
     return geometry::angle_between(na, nb);
 }
 
-/// For each interval along an axis, the largest length and the largest turn over all lines across.
+/// For each interval along an axis, the largest length and turn over all lines in that direction.
 struct Profile {
     std::vector<double> length, turn;
     [[nodiscard]] double total_length() const { return std::accumulate(length.begin(), length.end(), 0.0); }
@@ -89,7 +89,7 @@ GridAxis::GridAxis(std::vector<double> knots, const std::vector<double>& density
     : knots_(std::move(knots)), grid_(1, 0.0)
 {
     double total = std::accumulate(density.begin(), density.end(), 0.0);
-    // A little everywhere keeps the map rising.
+    // A minimum density keeps the map strictly increasing.
     const double least = total > 0 ? 1e-3 * total / static_cast<double>(density.size()) : 1;
     for (const double d : density) grid_.push_back(grid_.back() + std::max(d, least));
     cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - 1e-6)));
@@ -143,7 +143,7 @@ FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& f
     FaceGrid grid;
     for (std::size_t k = 0; k < 2; ++k) {
         for (double& d : density[k]) d *= factor[k];
-        // Around a closed surface fewer than four would fold facets onto each other.
+        // Around a closed surface, fewer than four cells would fold facets onto each other.
         grid.axis[k] = GridAxis(lattice.knots[k], density[k], box.closed[k] ? 4 : 1);
     }
     return grid;

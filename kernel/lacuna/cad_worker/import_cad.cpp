@@ -15,21 +15,21 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Facets to a full turn. The chord then misses the arc by 0.2 % of the radius, a disc 0.3 % of its area.
+/// Facets of a full turn. The sag is then 0.2 % of the radius, the error of a disc's area 0.3 %.
 constexpr double kSidesPerTurn = 48;
-/// No side is longer than this part of the diagonal.
+/// Longest segment, relative to the diagonal.
 constexpr double kLongestSide = 1.0 / 20;
-/// Cells all faces may have together, and any one of them.
+/// Most grid cells of all faces together, and of one face.
 constexpr double kMaxCells = 400'000;
 constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
-/// How often borders are divided anew, twice as fine, where they cross themselves.
+/// How often the boundary of a face is divided twice as finely because it intersects itself.
 constexpr int kDivisions = 6;
-/// Points all edges may have together where they are divided anew: a face is triangulated over its border, so
-/// that this bounds time and memory. A choice, not a measurement.
+/// Most points of all edges after refinement. It limits time and memory, as each face is triangulated over
+/// its boundary.
 constexpr std::size_t kMostDivided = 400'000;
 
-/// Tags and coordinates must be those of a plain import.
+/// Set the options of Gmsh such that tags and coordinates are those of a plain import.
 void set_import_defaults(Session& session)
 {
     for (const char* off :
@@ -43,7 +43,7 @@ void set_import_defaults(Session& session)
     session.set("Geometry.OCCTargetUnit", std::string{});
 }
 
-/// Options that scripts are wont to set, which would outlast them.
+/// Restore options that scripts often set, at the end of the session.
 void keep_options(Session& session)
 {
     for (const char* option : {"Mesh.MeshSizeMin",
@@ -113,7 +113,7 @@ std::string name_of_face(int tag)
         gmsh::model::getPhysicalName(2, std::abs(group), name);
         if (!name.empty()) return name;
     }
-    // A product's face is called "Shapes/assembly/part/face".
+    // Gmsh names a face of a product "Shapes/assembly/part/face".
     std::string name;
     gmsh::model::getEntityName(2, tag, name);
     name.erase(0, name.find_last_of('/') + 1);
@@ -125,27 +125,27 @@ struct Cut {
     std::size_t point_count = 0;
 };
 
-/// Faces that left the wire.
+/// Faces removed from the wire.
 struct LeftOut {
-    std::vector<CadFaceInfo> faces; ///< those that are no slivers
+    std::vector<CadFaceInfo> faces; ///< faces other than slivers
     std::vector<int> slivers;       ///< tags
 };
 
-/// Goes on from "face 6 ".
+/// Completes the sentence "face 6 …".
 constexpr const char* kNotCut =
-    "could not be cut into facets, however fine: its boundary crosses itself or does not close";
+    "could not be triangulated at any fineness: its boundary intersects itself or is not closed";
 
 std::string not_cut_in_words(int face) { return "face " + std::to_string(face) + " " + kNotCut; }
 
-/// The edges in the wire of a side of a face, in its order.
+/// Visit the edges of one side of a face in the wire, in order.
 template <class Visit>
 void each_edge(const CadWire& wire, const CadFaceInfo::Side& side, const Visit& visit)
 {
     for (const std::size_t piece : wire.curves[side.curve].pieces) visit(wire.pieces[piece].edge);
 }
 
-/// Whether the curves around a face lie on each other in pairs, within the tolerance: it has no inside then.
-/// A sphere's one seam, and a lune between two meridians, are no such pairs.
+/// Whether the curves around a face coincide in pairs within the tolerance, so that the face has no interior.
+/// The single seam of a sphere, and the two meridians of a lune, do not count.
 bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
 {
     std::unordered_map<std::size_t, int> uses;
@@ -156,7 +156,7 @@ bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
     return std::ranges::all_of(uses, [](const auto& use) { return use.second % 2 == 0; });
 }
 
-/// Points of all edges, divided `refinement` times as finely.
+/// Place points on all edges, `refinement` times as many as the fineness requires.
 void divide_all(CadWire& wire, const Fineness& fineness, std::vector<double>& refinement)
 {
     refinement.assign(wire.edges.size(), 1.0);
@@ -166,7 +166,7 @@ void divide_all(CadWire& wire, const Fineness& fineness, std::vector<double>& re
         divide(wire, fineness, refinement);
 }
 
-/// Take faces out of the wire. @throw BackendError  none is left.
+/// Remove faces from the wire. @throw BackendError  no face remains.
 void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& path, LeftOut& gone)
 {
     for (const int tag : tags) {
@@ -182,8 +182,8 @@ void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& p
                            path + ": " + not_cut_in_words(tags.front()) + "; repair it in the CAD system");
 }
 
-/// Divide the edges and cut the faces, finer around those whose border crosses itself. Faces that cannot be
-/// cut leave the wire.
+/// Divide the edges and triangulate the faces. Divide more finely the boundaries that intersect themselves.
+/// Faces that still fail are removed from the wire.
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress,
             LeftOut& gone)
 {
@@ -216,14 +216,14 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             divide(wire, options.fineness, refinement);
             if (wire.points.size() <= kMostDivided) continue;
         }
-        // Without them, edges need not be finer than at first.
+        // Start again with coarse edges, as the faces that needed fine ones are gone.
         leave_out(wire, slivers.empty() ? failed : slivers, path, gone);
         divide_all(wire, options.fineness, refinement);
         division = 0;
     }
 }
 
-/// The faces of each solid, and those of none.
+/// The faces of each solid, then those that are in no solid.
 std::vector<std::vector<Index>> solids(const CadWire& wire)
 {
     std::unordered_map<int, std::size_t> face_of_tag;
@@ -252,7 +252,7 @@ std::vector<std::vector<Index>> solids(const CadWire& wire)
     return groups;
 }
 
-/// Say which faces were left out, and of each edge, by its place in the wire, which of them had it.
+/// Report the faces left out. @return for each edge of the wire, the faces left out that had this edge.
 std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut& gone,
                                               cad_protocol::LoadReply& reply)
 {
@@ -261,7 +261,7 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
         const auto place = static_cast<Index>(reply.left_out.size());
         reply.left_out.push_back({face.tag, kNotCut});
         reply.notes.push_back(not_cut_in_words(face.tag) +
-                              "; it is left out: repair it in the CAD system if it is needed");
+                              ". It is left out; if it is needed, repair it in the CAD system");
         for (const CadFaceInfo::Side& side : face.sides) {
             each_edge(wire, side, [&](std::size_t edge) {
                 std::vector<Index>& faces = of_edge[edge];
@@ -271,8 +271,8 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
     }
     for (const int tag : gone.slivers) {
         reply.notes.push_back("face " + std::to_string(tag) +
-                              " is no wider than the tolerance and is left out; give a smaller tolerance "
-                              "if it is to stay");
+                              " is narrower than the tolerance and is left out; to keep it, "
+                              "reduce the tolerance");
     }
     return of_edge;
 }
@@ -284,7 +284,7 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
     reply.diagonal = source.diagonal;
     reply.points = wire.points;
     reply.vertex_tags = wire.point_tag;
-    std::vector<bool> used(wire.edges.size(), false); // by faces that were not left out
+    std::vector<bool> used(wire.edges.size(), false); // used by faces that were not left out
     for (const CadFaceInfo& face : wire.faces) {
         for (const CadFaceInfo::Side& side : face.sides)
             each_edge(wire, side, [&](std::size_t edge) { used[edge] = true; });
@@ -325,13 +325,14 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
         progress(0);
         import_file(session, file);
     }
-    source.model->activate(session); // a script may have made others
+    source.model->activate(session); // a script may have created other models
     session.run([&] {
         gmsh::vectorpair faces;
         gmsh::model::getEntities(faces, 2);
         if (faces.empty()) {
             throw InvalidInput("cad.no_faces",
-                               source.path + " holds no faces; export surfaces or solids, not curves alone");
+                               source.path +
+                                   " contains no faces; export surfaces or solids, not only curves");
         }
         source.scale = scale;
         source.diagonal = diagonal_of_model();

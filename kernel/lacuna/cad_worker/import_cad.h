@@ -11,14 +11,14 @@
 
 namespace lacuna::cad_worker {
 
-/// Told the share of the work that is done, in [0, 1].
+/// Called with the fraction of the work done, in [0, 1].
 using Progress = std::function<void(double)>;
 
-/// A file of a request, where this process can open it.
+/// A file of a request, opened in this process.
 struct OpenedFile {
     std::uint8_t format = 0; ///< cad_protocol::LoadFile::Format
-    std::string path;        ///< as the person named it
-    std::string at;          ///< as this process opens it
+    std::string path;        ///< as given by the user
+    std::string at;          ///< path by which this process opens it
 };
 
 struct Imported {
@@ -26,8 +26,8 @@ struct Imported {
     cad_protocol::LoadReply reply; ///< without a handle
 };
 
-/// Read CAD files into one model, their tags running on from file to file as in Gmsh.
-/// @throw InvalidInput, BackendError  in Gmsh's words, naming the file.
+/// Read CAD files into one model. Tags continue from file to file, as in Gmsh.
+/// @throw InvalidInput, BackendError  the error of Gmsh, with the name of the file.
 Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, double scale,
                     const Progress& progress);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// lacuna-cad: Gmsh and Open CASCADE in a process of their own. Started by the kernel with a socket as
-/// descriptor 3; reads what it is sent there, answers there, and ends when the other side does.
+/// lacuna-cad: Gmsh and Open CASCADE in a separate process. The kernel starts it with a socket as descriptor
+/// 3, on which it receives requests and sends replies; it ends when the socket is closed.
 #include <lacuna/cad_worker/confine.h>
 #include <lacuna/cad_worker/serve.h>
 #include <lacuna/cad_worker/session.h>
@@ -17,15 +17,15 @@
 namespace {
 
 constexpr int kSocket = 3;
-/// Bytes a file may grow to: more than any solid, less than a disk. A choice, not a measurement.
+/// Largest file that may be written [bytes]: more than any solid, less than a disk.
 constexpr rlim_t kLargestFile = rlim_t{4} << 30;
 
-/// End with the host, even in the middle of work that never ends.
+/// End when the host ends, even during a request that does not return.
 void watch_host(pid_t host)
 {
     for (;;) {
         pollfd socket{kSocket, POLLRDHUP, 0};
-        constexpr int kPause = 1000; // [ms]: a forked child of the host may hold the socket open
+        constexpr int kPause = 1000; // [ms]: the socket may stay open in a forked child of the host
         ::poll(&socket, 1, kPause);
         if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host)
             ::_exit(0);
@@ -40,14 +40,14 @@ int main()
     socklen_t size = sizeof(type);
     if (::getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
         constexpr std::string_view kWords =
-            "lacuna-cad is started by Lacuna when a CAD file is read, not by hand\n";
+            "lacuna-cad is started by Lacuna to read a CAD file; do not start it by hand\n";
         return ::write(2, kWords.data(), kWords.size()) < 0 ? 2 : 1;
     }
-    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // what the host let slip
+    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // descriptors that the host left open
     const rlimit no_core{0, 0}, file{kLargestFile, kLargestFile};
     ::setrlimit(RLIMIT_CORE, &no_core);
     ::setrlimit(RLIMIT_FSIZE, &file);
-    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails instead
     std::signal(SIGPIPE, SIG_IGN);
     const pid_t host = ::getppid();
     using namespace lacuna;
@@ -62,11 +62,11 @@ int main()
         using namespace cad_protocol;
         try {
             channel.send(Opcode::failed, encode(Failure{Failure::backend, error.code(), error.what()}));
-        } catch (const Error&) { // No one listens.
+        } catch (const Error&) { // The connection is closed.
         }
     } catch (...) {
         ::_exit(1);
     }
-    // Without destructors of libraries that may have been left in any state.
+    // Skip destructors, as libraries may be in an undefined state.
     ::_exit(0);
 }

@@ -13,22 +13,22 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Sag of a side allowed, of its distance from another edge: a ring's area is then off by about as much. A
-/// choice, not a measurement.
+/// Largest sag of a segment relative to its distance from another edge: also the relative error of a thin
+/// ring's area, so one percent.
 constexpr double kSag = 0.01;
-/// Edges get at most so many times as many points: a whole circle 384. A choice, not a measurement.
+/// Largest refinement factor: a whole circle then has 384 segments.
 constexpr double kMost = 8;
-/// A face is flat where its points are off a plane by less than this part of their spread: rounding of files.
+/// A face is planar if its points are off a plane by less than this part of their extent: rounding in files.
 constexpr double kFlat = 1e-6;
 
-/// A side of an edge's polyline.
+/// A segment of the polyline of an edge.
 struct Side {
     Vec3 from, to;
     std::size_t edge = 0;
-    double sag = 0; ///< of the curve over the side [file length]
+    double sag = 0; ///< of the curve over the segment [file length]
 };
 
-/// How far the curve rises over its sides: as an arc through a side's ends and the next point.
+/// Sag of a segment, from the arc through its ends and the next point.
 double sag_of(const std::vector<Vec3>& line, std::size_t side)
 {
     const auto bend = [&](std::size_t at) {
@@ -83,12 +83,12 @@ std::vector<double> narrow_refinement(const CadWire& wire)
             !is_flat(sides))
             continue;
         std::ranges::sort(sides, {}, [](const Side& side) { return std::min(side.from.x(), side.to.x()); });
-        double longest = 0; // along x
+        double longest = 0; // largest extent of a segment along x
         for (const Side& side : sides) longest = std::max(longest, std::abs(side.to.x() - side.from.x()));
         for (const Side& side : sides) {
             if (!(side.sag > 0)) continue;
             const Vec3 middle = (side.from + side.to) / 2;
-            double near = side.sag / kSag; // what is further off asks for nothing
+            double near = side.sag / kSag; // other edges farther away need no refinement
             auto other = std::ranges::lower_bound(sides, middle.x() - near - longest, {}, [](const Side& s) {
                 return std::min(s.from.x(), s.to.x());
             });
@@ -98,7 +98,7 @@ std::vector<double> narrow_refinement(const CadWire& wire)
                     continue;
                 near = std::min(near, geometry::distance_to_segment(middle, other->from, other->to));
             }
-            // The sag falls with the square of the number of points.
+            // The sag is inversely proportional to the square of the number of points.
             const double wanted = near > 0 ? std::sqrt(side.sag / (kSag * near)) : kMost;
             refinement[side.edge] = std::max(refinement[side.edge], std::min(wanted, kMost));
         }

@@ -22,8 +22,8 @@ std::size_t side_count(const RecombineRequest& region)
     return sides;
 }
 
-/// Draw the loops as lines that Gmsh does not divide. @return the face, and the Gmsh point of each region
-/// point on a loop.
+/// Add the loops to Gmsh as lines that it must not divide. @return the face, and the Gmsh point of each
+/// region point on a loop.
 std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& region, const Vec2& origin,
                                                     double scale)
 {
@@ -46,7 +46,7 @@ std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& regi
     return {face, std::move(drawn)};
 }
 
-/// The cells Gmsh made, counter-clockwise, the region's own points first.
+/// The quads that Gmsh made, counter-clockwise; the points of the region come first.
 RecombineReply read_quads(const RecombineRequest& region, int face,
                           const std::unordered_map<Index, int>& drawn, const Vec2& origin, double scale)
 {
@@ -66,10 +66,9 @@ RecombineReply read_quads(const RecombineRequest& region, int face,
     std::vector<std::size_t> elements, corners;
     gmsh::model::mesh::getElementsByType(2, elements, corners, face);
     if (!elements.empty()) {
-        throw NotSweepable("cad.recombine", "Gmsh leaves " + std::to_string(elements.size()) +
-                                                " triangles in a region of " +
-                                                std::to_string(side_count(region)) +
-                                                " boundary sides; quads = \"auto\" leaves none");
+        throw NotSweepable("cad.recombine",
+                           "Gmsh left " + std::to_string(elements.size()) + " triangles in a region of " +
+                               std::to_string(side_count(region)) + " boundary sides; use quads = \"auto\"");
     }
     gmsh::model::mesh::getElementsByType(3, elements, corners, face);
     double area = 0;
@@ -87,7 +86,7 @@ RecombineReply read_quads(const RecombineRequest& region, int face,
     return mesh;
 }
 
-/// The size at a place, between those at the four crossings around it.
+/// Size at a point, interpolated bilinearly in the raster.
 double size_at(const cad_protocol::SizeRaster& raster, const Vec2& place)
 {
     const std::size_t columns = index(raster.columns), rows = raster.sizes.size() / columns;
@@ -109,7 +108,7 @@ double size_at(const cad_protocol::SizeRaster& raster, const Vec2& place)
 
 RecombineReply recombine(const RecombineRequest& region)
 {
-    // Gmsh has tolerances of its own that are lengths: it gets a region of size 1.
+    // Some tolerances of Gmsh are absolute, so scale the region to size 1.
     Eigen::AlignedBox2d box;
     for (const std::vector<Index>& loop : region.loops) {
         for (const Index p : loop) box.extend(region.points[index(p)]);
@@ -118,11 +117,11 @@ RecombineReply recombine(const RecombineRequest& region)
     const double scale = box.sizes().maxCoeff();
 
     Session session("a region to be filled with quads");
-    // 6, frontal: 8, which is made for quads, gives other coordinates each time, since its cross field is
-    // solved in an order that depends on addresses.
+    // 6, frontal: algorithm 8, made for quads, is not deterministic, as the order in which its cross field is
+    // solved depends on memory addresses.
     session.set("Mesh.Algorithm", 6);
     session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
-    session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN the default crashes
+    session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN, the default crashes
     session.set("Mesh.MeshSizeFromPoints", 0);
     session.set("Mesh.MeshSizeFromCurvature", 0);
     session.set("Mesh.MeshSizeFromParametricPoints", 0);
@@ -139,7 +138,7 @@ RecombineReply recombine(const RecombineRequest& region)
         const auto [face, drawn] = draw(region, origin, scale);
         gmsh::model::mesh::setRecombine(2, face);
         const bool sized = !region.size.sizes.empty();
-        // Later versions hand over their own wish as well.
+        // Newer versions of Gmsh also pass their own target size to the callback.
         if (sized) {
             gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double, auto...) {
                 return size_at(region.size, origin + scale * Vec2(x, y)) / scale;

@@ -5,8 +5,8 @@
 
 namespace lacuna::cad_worker {
 
-/// Gmsh's recombination of a planar region into quads, boundary nodes kept.
-/// @throw NotSweepable  triangles are left ("cad.recombine").
+/// Fill a planar region with quads by Gmsh's recombination; boundary nodes are kept.
+/// @throw NotSweepable  triangles remain ("cad.recombine").
 cad_protocol::RecombineReply recombine(const cad_protocol::RecombineRequest& region);
 
 } // namespace lacuna::cad_worker

@@ -16,7 +16,7 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Names of the files of one request, given up with the object.
+/// The names of the files of one request, withdrawn by the destructor.
 class Folder {
 public:
     explicit Folder(std::string name) : name_(std::move(name)) {}
@@ -37,7 +37,7 @@ private:
     std::vector<Descriptor> own_;
 };
 
-/// A solid under way and the files it goes through.
+/// A solid under construction, and its files.
 struct Solid {
     Solid(Folder its_folder, const std::string& subject, const SolidFiles& files)
         : folder(std::move(its_folder)), builder(subject, files)
@@ -57,7 +57,7 @@ struct Desk::State {
     const CadSource& model(std::uint64_t handle) const
     {
         const auto found = models.find(handle);
-        if (found == models.end()) throw ProtocolError("there is no such model");
+        if (found == models.end()) throw ProtocolError("the model number is unknown");
         return *found->second;
     }
     std::string load(Frame& frame, const Progress& progress);
@@ -77,7 +77,7 @@ std::string Desk::State::load(Frame& frame, const Progress& progress)
         Folder& folder = folders.emplace_back(std::to_string(files.size()));
         files.push_back({file.format, file.path, {}});
         for (const SentFile& sent : file.contents) {
-            if (next == frame.descriptors.size()) throw ProtocolError("a file did not come with its name");
+            if (next == frame.descriptors.size()) throw ProtocolError("a file has a name but no descriptor");
             const std::string at = folder.add(sent.name, frame.descriptors[next++].get());
             if (files.back().at.empty()) files.back().at = at;
         }
@@ -96,7 +96,7 @@ std::string Desk::State::evaluate(const EvaluateRequest& request) const
 std::string Desk::State::project(ProjectRequest request) const
 {
     const CadSource& source = model(request.model);
-    if (!source.boxes.contains(request.face)) throw ProtocolError("there is no such face");
+    if (!source.boxes.contains(request.face)) throw ProtocolError("the face number is unknown");
     project_on_face(source, request.face, request.points, request.uv);
     return encode(ProjectReply{std::move(request.points), std::move(request.uv)});
 }
@@ -104,7 +104,7 @@ std::string Desk::State::project(ProjectRequest request) const
 std::string Desk::State::begin_solid(Frame& frame)
 {
     const auto request = decode<BeginSolidRequest>(frame.bytes);
-    if (frame.descriptors.size() != 3) throw ProtocolError("a solid needs three files to go through");
+    if (frame.descriptors.size() != 3) throw ProtocolError("a solid needs three file descriptors");
     const std::uint64_t handle = ++last;
     Folder folder("solid" + std::to_string(handle));
     const SolidFiles files{folder.add("source.brep", std::move(frame.descriptors[0])),
@@ -122,7 +122,7 @@ std::string Desk::State::begin_solid(Frame& frame)
 std::string Desk::State::make_solid(const MakeSolidRequest& request, const Progress& progress)
 {
     const auto found = solids.find(request.solid);
-    if (found == solids.end()) throw ProtocolError("there is no such solid");
+    if (found == solids.end()) throw ProtocolError("the solid number is unknown");
     const std::unique_ptr<Solid> solid = std::move(found->second);
     solids.erase(found);
     return encode(solid->builder.make(request, progress));
@@ -153,7 +153,7 @@ std::string Desk::answer(Frame& frame, const Progress& progress)
         return {};
     }
     default:
-        throw ProtocolError("there is no such request");
+        throw ProtocolError("the request is unknown");
     }
 }
 
@@ -171,7 +171,7 @@ void serve(Channel& channel, const std::string& missing)
         const auto failed = [&](Failure::Kind kind, const std::string& code, const std::string& message) {
             channel.send(Opcode::failed, encode(Failure{kind, code, message}));
         };
-        // Told as often as a person can see.
+        // Report progress no more often than a person can see it.
         constexpr auto kPause = std::chrono::milliseconds(20);
         auto told = std::chrono::steady_clock::now();
         const auto progress = [&](double fraction) {

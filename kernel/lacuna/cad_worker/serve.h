@@ -9,12 +9,12 @@
 
 namespace lacuna::cad_worker {
 
-/// Answer requests until the other side goes or says what is no frame.
-/// @param missing  what the confinement lacks, told in the greeting.
-/// @pre   a `Gmsh` lives.
+/// Answer requests until the connection is closed or broken.
+/// @param missing  confinement features that are missing, sent with the greeting.
+/// @pre   a `Gmsh` object exists.
 void serve(cad_protocol::Channel& channel, const std::string& missing);
 
-/// Answer one request; what the models of the requests before are is kept by the object.
+/// Answers requests, and holds the models that earlier requests loaded.
 class Desk {
 public:
     Desk();
@@ -22,7 +22,7 @@ public:
     Desk(const Desk&) = delete;
     Desk& operator=(const Desk&) = delete;
 
-    /// @param progress  told the share that is done.
+    /// @param progress  called with the fraction that is done.
     /// @return  the bytes of the reply.
     /// @throw Error, std::bad_alloc
     std::string answer(cad_protocol::Frame& request, const std::function<void(double)>& progress);

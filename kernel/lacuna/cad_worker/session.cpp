@@ -20,14 +20,15 @@ bool model_exists(const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Sessions that last: a solid under way has one while others come and go. A second logger would be an error.
+/// Number of open sessions: the session of a solid stays open while others open and close. Gmsh allows one
+/// logger only.
 int sessions = 0;
 
 } // namespace
 
 Gmsh::Gmsh()
 {
-    // Without arguments, as an unknown word there ends the process; without the user's own start-up files.
+    // No arguments, as Gmsh exits on unknown ones; no start-up files of the user.
     gmsh::initialize(0, nullptr, false);
     std::setlocale(LC_ALL, "C");
     gmsh::option::setNumber("General.Terminal", 0);
@@ -39,7 +40,7 @@ Gmsh::~Gmsh()
 {
     try {
         gmsh::finalize();
-    } catch (...) { // Nothing is left to be done, and a destructor must not throw.
+    } catch (...) { // Nothing can be done here, and a destructor must not throw.
     }
 }
 
@@ -135,7 +136,7 @@ void Session::fail(const std::string& message) const
         const std::vector<std::string> errors = logged_errors();
         words = errors.empty() ? "it gave no reason" : errors.back();
     }
-    if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's own allocator says so in words
+    if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text
     refuse("cad.gmsh", "Gmsh failed: " + words);
 }
 

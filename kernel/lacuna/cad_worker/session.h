@@ -11,7 +11,7 @@
 
 namespace lacuna::cad_worker {
 
-/// Gmsh for as long as the process works with it: initialised silently, with no start-up files of the user's.
+/// Initialises Gmsh silently, without the start-up files of the user, and finalises it.
 class Gmsh {
 public:
     Gmsh();
@@ -21,25 +21,25 @@ public:
     [[nodiscard]] static std::string version();
 };
 
-/// One piece of work in Gmsh: options set for it, and kept from what a script sets, are as before at its end.
-/// @pre  a `Gmsh` lives.
+/// A scope for calls of Gmsh: at its end, options that it set, or that a script may have set, are restored.
+/// @pre  a `Gmsh` object exists.
 class Session {
 public:
-    /// @param subject  what messages name: the file, as a rule.
+    /// @param subject  prefix of messages, usually the file.
     explicit Session(std::string subject = {});
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Set an option until the session ends; one this version of Gmsh does not have is passed over.
+    /// Set an option until the session ends. Options that this version of Gmsh does not have are ignored.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
-    /// Have an option as it is now at the end of the session, whatever a script sets meanwhile.
+    /// Restore this option at the end of the session, even if a script changes it.
     void keep(const std::string& option);
 
-    /// Do work in Gmsh, its many ways of failing turned into one.
-    /// @throw BackendError    Gmsh's own words, after the subject.
-    /// @throw std::bad_alloc  the memory limit.
+    /// Run calls of Gmsh and translate their different kinds of failure.
+    /// @throw BackendError    with the subject and the message of Gmsh.
+    /// @throw std::bad_alloc  the memory limit was reached.
     template <class Work>
     auto run(Work&& work)
     {
@@ -60,11 +60,11 @@ public:
         }
     }
 
-    /// Errors Gmsh has logged since the session began, without the word "Error".
+    /// Errors logged by Gmsh since the session began, without the word "Error".
     [[nodiscard]] std::vector<std::string> logged_errors() const;
-    /// @throw BackendError always: what Gmsh said, after the subject.
+    /// @throw BackendError always: the subject and the message of Gmsh.
     [[noreturn]] void fail(const std::string& message) const;
-    /// @throw BackendError always: words of one's own under a code, after the subject.
+    /// @throw BackendError always: the subject and `words`, with the given code.
     [[noreturn]] void refuse(const std::string& code, const std::string& words) const;
 
 private:
@@ -82,30 +82,30 @@ private:
     std::size_t log_start_ = 0;
 };
 
-/// A model in Gmsh under a name no one else has; removed with the object.
+/// A Gmsh model with a unique name; removed by the destructor.
 class GmshModel {
 public:
-    /// Make it, and make it the current one.
+    /// Create the model and make it the current one.
     explicit GmshModel(Session& session);
     ~GmshModel();
     GmshModel(const GmshModel&) = delete;
     GmshModel& operator=(const GmshModel&) = delete;
 
-    /// Make it the current one.
+    /// Make this model the current one.
     void activate(Session& session) const;
 
 private:
     std::string name_;
 };
 
-/// Lets what is written to std::cout be read instead; Open CASCADE reports its troubles there.
+/// Captures std::cout, where Open CASCADE reports its errors.
 class CapturedOutput {
 public:
     CapturedOutput();
     ~CapturedOutput();
     CapturedOutput(const CapturedOutput&) = delete;
     CapturedOutput& operator=(const CapturedOutput&) = delete;
-    /// What was written so far, without terminal colours, as one line.
+    /// The output so far as one line, without terminal colours.
     [[nodiscard]] std::string text() const;
 
 private:

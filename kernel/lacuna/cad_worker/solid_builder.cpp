@@ -20,13 +20,12 @@ using cad_protocol::SplineSurfaceData;
 
 namespace {
 
-/// An inner loop no further from a filled surface than this part of the diagonal divides it.
+/// An inner loop within this distance of a filled surface, relative to the diagonal, trims it.
 constexpr double kCloseBy = 1e-3;
-/// How closely a shape must be met to be the one it was before it went through a file, as a part of the
-/// diagonal.
+/// Tolerance, relative to the diagonal, for recognising a shape after it was copied through a file.
 constexpr double kSame = 1e-7;
 
-/// Places of an entity at a few shares of its parameters, which a copy of it has too.
+/// Points of an entity at a few fixed fractions of its parameter range; a copy of it has the same points.
 std::vector<Vec3> probes_of(int dim, int tag)
 {
     std::vector<double> low, high;
@@ -45,7 +44,7 @@ std::vector<Vec3> probes_of(int dim, int tag)
     return places;
 }
 
-/// What a face or a curve is known by after it went through a file.
+/// Features by which a face or curve is recognised after it was copied through a file.
 struct Fingerprint {
     std::vector<Vec3> probes;
     double area = 0; ///< of a face
@@ -86,8 +85,7 @@ int add_curve(const SplineCurveData& curve)
 
 int add_surface(const SplineSurfaceData& surface)
 {
-    // The points stay: to take them away again costs time with their square, and what is written is the solid
-    // alone.
+    // Keep the points: removing them takes time quadratic in their number, and only the solid is written.
     const std::vector<int> tags = add_points(surface.poles);
     const auto across = std::accumulate(surface.u.multiplicities.begin(), surface.u.multiplicities.end(), 0);
     return gmsh::model::occ::addBSplineSurface(tags, across - surface.u.degree - 1, -1, surface.u.degree,
@@ -117,7 +115,7 @@ SolidBuilder::SolidBuilder(std::string subject, SolidFiles files)
 
 // --- given faces ------------------------------------------------------------------------------------
 
-/// A source's shapes come over by a file, which keeps them to the bit and edges shared.
+/// Copy shapes of a source through a file, which keeps them exactly and keeps their edges shared.
 cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& source,
                                                               const cad_protocol::SolidSource& wanted)
 {
@@ -155,14 +153,14 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                     return std::binary_search(fresh.begin(), fresh.end(), candidate) &&
                            known.is(Fingerprint(dim, candidate), source.scale, source.diagonal);
                 };
-                // As a rule they come in the same order.
+                // Usually they come in the same order.
                 const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
                                                    : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
                     throw BackendError(
                         "cad.lost", (dim == 2 ? "face " : "curve ") + std::to_string(tag) + " of " +
                                         source.path +
-                                        " got lost on its way through a file; repair it in the CAD system");
+                                        " was lost when copied through a file; repair it in the CAD system");
                 matched[tag] = *place;
             }
             return matched;
@@ -224,7 +222,7 @@ int SolidBuilder::wire(const std::vector<std::array<Index, 2>>& loop)
     return gmsh::model::occ::addCurveLoop(curves);
 }
 
-/// Open CASCADE's booleans take away curves and points that nothing holds any more.
+/// Forget curves and points that Open CASCADE's boolean operations have removed.
 void SolidBuilder::forget_removed()
 {
     gmsh::vectorpair left;
@@ -240,7 +238,8 @@ void SolidBuilder::forget_removed()
 
 // --- faces ------------------------------------------------------------------------------------------
 
-/// Holes are cut out: Gmsh's own planes with holes depend on which way the holes' curves happen to run.
+/// Holes are cut out by boolean operations, as Gmsh's plane with holes depends on the directions of their
+/// curves.
 int SolidBuilder::plane(const SolidFace& face)
 {
     std::vector<int> parts;
@@ -260,13 +259,15 @@ int SolidBuilder::plane(const SolidFace& face)
     double area = 0;
     if (cut.size() == 1) gmsh::model::occ::getMass(2, cut.front().second, area);
     if (!(std::abs(area - wanted) <= 1e-6 * wanted))
-        throw BackendError("cad.plane_failed", "a plane could not be cut out along its inner loops");
+        throw BackendError(
+            "cad.plane_failed",
+            "the inner loops could not be cut out of a plane; write the facets with write_facets");
     forget_removed();
     return cut.front().second;
 }
 
-/// A smooth surface over the outer loop, led through points of the facets and of inner loops, which divide
-/// it.
+/// A smooth surface over the outer loop, through points of the facets and of the inner loops, which then
+/// trim it.
 int SolidBuilder::filling(const SolidFace& face)
 {
     std::vector<int> leading;
@@ -274,7 +275,7 @@ int SolidBuilder::filling(const SolidFace& face)
     const int filled = gmsh::model::occ::addSurfaceFilling(wire(face.loops.front()), -1, leading);
     if (face.loops.size() == 1) return filled;
 
-    // The inner loops are close to the surface, not on it; where they divide it they become its edges.
+    // The inner loops are near the surface, not exactly on it; those that split it become edges of it.
     gmsh::vectorpair inner, parts;
     for (std::size_t l = 1; l < face.loops.size(); ++l)
         for (const auto& use : face.loops[l])

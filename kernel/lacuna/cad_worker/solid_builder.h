@@ -11,27 +11,27 @@
 
 namespace lacuna::cad_worker {
 
-/// The files a solid goes through on its way: names this process can write and read, and no one else sees.
+/// Paths of the intermediate and final files of a solid, which only this process can open.
 struct SolidFiles {
-    std::string source; ///< .brep: shapes on their way from a loaded model
-    std::string all;    ///< .brep: everything made
+    std::string source; ///< .brep: shapes copied from a loaded model
+    std::string all;    ///< .brep: all shapes of the building model
     std::string result; ///< .step or .brep: the solid
 };
 
-/// Makes a solid of exact faces of loaded models, planes, splines and fillings, in a model of its own.
+/// Builds a solid from exact faces of loaded models, planes, splines and filled surfaces, in its own model.
 class SolidBuilder {
 public:
     /// @param subject  the file to be written, for messages.
     SolidBuilder(std::string subject, SolidFiles files);
 
-    /// Bring in faces and curves of a loaded model, scaled as that model was.
-    /// @return those there are; Gmsh's own kernel has faces too, which no CAD file can hold.
-    /// @throw BackendError  one got lost on its way through a file; names it.
+    /// Copy faces and curves of a loaded model, scaled as that model was.
+    /// @return those that exist; faces of Gmsh's built-in kernel cannot be stored in a CAD file.
+    /// @throw BackendError  an entity was lost when it was copied through a file; names it.
     cad_protocol::BeginSolidReply::Found add_source(const CadSource& source,
                                                     const cad_protocol::SolidSource& wanted);
 
-    /// Make every face, sew them, write the solid to the result file and read it back.
-    /// @throw BackendError  names the face that cannot be made, or says why no solid came of it.
+    /// Make all faces, sew them, write the solid to the result file and read it back.
+    /// @throw BackendError  names the face that cannot be made, or why there is no solid.
     cad_protocol::MakeSolidReply make(const cad_protocol::MakeSolidRequest& request,
                                       const Progress& progress);
 
@@ -45,7 +45,7 @@ private:
     int point(Index p);
     void forget_removed();
 
-    /// Tags in the source's model as tags in this one.
+    /// Maps tags of the source model to tags of this model.
     struct Imported {
         std::map<int, int> faces, curves;
     };
@@ -53,7 +53,7 @@ private:
     Session session_;
     GmshModel scratch_;
     SolidFiles files_;
-    const cad_protocol::MakeSolidRequest* request_ = nullptr; ///< while it is made
+    const cad_protocol::MakeSolidRequest* request_ = nullptr; ///< set during make()
     std::vector<Imported> imported_;
     std::map<Index, std::vector<int>> curves_;
     std::map<Index, int> points_;

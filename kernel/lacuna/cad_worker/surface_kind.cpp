@@ -12,10 +12,10 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// What a surface is like at a place; |first| >= |second|.
+/// Curvature of a surface at a point; |first| >= |second|.
 struct Bend {
     Vec3 at, normal;
-    double first = 0, second = 0; ///< principal curvatures, positive where the centre is on the normal's side
+    double first = 0, second = 0; ///< principal curvatures, positive if the centre is on the normal side
     [[nodiscard]] Vec3 centre(double curvature) const { return at + normal / curvature; }
 };
 
@@ -50,7 +50,7 @@ std::vector<Bend> bends_of(int tag, const ParameterBox& box)
     return bends;
 }
 
-/// Do all points lie on one line, to a part of `size`?
+/// Whether all points are collinear, within `precision` times `size`.
 bool collinear(const std::vector<Vec3>& points, double size, double precision)
 {
     return std::sqrt(std::max(0.0, geometry::spread_of(points).square[1])) <= precision * size;
@@ -58,7 +58,7 @@ bool collinear(const std::vector<Vec3>& points, double size, double precision)
 
 std::string kind_by_bending(int tag, const ParameterBox& box)
 {
-    // Second derivatives of some of Gmsh's surfaces are differences, good to about this.
+    // Gmsh computes some second derivatives by finite differences, with errors of about this size.
     constexpr double kPrecision = 1e-4;
     const std::vector<Bend> bends = bends_of(tag, box);
     if (bends.empty()) return "surface";
@@ -84,7 +84,7 @@ std::string kind_by_bending(int tag, const ParameterBox& box)
     }
     if (all([&](const Bend& b) { return alike(b.first, one.first) && alike(b.second, one.first); }))
         return "sphere";
-    // A torus bends one way the same everywhere, and the other way around its axis.
+    // On a torus, one of the two principal curvatures is constant.
     for (const double constant : {one.first, one.second}) {
         if (none(constant)) continue;
         std::vector<Vec3> centres;

@@ -14,10 +14,10 @@ using cad_protocol::MakeSolidRequest;
 
 namespace {
 
-/// What a file may change of the volume: STEP leaves it to the reader to lay edges on fitted surfaces anew.
+/// Allowed relative change of the volume by writing: readers of STEP recompute edges on fitted surfaces.
 constexpr double kSameVolume = 1e-4;
 
-/// Curves no longer than this part of the diagonal are points: rounding, far below any tolerance.
+/// Curves shorter than this part of the diagonal are points: rounding, far below any tolerance.
 constexpr double kPole = 1e-9;
 
 std::vector<int> occ_tags(int dim)
@@ -36,7 +36,7 @@ double volume_of(int solid)
     return volume;
 }
 
-/// A curve of a face that is one point: the pole of a sphere, the tip of a cone.
+/// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
 bool is_pole(int curve, double diagonal)
 {
     double length = 0;
@@ -44,8 +44,7 @@ bool is_pole(int curve, double diagonal)
     return length <= kPole * diagonal;
 }
 
-/// How many entities of the current model are not as they are in one closed solid; in words, empty where all
-/// are.
+/// Describes how the current model differs from one closed solid; empty if it does not.
 std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
@@ -54,7 +53,7 @@ std::string faults_of_model(double diagonal)
     gmsh::vectorpair faces;
     gmsh::model::getBoundary({{3, solids.front()}}, faces, false, false, false);
     if (faces.size() != occ_tags(2).size())
-        return std::to_string(occ_tags(2).size() - faces.size()) + " faces beside the solid";
+        return std::to_string(occ_tags(2).size() - faces.size()) + " faces outside the solid";
     std::map<int, int> uses;
     for (const auto& face : faces) {
         gmsh::vectorpair curves;
@@ -66,22 +65,22 @@ std::string faults_of_model(double diagonal)
     return open == 0 ? "" : std::to_string(open) + " open edges";
 }
 
-/// A solid sewn of faces of the current model.
+/// A solid sewn from faces of the current model.
 struct Sewn {
     int solid = 0;
     double tolerance = 0;
 };
 
-/// The solid that faces cut out of a box round them; 0 where none is bounded by all of them and nothing else.
+/// Cut a box around the faces by them. @return the part bounded by exactly these faces; 0 if there is none.
 ///
-/// Sewing takes away the edges at poles and tips, which have no length, and Open CASCADE then finds the faces
-/// there invalid. Cutting keeps them, and takes longer.
+/// Sewing removes the zero-length edges at poles and tips, after which Open CASCADE reports the faces there
+/// as invalid. Cutting keeps these edges but takes longer.
 int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidRequest& request,
             double tolerance)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : request.points) box.extend(p);
-    // Clear of the faces, whatever they bulge between their points.
+    // A box large enough that faces that bulge between their points stay inside.
     const Vec3 side = 3 * box.diagonal().norm() * Vec3::Ones(), low = box.center() - side / 2;
     const int around = gmsh::model::occ::addBox(low.x(), low.y(), low.z(), side.x(), side.y(), side.z());
     session.set("Geometry.ToleranceBoolean", tolerance);
@@ -109,7 +108,7 @@ bool has_pole(int face, double diagonal)
                        [&](const auto& curve) { return is_pole(curve.second, diagonal); });
 }
 
-/// Sew with ever wider tolerances until one solid comes of it.
+/// Sew with increasing tolerances until the faces form one solid.
 Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest& request)
 {
     gmsh::vectorpair shapes;
@@ -135,11 +134,11 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
     }
     session.refuse("cad.not_sewn", "the " + std::to_string(faces.size()) +
                                        " faces could not be sewn into one solid, with gaps up to " +
-                                       std::to_string(last) + " closed; write_facets writes the facets");
+                                       std::to_string(last) + " closed; write the facets with write_facets");
 }
 
-/// Write the current model to a file, whole. Open CASCADE writes on where the system takes no more bytes, and
-/// may say nothing or anything of it: so the file is looked at against the limit.
+/// Write the current model to a file completely. Open CASCADE may not report a failed write, so the size of
+/// the file is compared with the limit.
 void write_whole(const Session& session, const std::string& path)
 {
     const auto check_room = [&] {
@@ -148,7 +147,7 @@ void write_whole(const Session& session, const std::string& path)
         if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || ::stat(path.c_str(), &file) != 0) return;
         if (limit.rlim_cur == RLIM_INFINITY || static_cast<rlim_t>(file.st_size) < limit.rlim_cur) return;
         session.refuse("cad.file_limit", "the solid takes more than the " + std::to_string(limit.rlim_cur) +
-                                             " bytes that a file may have here; raise the limit (ulimit -f)");
+                                             " bytes allowed for a file; raise the limit (ulimit -f)");
     };
     try {
         gmsh::write(path);
@@ -159,15 +158,14 @@ void write_whole(const Session& session, const std::string& path)
     check_room();
 }
 
-/// Write one solid of the current model, and nothing else there is.
+/// Write one solid of the current model and nothing else.
 void write_alone(Session& session, int solid, const SolidFiles& files)
 {
     gmsh::vectorpair others;
     for (const int tag : occ_tags(3))
         if (tag != solid) others.emplace_back(3, tag);
     if (!others.empty()) gmsh::model::occ::remove(others);
-    // Faces, curves and points are many; read on from a file, the solid comes without those that are not its
-    // own.
+    // Copy the solid through a file: unused faces, curves and points are dropped when it is read.
     gmsh::model::occ::synchronize();
     write_whole(session, files.all);
     const GmshModel alone(session);
@@ -178,7 +176,7 @@ void write_alone(Session& session, int solid, const SolidFiles& files)
     write_whole(session, files.result);
 }
 
-/// Read back what was written. @return number of faces and volume.
+/// Read the file back. @return number of faces and volume.
 std::pair<std::size_t, double> read_back(Session& session, const MakeSolidRequest& request,
                                          const SolidFiles& files, double expected)
 {
@@ -191,12 +189,12 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
         const std::string faults = faults_of_model(request.diagonal);
         if (!faults.empty())
             session.refuse("cad.reads_back",
-                           "the solid reads back with " + faults +
-                               ", not as one closed solid; write the facets with write_facets");
+                           "the file reads back with " + faults +
+                               " instead of one closed solid; write the facets with write_facets");
         const double volume = volume_of(occ_tags(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
-            session.refuse("cad.reads_back", "the solid reads back with a volume of " +
-                                                 std::to_string(volume) + ", not " +
+            session.refuse("cad.reads_back", "the file reads back with a volume of " +
+                                                 std::to_string(volume) + " instead of " +
                                                  std::to_string(expected) + "; write it as .brep");
         }
         return std::pair(occ_tags(2).size(), volume);
@@ -206,11 +204,11 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
 void check_volume(const Session& session, double volume, const MakeSolidRequest& request)
 {
     if (std::abs(volume - request.facet_volume) <= request.deviation * request.facet_volume) return;
-    session.refuse("cad.volume_differs", "the solid has a volume of " + std::to_string(volume) +
-                                             ", but the facets enclose " +
-                                             std::to_string(request.facet_volume) +
-                                             ": the surfaces fitted to void faces bulge; write_facets writes "
-                                             "the facets");
+    session.refuse("cad.volume_differs",
+                   "the solid has a volume of " + std::to_string(volume) + ", but the facets enclose " +
+                       std::to_string(request.facet_volume) +
+                       ": a surface fitted to a void face bulges; write the facets with "
+                       "write_facets");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 
 #include <lacuna/closure/detail/close_class.h>
+#include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
@@ -154,12 +155,17 @@ std::vector<double> shares_without_walls(const OpenVolume& volume)
     return shares;
 }
 
+/// The options of close(); a trial does not compare alternative shapes.
+struct Asked : CloseOptions {
+    bool trial = false;
+};
+
 /// Seals a volume as one of a class, trying several methods.
 class Sealer {
 public:
     /// @param lines  of the volume, if they are known
     Sealer(const OpenVolume& volume, const std::optional<std::vector<matching::SideLine>>& lines,
-           VolumeClass value, const CloseOptions& options, const RunContext& context)
+           VolumeClass value, const Asked& options, const RunContext& context)
         : volume_(volume), lines_(lines), value_(value), options_(options), context_(context)
     {
         const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
@@ -186,7 +192,7 @@ public:
                 if (!first) first = error;
             }
         }
-        throw NotClosed(first->code(), first->what() + (options_.hints ? what_helps(match) : std::string()));
+        throw NotClosed(first->code(), first->what() + (options_.trial ? std::string() : what_helps(match)));
     }
 
     [[nodiscard]] OpenVolume take() { return std::move(sealed_); }
@@ -240,7 +246,7 @@ private:
                                           : EdgeShape::smooth;
         const double taken = enclosed_volume(sealed_);
         std::optional<double> instead;
-        if (options_.hints) { // not in trials
+        if (!options_.trial) {
             OpenVolume kept = sealed_;
             if (would_seal({other}, match)) instead = enclosed_volume(sealed_);
             sealed_ = std::move(kept);
@@ -349,7 +355,7 @@ private:
     const OpenVolume& volume_;
     const std::optional<std::vector<matching::SideLine>>& lines_;
     VolumeClass value_;
-    const CloseOptions& options_;
+    const Asked& options_;
     const RunContext& context_;
     std::optional<Follower> follower_;
     OpenVolume sealed_;
@@ -384,7 +390,7 @@ void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseO
 }
 
 /// Seal a volume as one of a class, and check it.
-Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const CloseOptions& options,
+Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
              const RunContext& context)
 {
     Sealer sealer(volume, match.side_lines, value, options, context);
@@ -433,11 +439,11 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
 
 /// Seal a volume whose holes without walls are already covered, or are extended like the rest of the end.
 /// @param whole  the class of the volume with its holes
-Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass whole,
-                   const CloseOptions& options, const RunContext& context)
+Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass whole, const Asked& options,
+                   const RunContext& context)
 {
     // Trials of candidates move ends themselves.
-    if (whole == VolumeClass::IV && options.hints && lacks_walls(volume)) {
+    if (whole == VolumeClass::IV && !options.trial && lacks_walls(volume)) {
         if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
     }
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
@@ -457,7 +463,7 @@ Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass
 
 /// Seal a volume after covering the holes of its given ends.
 Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
-                      const CloseOptions& options, const RunContext& context)
+                      const Asked& options, const RunContext& context)
 {
     OpenVolume covered = volume;
     const std::vector<FaceId> covers = cover_holes(covered, holes, context);
@@ -483,16 +489,16 @@ std::string in_words(const Model& model, const std::vector<EndHole>& holes, cons
 }
 
 /// Seal a volume, including holes without walls in its ends.
-Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
+Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const Asked& options,
                              const RunContext& context)
 {
     const VolumeClass whole = classify(volume).value;
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);
-    if (whole == VolumeClass::V && options.hints) check_tubes(volume, context);
+    if (whole == VolumeClass::V && !options.trial) check_tubes(volume, context);
     if (options.holes == Holes::cover) return close_covered(volume, holes, whole, options, context);
     std::optional<HoleVolumes> volumes; // set if the treatment of the holes is ambiguous
-    if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && options.hints)
+    if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && !options.trial)
         volumes = hole_volumes(volume, options, context);
     if (volumes && !options.take_guess && (volumes->covered || volumes->through))
         throw NotClosed("closure.holes_open", in_words(volume.model, holes, *volumes));
@@ -511,6 +517,17 @@ void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure
     closure.notes.push_back("an end meets " + names_of(model, walls) +
                             " smoothly; meshed as part of that end, not as walls");
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
+}
+
+Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
+                       const RunContext& context)
+{
+    check_cancelled(context);
+    if (volume.full_turn)
+        throw NotSweepable("closure.full_turn_whole",
+                           "the volume runs round its whole turn and has no ends to close between; sweep "
+                           "it, or close the pieces that volume:cut() returns");
+    return close_holes_and_rest(volume, match, options, context);
 }
 
 } // namespace
@@ -536,15 +553,15 @@ std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const C
 Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
               const RunContext& context)
 {
-    check_cancelled(context);
-    if (volume.full_turn)
-        throw NotSweepable("closure.full_turn_whole",
-                           "the volume runs round its whole turn and has no ends to close between; sweep "
-                           "it, or close the pieces that volume:cut() returns");
-    Closure closure = close_holes_and_rest(volume, match, options, context);
-    if (options.hints) note_extended(volume.model, extend_smooth_ends(volume, context), closure);
-    if (options.hints) log_notes(closure, context); // not in trials
+    Closure closure = close_as_asked(volume, match, {options}, context);
+    note_extended(volume.model, extend_smooth_ends(volume, context), closure);
+    log_notes(closure, context);
     return closure;
+}
+
+Closure close_trial(OpenVolume& volume, const matching::Match& match, const RunContext& context)
+{
+    return close_as_asked(volume, match, {{.take_guess = true}, true}, context);
 }
 
 void log_notes(const Closure& closure, const RunContext& context)

@@ -46,7 +46,6 @@ struct CloseOptions {
     std::vector<VoidEdge> void_edges{}; ///< given by the user; the match adds the others
     Cap cap = Cap::automatic;
     Holes holes = Holes::automatic;
-    bool hints = true;       ///< whether an error suggests an option that seals, which doubles its run time
     bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
 };
 
@@ -87,8 +86,7 @@ struct Closure {
 Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
               const RunContext& context = {});
 
-/// Log a closure's notes, assumptions as `note: … [code]`. close() does this itself, except in trials without
-/// hints.
+/// Log a closure's notes, assumptions as `note: … [code]`, as close() does.
 void log_notes(const Closure& closure, const RunContext& context);
 
 /// The user's void edges that join the rims of source and target, as pairs (source, target) of vertex tags,

@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/moved_end.h>
 
 #include <lacuna/closure/detail/climber.h>
+#include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/void_geometry.h>
 #include <lacuna/core/error.h>
@@ -441,7 +442,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
         mover.move(context);
         MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
         const matching::Match match = matching::match(result.volume, {}, context);
-        result.closure = close(result.volume, match, {.hints = false, .take_guess = true}, context);
+        result.closure = close_trial(result.volume, match, context);
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/sealed_voids.h>
 
+#include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/guesses.h>
@@ -186,7 +187,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
         sealed.volume = open_volume(model, roles, context);
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
             sealed.match = matching::match(sealed.volume, {}, context);
-        sealed.closure = close(sealed.volume, sealed.match, {.hints = false, .take_guess = true}, context);
+        sealed.closure = close_trial(sealed.volume, sealed.match, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     } catch (const InvalidInput&) {

@@ -16,15 +16,15 @@
 
 namespace lacuna {
 
-/// Work that is done by a thread of its own while its maker does other work on one of the context's. With one
-/// thread, or where the system gives no more, it is done when it is asked for.
+/// A job that runs on its own thread while the thread that started it continues. If the context allows one
+/// thread only, or the system cannot create a thread, the job runs inside `take()`.
 ///
-/// The work gets a context with the threads that are left, at least one, and the same flag to cancel it. It
-/// tells no progress; its notes are handed on when it is taken, so that hosts are called by one thread alone.
+/// The job gets a context with the remaining threads (at least one) and the same cancel flag. Its progress is
+/// not reported. Its notes are collected and logged by `take()`, so that the host is called from one thread.
 template <class Result>
 class Background {
 public:
-    /// @param context  and all that `work` refers to outlive this.
+    /// @param context  must outlive this object, as must everything that `work` refers to.
     Background(const RunContext& context, std::function<Result(const RunContext&)> work)
         : context_(context), work_(std::move(work))
     {
@@ -36,10 +36,10 @@ public:
         try {
             thread_ = std::thread([this] { run(); });
         } catch (const std::system_error&) {
-            // done when asked for
+            // take() runs the job
         }
     }
-    /// Waits for the work, whose result is of no use then.
+    /// Waits for the job and discards its result.
     ~Background()
     {
         if (thread_.joinable()) thread_.join();
@@ -47,7 +47,7 @@ public:
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
 
-    /// Wait for the work. Once. @throw  what the work threw.
+    /// Wait for the job and return its result. Call once. @throw  whatever the job threw.
     Result take()
     {
         if (!thread_.joinable()) return work_(context_);

@@ -14,16 +14,16 @@
 #include <utility>
 #include <vector>
 
-/// Values as bytes, for other processes of the same program on machines of one kind.
+/// Serialisation of values for other processes of the same program, on machines with the same byte order.
 namespace lacuna {
 
-/// What came from another process is not what the protocol says.
+/// Bytes received from another process do not follow the protocol.
 class ProtocolError : public Error {
 public:
     explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
 };
 
-/// Values whose bytes are their meaning: numbers, and fixed arrays of numbers.
+/// Types that are copied byte by byte: numbers and fixed-size arrays of numbers.
 template <class T>
 struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {
 };
@@ -40,8 +40,8 @@ struct IsPlain<Vec3> : std::true_type {
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian and never swapped");
 static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
 
-/// Puts values behind each other: numbers as they lie in memory, arrays and texts after their length. Arrays
-/// of other values go by `put(writer, value)` of their own namespace.
+/// Appends values to a buffer: numbers as they are in memory, arrays and strings preceded by their length.
+/// Arrays of other types use `put(writer, value)`, found in the namespace of the type.
 class Writer {
 public:
     template <class T>
@@ -76,7 +76,7 @@ private:
     std::string bytes_;
 };
 
-/// Reads what a `Writer` wrote. Lengths are believed only as far as there are bytes.
+/// Reads what a `Writer` wrote. A length is checked against the number of bytes left before it is used.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : left_(bytes) {}
@@ -100,7 +100,7 @@ public:
             if (count > 0)
                 std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
         } else {
-            // Every element takes a byte at least, so the loop ends with the bytes.
+            // Each element takes at least one byte, so the number of bytes left bounds the loop.
             const std::size_t count = length(1);
             values.clear();
             for (std::size_t i = 0; i < count; ++i) {
@@ -137,7 +137,7 @@ private:
     std::string_view left_;
 };
 
-/// An array, each of its values by its own fields: `put_one(value)`. One list of them writes and reads.
+/// Read or write an array; `put_one(value)` lists the fields of one element, for reading and writing alike.
 template <class Archive, class Values, class PutOne>
 void put_each(Archive& with, Values& values, const PutOne& put_one)
 {

@@ -7,13 +7,13 @@
 
 namespace lacuna {
 
-/// One number for the way from point `a` to point `b`, to key hash maps with.
+/// Hash key of the directed edge from point `a` to point `b`.
 constexpr std::uint64_t directed_key(Index a, Index b)
 {
     return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
 }
 
-/// One number for the edge between two points, the same both ways round.
+/// Hash key of the undirected edge between two points: the same for (a, b) and (b, a).
 constexpr std::uint64_t edge_key(Index a, Index b) { return a < b ? directed_key(a, b) : directed_key(b, a); }
 
 } // namespace lacuna

@@ -9,7 +9,7 @@
 
 namespace lacuna {
 
-/// An index that knows what it counts: ids of different kinds neither mix nor convert to `int`.
+/// A typed index: ids of different kinds do not mix, and do not convert to `int`.
 template <class Kind>
 class Id {
 public:
@@ -18,7 +18,7 @@ public:
     constexpr explicit Id(std::size_t value) : value_(static_cast<Index>(value)) {}
 
     [[nodiscard]] constexpr bool valid() const { return value_ >= 0; }
-    /// Position in the array the id counts. @pre valid()
+    /// Position in the array that this id indexes. @pre valid()
     [[nodiscard]] constexpr std::size_t index() const { return static_cast<std::size_t>(value_); }
 
     friend constexpr auto operator<=>(const Id&, const Id&) = default;

@@ -9,7 +9,7 @@ namespace lacuna {
 
 void use_large_pages(void* memory, std::size_t bytes)
 {
-    // Bytes of one, on x86 and most ARM; elsewhere nothing is gained.
+    // Size of a large page on x86 and most ARM processors. Elsewhere the request has no effect.
     constexpr std::size_t kLarge = std::size_t(1) << 21;
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kLarge - 1) / kLarge * kLarge;
     const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kLarge * kLarge;
@@ -19,7 +19,7 @@ void use_large_pages(void* memory, std::size_t bytes)
 
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough)
 {
-    constexpr std::size_t kPage = 4096; // no page is smaller
+    constexpr std::size_t kPage = 4096; // the smallest page size there is
     auto* const begin = static_cast<volatile char*>(memory);
     for (std::size_t at = 0; at < bytes && !enough.load(std::memory_order_relaxed); at += kPage)
         begin[at] = 0;

@@ -7,15 +7,15 @@
 
 namespace lacuna {
 
-/// Ask the system for large pages where memory is, before it is first touched: 100 MB then take some 50 page
-/// faults and not 25,000. A wish, which changes nothing but time.
+/// Ask the system to back this memory with large pages, before its first use: 100 MB then cause about 50 page
+/// faults instead of 25,000. A hint only: results do not depend on it.
 void use_large_pages(void* memory, std::size_t bytes);
 
-/// Have the system clear the pages of memory that nothing was written to yet, until all are or it is enough.
-/// So who writes there need not wait for it. What the memory holds is lost.
+/// Let the system clear the pages of memory not written yet, until all are cleared or `enough` is set: the
+/// first writer then has no page faults to wait for. The contents of the memory are lost.
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough);
 
-/// Room for `count` values, in large pages where there are many.
+/// A vector of `count` values, in large pages if it is large.
 template <class Value>
 void reserve_large(std::vector<Value>& values, std::size_t count)
 {

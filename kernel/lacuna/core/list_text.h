@@ -8,7 +8,7 @@
 namespace lacuna {
 
 /// "a, b, c": the texts of all items.
-/// @param text  of an item, a std::string.
+/// @param text  returns the text of an item as a std::string.
 template <class Items, class Text>
 std::string full_list(const Items& items, Text text)
 {
@@ -17,7 +17,7 @@ std::string full_list(const Items& items, Text text)
     return list;
 }
 
-/// "a, b, c, d, e, f and 3 more": as many as a message can hold.
+/// "a, b, c, d, e, f and 3 more": at most six items and a count, to keep messages short.
 template <class Items, class Text>
 std::string short_list(const Items& items, Text text)
 {

@@ -10,7 +10,7 @@
 
 namespace lacuna {
 
-/// A set of numbers below a count that is emptied at no cost, for searches over parts of a mesh or a model.
+/// A set of integers below a fixed count. Clearing it is O(1), for repeated searches over a mesh or model.
 class Marks {
 public:
     explicit Marks(std::size_t count = 0) : of_(count, 0) {}
@@ -21,7 +21,7 @@ public:
         std::fill(of_.begin(), of_.end(), 0);
         now_ = 1;
     }
-    /// Empty it and make room for numbers below `count`.
+    /// Make the set empty, for integers below `count`.
     void clear(std::size_t count)
     {
         of_.resize(count, 0);
@@ -29,7 +29,7 @@ public:
     }
     [[nodiscard]] bool has(std::size_t i) const { return i < of_.size() && of_[i] == now_; }
     [[nodiscard]] bool has(Index i) const { return has(index(i)); }
-    /// @return true where `i` was not in the set.
+    /// @return true if `i` was not in the set before.
     bool add(std::size_t i)
     {
         if (has(i)) return false;
@@ -39,7 +39,7 @@ public:
     bool add(Index i) { return add(index(i)); }
 
 private:
-    std::vector<std::uint32_t> of_; ///< the round in which each number was added last
+    std::vector<std::uint32_t> of_; ///< for each integer, the round in which it was last added
     std::uint32_t now_ = 1;
 };
 

@@ -19,13 +19,13 @@ constexpr Kind kKinds[] = {
     {"element", "element"}, {"elements", "element"}, {"layer", "layer"}, {"solid", "solid"},
 };
 
-/// Words that belong to the kind.
+/// Words before a kind that are part of it, as in "void face".
 constexpr std::string_view kPrefixes[] = {"void", "source", "target"};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Reads a message from the left.
+/// Parses a message from left to right.
 class Reader {
 public:
     explicit Reader(std::string_view text) : rest_(text) {}
@@ -45,7 +45,7 @@ public:
         skip(word.size());
         return word;
     }
-    /// A whole number with no fraction behind it; false where there is none.
+    /// Take an integer; false if there is none, or if it is the integer part of a decimal number.
     bool take_number(long long& number)
     {
         const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
@@ -57,7 +57,7 @@ public:
         skip(length);
         return true;
     }
-    /// `"rim"`, with a space before it or none; quotes without an end are passed over.
+    /// Skip text in quotes, with or without a space before it. A quote without an end is ignored.
     bool take_quoted()
     {
         const std::size_t open = rest_.starts_with(" \"") ? 1 : 0;
@@ -66,7 +66,7 @@ public:
         skip(close == std::string_view::npos ? open + 1 : close + 1);
         return true;
     }
-    /// What stands between two numbers of a list.
+    /// Skip the text between two numbers of a list.
     bool take_separator()
     {
         const Reader before = *this;
@@ -98,7 +98,7 @@ std::vector<NamedEntity> named_entities(std::string_view message)
         if (reader.take_quoted()) continue;
         const std::string_view word = reader.take_word();
         if (word.empty()) {
-            if (!reader.take(" ")) reader.skip(), before = {}; // a prefix stands right before its word
+            if (!reader.take(" ")) reader.skip(), before = {}; // the word must follow its prefix directly
             continue;
         }
         const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),

@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-/// An entity as a message names it, by the tag or number that a person knows.
+/// An entity named in a message, by the tag or number that the user knows.
 struct NamedEntity {
     std::string kind; ///< "face", "void face", "edge", "vertex", "source loop", "node", "cell", "element"…
     long long tag = 0;
@@ -15,10 +15,10 @@ struct NamedEntity {
     bool operator==(const NamedEntity&) const = default;
 };
 
-/// Entities that the words of an error name, as they are first met, each once: `face 12 "rim"`,
-/// `void edge 3 (vertices 4-9)`, `faces 1, 2 and 7`, `target loop 2`. Names in quotes are passed over.
+/// Entities named in the text of an error, in order, without repetition: `face 12 "rim"`,
+/// `void edge 3 (vertices 4-9)`, `faces 1, 2 and 7`, `target loop 2`. Text in quotes is skipped.
 ///
-/// Every message writes entities this way, so programs get them from the one place that people do.
+/// All messages of the kernel name entities in these forms, so that programs can rely on them.
 std::vector<NamedEntity> named_entities(std::string_view message);
 
 } // namespace lacuna

@@ -7,14 +7,14 @@
 
 namespace lacuna {
 
-/// A number in a message, with so many significant digits at most: "0.034", "1.2e-07". The host's locale does
-/// not matter.
+/// A number for a message, with at most `digits` significant digits: "0.034", "1.2e-07". Independent of the
+/// locale of the host.
 std::string with_digits(double value, int digits);
 
-/// The same with so many digits behind the point: "0.034", "-1.00".
+/// A number for a message, with `decimals` digits after the decimal point: "0.034", "-1.00".
 std::string with_decimals(double value, int decimals);
 
-/// A place in a message: "(0.5, 1.25, -3)", each with so many significant digits at most.
+/// Coordinates for a message: "(0.5, 1.25, -3)", each with at most `digits` significant digits.
 std::string place_with_digits(const Vec3& place, int digits);
 
 } // namespace lacuna

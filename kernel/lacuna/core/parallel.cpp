@@ -16,10 +16,10 @@ void parallel_for(const RunContext& context, std::size_t count, std::size_t grai
 {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
-    // The system is asked how many cores there are only where there is work for two threads.
+    // Ask for the number of cores only if there is work for two threads.
     const std::size_t most = count / grain;
-    const std::size_t threads =
-        most < 2 ? 1 : std::min(most, static_cast<std::size_t>(thread_count(context)));
+    const std::size_t threads = most < 2 ? 1
+                                         : std::min(most, static_cast<std::size_t>(thread_count(context)));
 
     std::atomic<std::size_t> next{0};
     std::atomic<bool> stop{false};
@@ -45,7 +45,7 @@ void parallel_for(const RunContext& context, std::size_t count, std::size_t grai
     try {
         for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
     } catch (const std::system_error&) {
-        // The system gives no more threads: those there are, and this one, do all the work.
+        // The system cannot create more threads: the available ones and this one do all the work.
     }
     work();
     for (std::thread& helper : helpers) helper.join();

@@ -7,8 +7,8 @@
 
 namespace lacuna {
 
-/// Tell the context's progress, if it has one, that a stage is done to a share in [0, 1]; 0 begins it.
-/// @pre called on the thread that the work was asked on.
+/// Report to the context that a fraction `share` in [0, 1] of a stage is done; 0 starts the stage.
+/// @pre called on the thread that called the kernel
 inline void report_progress(const RunContext& context, std::string_view stage, double share = 0)
 {
     if (context.progress) context.progress(stage, share);

@@ -10,8 +10,7 @@ namespace lacuna {
 
 namespace {
 
-/// More threads than this are asked for by mistake unless there are as many cores: a choice, not a
-/// measurement.
+/// Limit on the number of threads, against typing errors, on machines with fewer cores than this.
 constexpr int kMostThreads = 64;
 
 } // namespace
@@ -23,7 +22,7 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
-    // Asking the system takes longer than a small loop.
+    // Querying the number of cores takes longer than a small loop.
     if (context.threads > 0 && context.threads <= kMostThreads) return context.threads;
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;

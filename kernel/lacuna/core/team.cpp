@@ -10,7 +10,7 @@ namespace lacuna {
 
 namespace {
 
-// What is exchanged begins with a byte that says what it is.
+// The first byte of each exchanged string says whether it is a contribution or an error.
 constexpr char kSaid = 's', kFailed = 'f';
 
 std::string failure(const std::string& code, const std::string& message)
@@ -50,7 +50,7 @@ void do_together(const Team* team, const std::function<void()>& work)
     try {
         work();
         gather(team, {});
-    } catch (const TeamFailed& error) { // all know
+    } catch (const TeamFailed& error) { // all processes know of it already
         if (error.code() == Cancelled().code()) throw Cancelled();
         throw;
     } catch (const Error& error) {

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-/// Work that several processes do together. How they speak to each other is the host's: this folder knows
-/// neither processes nor networks.
+/// Work shared by several processes. The host provides the communication; this folder knows neither processes
+/// nor networks.
 namespace lacuna {
 
-/// A file that all of a team write to at places of their own.
+/// A file to which all processes of a team write, each at its own offsets.
 class SharedFile {
 public:
     SharedFile() = default;
@@ -26,47 +26,47 @@ public:
 
     /// @throw BackendError  the disk is full.
     virtual void write_at(std::uint64_t offset, std::string_view bytes) = 0;
-    /// All that was written has arrived, or is an error. @throw BackendError
+    /// Wait until everything is written. @throw BackendError  something could not be written.
     virtual void close() = 0;
 };
 
-/// Those who do one piece of work at the same time, each its share of it.
+/// The processes that share one task.
 struct Team {
     int rank = 0, size = 1;
-    bool one_machine = false; ///< all are on one: a file that one has open can be opened by the others
-    /// What each has to say, by rank. All call it, and each waits until all have.
+    bool one_machine = false; ///< all run on one machine: each can open a file that another has open
+    /// Send a string to all and return the strings of all, by rank. Collective: waits until all have called.
     std::function<std::vector<std::string>(std::string own)> exchange;
-    /// Open a file that is there. Each opens it for itself.
-    /// @param name  as a person knows it, for messages. @throw BackendError
+    /// Open an existing file. Not collective: each process opens it for itself.
+    /// @param name  the name of the file in messages. @throw BackendError
     std::function<std::unique_ptr<SharedFile>(const std::string& path, const std::string& name)> open;
 };
 
-/// Others who wait to be called.
+/// Processes that wait for tasks.
 struct Crew {
-    int size = 1; ///< with who calls
-    /// Have all of them begin a task, with all that they need to know; who calls begins it too, and is rank 0
-    /// of the team that is returned. The team ends with the task.
+    int size = 1; ///< including the caller
+    /// Start a task on all processes, with its name and its input. The caller is rank 0 of the team that is
+    /// returned. The team exists until the task ends.
     std::function<const Team&(std::string_view task, const std::string& bytes)> call;
 };
 
-/// Another of the team failed.
+/// Another process of the team failed.
 class TeamFailed : public Error {
 public:
     using Error::Error;
 };
 
-/// What each of a team has to say, by rank. Within `do_together()` alone. Null: this process is alone.
-/// @throw TeamFailed  one of them failed: its code, and its message with the number of its process.
+/// The strings of all processes, by rank. Only valid inside `do_together()`. Null: this process works alone.
+/// @throw TeamFailed  a process failed; has its code, and its message with the number of the process.
 std::vector<std::string> gather(const Team* team, const std::string& own);
 
-/// Do work that the whole team does at once. Where it fails for one it fails for all, at the next `gather()`
-/// or at the end; nobody waits for who has failed. Without a team just does it.
-/// @throw  what `work` throws; TeamFailed as `gather()`, or Cancelled where another was cancelled.
+/// Run `work` on all processes of a team. If it fails on one process it fails on all, at the next `gather()`
+/// or at the end, so that no process waits for one that failed. Without a team, just runs `work`.
+/// @throw  what `work` throws; TeamFailed as `gather()`; Cancelled if another process was cancelled.
 void do_together(const Team* team, const std::function<void()>& work);
 
-/// The part [first, second) of [0, count) that is a rank's: parts that follow each other, as even as can be.
+/// The subrange [first, second) of [0, count) of a rank. Subranges are contiguous and differ in size by <= 1.
 std::pair<std::size_t, std::size_t> share_of(std::size_t rank, std::size_t size, std::size_t count);
-/// This process's, which is all of it without a team.
+/// The subrange of this process: everything if there is no team.
 std::pair<std::size_t, std::size_t> share_of(const Team* team, std::size_t count);
 
 } // namespace lacuna

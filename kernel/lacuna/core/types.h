@@ -13,7 +13,7 @@ namespace lacuna {
 /// Index of a point, node or cell in an array; -1 means none.
 using Index = std::int32_t;
 
-/// An index as the standard containers count.
+/// An index converted to the size type of the standard containers.
 constexpr std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 using Vec2 = Eigen::Vector2d;

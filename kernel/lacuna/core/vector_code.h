@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What code needs that is compiled for more than one processor, the widest of which is chosen when it runs.
+/// Macros and types for functions compiled for several instruction sets; the widest is chosen at run time.
 
-/// A body that is compiled into each caller, for the processor of that caller.
+/// A function that is inlined into each caller, and so compiled for the instruction set of the caller.
 #if defined(__GNUC__)
 #define LACUNA_INLINE [[gnu::always_inline]] inline
 #else
 #define LACUNA_INLINE inline
 #endif
 
-/// Whether functions may be compiled for wider vectors than all processors have: `[[gnu::target("avx2")]]`.
+/// Whether the compiler can compile single functions for wider vectors: `[[gnu::target("avx2")]]`.
 #if defined(__GNUC__) && defined(__x86_64__)
 #define LACUNA_WIDER_VECTORS
 #endif
 
 namespace lacuna {
 
-/// Four numbers; the processor takes two or four at a time. They may lie anywhere.
+/// Four doubles, processed two or four at a time by the processor. May be unaligned.
 using Four = double __attribute__((vector_size(32), aligned(8)));
-/// Two, which processors without wider vectors take at a time.
+/// Two doubles: one vector of the baseline instruction set.
 using Two = double __attribute__((vector_size(16), aligned(8)));
 
 #if defined(LACUNA_WIDER_VECTORS)
@@ -29,7 +29,7 @@ inline bool has_avx2()
     return found;
 }
 
-/// With its doublewords and quadwords.
+/// Whether the processor has AVX-512 with its DQ (doubleword and quadword) instructions.
 inline bool has_avx512()
 {
     static const bool found = __builtin_cpu_supports("avx512f") != 0 &&

@@ -18,7 +18,7 @@ namespace lacuna::mesh {
 ///      |/      |/       | v
 ///      0-------1        |/__u
 ///
-/// Corners of each of the six sides, outward.
+/// Corners of each of the six sides, ordered outward.
 inline constexpr std::array<Quad, 6> kHexSides{{
     {0, 3, 2, 1},
     {4, 5, 6, 7},
@@ -33,7 +33,7 @@ inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
     {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
 
 ///        5           Nodes of a wedge (Gmsh's order): 0..2 lie on the source side, 3..5 above them.
-///       /|\          Where hexahedra are asked for, it is one whose last two columns of nodes are one:
+///       /|\          Functions that take hexahedra get it as one with its last two columns of nodes merged:
 ///      3---4         {0, 1, 2, 2, 3, 4, 5, 5}.
 ///      | 2 |
 ///      |/ \|
@@ -42,8 +42,8 @@ inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
 using Wedge = std::array<Index, 6>;
 
 constexpr bool is_wedge(const Hex& hex) { return hex[2] == hex[3] && hex[6] == hex[7]; }
-/// Neighbours of each corner of a wedge as a hexahedron: the two of its triangle and the one along its
-/// height, which are right-handed as in `kHexNeighbours`. Corners 3 and 7 are corners 2 and 6.
+/// Neighbours of each corner of a wedge that is stored as a hexahedron: two in its triangle and one along its
+/// height, right-handed as in `kHexNeighbours`. Corners 3 and 7 are the same as 2 and 6.
 inline constexpr std::array<std::array<std::size_t, 3>, 8> kWedgeNeighbours{
     {{1, 2, 4}, {2, 0, 5}, {0, 1, 6}, {0, 1, 6}, {6, 5, 0}, {4, 6, 1}, {5, 4, 2}, {5, 4, 2}}};
 
@@ -54,17 +54,17 @@ constexpr Hex hex_of(const Wedge& wedge)
     return {wedge[0], wedge[1], wedge[2], wedge[2], wedge[3], wedge[4], wedge[5], wedge[5]};
 }
 
-/// A part of the skin with names: what Gmsh calls a surface entity.
+/// A named part of the skin: a surface entity in Gmsh's terms.
 struct SkinPatch {
     int tag = 0; ///< entity tag written to files, unique in the mesh, > 0
-    /// Physical groups it belongs to: "source", "wall:12", a name of the input… The first is the one in files
-    /// where a quad is in one alone.
+    /// Physical groups of the patch: "source", "wall:12", a name of the input… Formats that allow one group
+    /// per quad use the first.
     std::vector<std::string> groups;
-    int face = 0; ///< tag of the given face it lies on; 0: it is a void one, or no face is known
+    int face = 0; ///< tag of the given face that it lies on; 0: a void face, or unknown
 };
 
-/// Swept hexahedra, kept as source quads times layers: cells and skin are computed, never stored. Over the
-/// triangles of the source stand wedges.
+/// Swept hexahedra, stored as source quads and a number of layers: cells and skin are computed, not stored.
+/// Triangles of the source are swept to wedges.
 ///
 /// Node (layer l, source node n) has the number l · nodes_per_layer + n, counted from 0. Cell (layer l,
 /// quad q) has the number l · quads.size() + q.
@@ -72,26 +72,26 @@ struct HexMesh {
     Index nodes_per_layer = 0;
     int layers = 0;
     std::vector<Vec3> nodes;  ///< (layers + 1) × nodes_per_layer, layer-major from the source [model length]
-    std::vector<Quad> quads;  ///< source quads, then its triangles; their normals point into the volume
-    std::vector<Segment> rim; ///< directed boundary sides of `quads`, as they run in their quad
+    std::vector<Quad> quads;  ///< source quads, then source triangles; normals point into the volume
+    std::vector<Segment> rim; ///< boundary sides of `quads`, directed as in their quad
 
     std::vector<SkinPatch> patches;
     std::vector<Index> source_patch; ///< patch of each quad on the source
     std::vector<Index> target_patch; ///< patch of each quad on the target
     std::vector<Index> wall_patch;   ///< patch of (rim side r, layer l) at l · rim.size() + r
-    std::vector<std::string> volume_groups{"volume"}; ///< the first is that of the region
-    MiddleNodes middles;                              ///< of order 2; empty: the cells are of order 1
+    std::vector<std::string> volume_groups{"volume"}; ///< the first is the name of the region
+    MiddleNodes middles;                              ///< empty: cells of order 1
 
     [[nodiscard]] int order() const { return middles.empty() ? 1 : 2; }
-    /// Corners and middle nodes together; the middle nodes have the numbers behind the corners.
+    /// Number of corners and middle nodes. Middle nodes are numbered after the corners.
     [[nodiscard]] std::size_t node_count() const { return nodes.size() + middles.nodes.size(); }
     [[nodiscard]] const Vec3& node(std::size_t n) const
     {
         return n < nodes.size() ? nodes[n] : middles.nodes[n - nodes.size()];
     }
-    /// Hexahedra and wedges.
+    /// Number of hexahedra and wedges.
     [[nodiscard]] std::size_t cell_count() const { return quads.size() * static_cast<std::size_t>(layers); }
-    /// O(triangles), as the next two.
+    /// O(triangles), like the next two.
     [[nodiscard]] std::size_t triangle_count() const
     {
         std::size_t count = 0;
@@ -107,7 +107,7 @@ struct HexMesh {
     {
         return 2 * quads.size() + rim.size() * static_cast<std::size_t>(layers);
     }
-    /// Node numbers of cell `cell`; of a wedge as `is_wedge()` has it. @pre cell < cell_count()
+    /// Node numbers of a cell; a wedge is stored as `is_wedge()` says. @pre cell < cell_count()
     [[nodiscard]] Hex hex(std::size_t cell) const
     {
         const auto layer = static_cast<Index>(cell / quads.size());
@@ -119,14 +119,14 @@ struct HexMesh {
     }
 };
 
-/// A quad or triangle of the skin, outward, with the patch it belongs to.
+/// A quad or triangle of the skin, oriented outward, with its patch.
 struct SkinQuad {
     Quad nodes;
     Index patch;
 };
 
-/// Cells and skin by kind, as files hold them: hexahedra before wedges, quads before triangles. No array is
-/// kept: the source's triangles are the last of its quads.
+/// Numbering of cells and skin by kind, as in files: hexahedra before wedges, quads before triangles.
+/// Computed without arrays, as triangles come last in `quads`.
 class CellKinds {
 public:
     explicit CellKinds(const HexMesh& mesh)
@@ -138,7 +138,7 @@ public:
     }
     [[nodiscard]] std::size_t hexes() const { return hexes_; }
     [[nodiscard]] std::size_t skin_quads() const { return 2 * (columns_ - triangles_) + walls_; }
-    /// The cell that comes `i`-th.
+    /// The cell at position `i` of this numbering.
     [[nodiscard]] std::size_t cell(std::size_t i) const
     {
         if (triangles_ == 0) return i;
@@ -146,7 +146,7 @@ public:
         const std::size_t at = i < hexes_ ? i : i - hexes_;
         return at / own * columns_ + (i < hexes_ ? 0 : columns_ - triangles_) + at % own;
     }
-    /// The quad or triangle of the skin that comes `i`-th.
+    /// The skin quad or triangle at position `i` of this numbering.
     [[nodiscard]] std::size_t skin(std::size_t i) const
     {
         const std::size_t quads = columns_ - triangles_;
@@ -160,7 +160,7 @@ private:
     std::size_t columns_, triangles_, hexes_, walls_;
 };
 
-/// Skin quad `i`: the source quads first, then the target's, then the walls layer by layer.
+/// Skin quad `i`: first those on the source, then the target, then the walls, layer by layer.
 /// @pre i < skin_count()
 SkinQuad skin_quad(const HexMesh& mesh, std::size_t i);
 

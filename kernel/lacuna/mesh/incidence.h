@@ -8,7 +8,7 @@
 
 namespace lacuna::mesh {
 
-/// A list of numbers for each key: those of key i are items[begin[i]] … items[begin[i + 1] - 1].
+/// Lists of numbers, one for each key: the list of key i is items[begin[i]] … items[begin[i + 1] - 1].
 struct Incidence {
     std::vector<Index> begin{0};
     std::vector<Index> items;
@@ -20,9 +20,9 @@ struct Incidence {
     }
 };
 
-/// Bring the items of each key together; they keep the order in which they are visited. O(keys + items).
-/// @param each  `each(visit)` calls `visit(key, item)` for every pair; it is called twice and must do the
-///              same.
+/// Group items by key; within a key they keep the order in which they are visited. O(keys + items).
+/// @param each  `each(visit)` calls `visit(key, item)` for every pair. It is called twice and must visit the
+///              same pairs both times.
 template <class Each>
 Incidence incidence(std::size_t keys, const Each& each)
 {
@@ -36,7 +36,7 @@ Incidence incidence(std::size_t keys, const Each& each)
     return lists;
 }
 
-/// The quads round each node, rising. @pre every corner lies in [0, node_count)
+/// The quads around each node, ascending. @pre every corner lies in [0, node_count)
 Incidence quads_at_nodes(std::span<const Quad> quads, std::size_t node_count);
 
 } // namespace lacuna::mesh

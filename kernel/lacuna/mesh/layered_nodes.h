@@ -12,31 +12,31 @@
 
 namespace lacuna::mesh {
 
-/// The nodes of a swept mesh that does not hold them: made a few layers at a time, whenever they are asked
-/// for, the same each time to the bit.
+/// Computes the nodes of a swept mesh a few layers at a time, instead of storing them. The same call returns
+/// the same bits each time.
 ///
-/// Such a mesh is a `HexMesh` whose `nodes` are those of the source alone; all else of it is there.
+/// The mesh is a complete `HexMesh` except that `nodes` has those of the source only.
 struct LayeredNodes {
-    /// Nodes of levels [first, last), 0 the source and `layers` the target, into (last - first) ×
-    /// nodes_per_layer places.
+    /// Compute the nodes of levels [first, last) into `out`, (last - first) × nodes_per_layer points. Level 0
+    /// is the source, level `layers` the target.
     std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place;
-    /// A node of the skin, by its number in the mesh.
+    /// A node of the skin, by its number.
     std::function<Vec3(Index node)> on_skin;
-    /// Of order 2, the middle nodes from level `first` to level `last`, both with those that lie on them, in
+    /// For order 2: the middle nodes from level `first` to level `last`, those on both levels included, in
     /// the order of `MiddleNodes::nodes`; else null.
     std::function<void(int first, int last, std::span<Vec3> out, const RunContext& context)> place_middles{};
 };
 
-/// A swept mesh whose nodes are made when they are asked for. Refers to both.
+/// A swept mesh whose nodes are computed on demand. Holds references only.
 struct LayeredMesh {
     const HexMesh& mesh;
     const LayeredNodes& nodes;
 };
 
-/// Nodes of the skin of a mesh, whether it holds them or not. Refers to both.
+/// Access to the skin nodes of a mesh, whether it stores its nodes or not. Holds references only.
 struct SkinNodes {
     const HexMesh& mesh;
-    const LayeredNodes* layers = nullptr; ///< null: the mesh holds its nodes
+    const LayeredNodes* layers = nullptr; ///< null: the mesh stores its nodes
 
     [[nodiscard]] Vec3 operator[](Index node) const
     {
@@ -44,19 +44,19 @@ struct SkinNodes {
     }
 };
 
-/// All corners of a mesh's cells, held or not.
+/// Number of cell corners of a mesh, stored or not.
 inline std::size_t corner_count(const HexMesh& mesh)
 {
     return (static_cast<std::size_t>(mesh.layers) + 1) * index(mesh.nodes_per_layer);
 }
 
-/// Its middle nodes, likewise.
+/// Number of middle nodes of a mesh, stored or not.
 inline std::size_t middle_count(const HexMesh& mesh)
 {
     return mesh.order() == 2 ? MiddlePlaces(mesh).count() : 0;
 }
 
-/// Layers of cells that are worked on at once: about 250,000 nodes, 6 MB, one layer at least. A choice.
+/// Number of layers to process at once: about 250,000 nodes (6 MB), at least one layer.
 inline int layers_at_once(const HexMesh& mesh)
 {
     constexpr std::size_t kNodes = 250000;
@@ -65,8 +65,8 @@ inline int layers_at_once(const HexMesh& mesh)
     return std::clamp(static_cast<int>(kNodes / layer), 1, mesh.layers);
 }
 
-/// Layers [first, last) as a mesh that holds its nodes and has no patches.
-/// @param before  other layers of the same mesh, whose room is taken; empty: none are there
+/// Layers [first, last) as a mesh that stores its nodes and has no patches.
+/// @param before  another such mesh, whose memory is reused; may be empty
 HexMesh make_layers(const LayeredMesh& layered, int first, int last, HexMesh before = {},
                     const RunContext& context = {});
 

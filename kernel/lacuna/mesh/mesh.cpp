@@ -23,9 +23,9 @@ std::vector<BoundarySide> boundary_sides(const std::vector<Quad>& quads)
 
 std::vector<Index> opposite_sides(const std::vector<Quad>& quads, Index node_count)
 {
-    // Sides with the same nodes meet in the bin of the lower one; bins are as small as a node has neighbours.
+    // Sides with the same nodes are found in the bin of their lower node, which is as small as its valence.
     struct SideUse {
-        Index high, first, second; ///< the other node, and who has the side: kRimSide where nobody has it yet
+        Index high, first, second; ///< the other node, and the sides of one or two quads; kRimSide: none yet
     };
     const auto each_side = [&](const auto& visit) {
         for (std::size_t q = 0; q < quads.size(); ++q)

@@ -11,14 +11,14 @@
 
 namespace lacuna::mesh {
 
-/// The numbers of a mesh's nodes among those of several meshes that have nodes in common, in memory that goes
-/// by the nodes in common.
+/// Maps the node numbers of one mesh to the numbering of several meshes with shared nodes. Its memory grows
+/// with the number of shared nodes only.
 class NodeNumbers {
 public:
     NodeNumbers() = default;
-    /// @param first  of the nodes that no earlier mesh has, the first one's number.
-    /// @param known  the others, rising, and their numbers.
-    /// @param nodes  of the mesh.
+    /// @param first  number of the first node that no earlier mesh has.
+    /// @param known  nodes shared with earlier meshes, ascending, with their numbers.
+    /// @param nodes  number of nodes of the mesh.
     NodeNumbers(Index first, std::vector<std::pair<Index, Index>> known, std::size_t nodes)
         : first_(first), known_(std::move(known)), nodes_(nodes), before_((nodes >> kShift) + 2)
     {
@@ -30,7 +30,7 @@ public:
     }
 
     [[nodiscard]] Index first() const { return first_; }
-    /// Nodes that no earlier mesh has.
+    /// Number of nodes that no earlier mesh has.
     [[nodiscard]] std::size_t fresh() const { return nodes_ - known_.size(); }
     [[nodiscard]] const std::vector<std::pair<Index, Index>>& known() const { return known_; }
 
@@ -44,10 +44,10 @@ public:
         return first_ + node - static_cast<Index>(at - known_.begin());
     }
 
-    /// The node that is the `i`-th, from 0, of those that no earlier mesh has.
+    /// The `i`-th node, from 0, among those that no earlier mesh has.
     [[nodiscard]] std::size_t fresh_node(std::size_t i) const
     {
-        std::size_t low = 0, high = known_.size(); // known nodes before it
+        std::size_t low = 0, high = known_.size(); // number of shared nodes before it
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             if (index(known_[middle].first) - middle <= i)
@@ -59,26 +59,26 @@ public:
     }
 
 private:
-    static constexpr unsigned kShift = 8; ///< 4 bytes for 256 nodes: a choice
+    static constexpr unsigned kShift = 8; ///< blocks of 256 nodes take 4 bytes each
 
     Index first_ = 0;
     std::vector<std::pair<Index, Index>> known_;
     std::size_t nodes_ = 0;
-    std::vector<Index> before_; ///< known nodes before each block of nodes
+    std::vector<Index> before_; ///< number of shared nodes before each block
 };
 
-/// One of several swept meshes that have nodes in common.
+/// One of several swept meshes with shared nodes.
 struct MeshPart {
     const HexMesh* mesh = nullptr;
-    /// Of each node, its number in the whole, from 0: a new one is the next, one of an earlier part has that
-    /// one's.
+    /// Number of each node in the union of the parts, from 0. New nodes are numbered consecutively; shared
+    /// nodes have the number of the earlier part.
     std::span<const Index> number;
 };
 
-/// The same of a mesh that may not hold its nodes. Refers to all.
+/// As `MeshPart`, for a mesh that may not store its nodes. Holds references only.
 struct LayeredPart {
     const HexMesh& mesh;
-    const LayeredNodes* nodes = nullptr; ///< null: the mesh holds them
+    const LayeredNodes* nodes = nullptr; ///< null: the mesh stores its nodes
     const NodeNumbers& numbers;
 };
 

@@ -24,7 +24,7 @@ MiddleNodes number_sides(const HexMesh& mesh, bool full)
     middles.full = full;
     middles.side_of.assign(mesh.quads.size(), {-1, -1, -1, -1});
     const std::vector<Index> opposite = opposite_sides(mesh.quads, mesh.nodes_per_layer);
-    std::vector<Index> rim_from(index(mesh.nodes_per_layer), -1); // the rim's side that leaves a node
+    std::vector<Index> rim_from(index(mesh.nodes_per_layer), -1); // the rim side that starts at each node
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         for (std::size_t k = 0; k < 4; ++k) {
             const Index other = opposite[4 * q + k];

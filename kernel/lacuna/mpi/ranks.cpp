@@ -19,9 +19,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// MPI waits by asking without pause, which takes a core from who works: here it is asked now and then.
+// MPI waits in a busy loop, which takes a core from working processes; here it is polled with pauses.
 constexpr std::chrono::microseconds kShortest = 20us,
-                                    kLongest = 2ms; // a choice; a task takes a tenth of a second and more
+                                    kLongest = 2ms; // short against a task, which takes 0.1 s or more
 
 void wait(MPI_Request request)
 {
@@ -34,7 +34,7 @@ void wait(MPI_Request request)
     }
 }
 
-/// Bytes of one to all, of a length that all know.
+/// Broadcast bytes whose number all processes know.
 void broadcast(char* bytes, std::size_t count, int from)
 {
     for (std::size_t at = 0; at < count; at += kMostAtOnce) {
@@ -48,7 +48,7 @@ void broadcast(char* bytes, std::size_t count, int from)
 struct Names {
     const char *rank, *size;
 };
-/// Of Open MPI, and of those that start by PMI.
+/// Environment variables of Open MPI, and of launchers that use PMI.
 constexpr std::array<Names, 2> kNames{
     {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMI_RANK", "PMI_SIZE"}}};
 
@@ -99,7 +99,7 @@ struct Ranks::State {
         return all;
     }
 
-    /// A task from rank 0 to the others. An empty name ends their helping.
+    /// Send a task from rank 0 to the others. An empty name makes their `help()` return.
     void hand_out(std::string& task, std::string& bytes)
     {
         std::array<std::uint64_t, 2> lengths{task.size(), bytes.size()};
@@ -161,7 +161,7 @@ void Ranks::help(const RunContext& context)
         try {
             team::help(task, bytes, state_->team, context);
         } catch (const std::exception&) {
-            // Rank 0 knows of it.
+            // Rank 0 reports it.
         }
     }
 }

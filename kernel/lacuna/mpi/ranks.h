@@ -8,41 +8,41 @@
 #include <cstdint>
 #include <memory>
 
-/// Processes that `mpirun` started together. Needs an MPI; nothing else of the kernel does.
+/// Processes started together by `mpirun`. This folder alone needs an MPI library.
 namespace lacuna::mpi {
 
-/// Which of how many this process is, as the environment says; one of one where no `mpirun` started it.
+/// Rank of this process and number of processes, from the environment; 0 of 1 without `mpirun`.
 struct Place {
     int rank = 0, size = 1;
 };
 Place place_of_process();
 
-/// What has been sent by this process: what it had to say, once for each that got it.
+/// Bytes sent by this process, counted once for each receiver.
 struct Traffic {
     std::size_t messages = 0;
     std::uint64_t bytes = 0;
 };
 
-/// The processes, for as long as this lives; one a process. Rank 0 calls, the others help.
+/// The MPI processes while this object lives; one object a process. Rank 0 starts tasks, the others help.
 class Ranks {
 public:
-    /// Begins MPI. Programs that this one starts are not told that `mpirun` started it.
+    /// Initialises MPI. Hides `mpirun` from programs that this process starts.
     Ranks();
-    /// Ends MPI. Of rank 0: the others' `help()` returns.
+    /// Finalises MPI. On rank 0: makes `help()` return on the other ranks.
     ~Ranks();
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;
 
     [[nodiscard]] Place place() const;
-    /// How many of them are on this machine, this one included.
+    /// Number of MPI processes on this machine, including this one.
     [[nodiscard]] int on_this_machine() const;
-    /// The others, for rank 0 to call.
+    /// The process group that rank 0 starts tasks on.
     [[nodiscard]] const Crew& crew() const;
-    /// Whether they were called.
+    /// Whether rank 0 has started a task.
     [[nodiscard]] bool were_called() const;
     [[nodiscard]] Traffic traffic() const;
 
-    /// Help whenever rank 0 calls, until it ends. A task that fails is rank 0's to tell of.
+    /// Take part in the tasks that rank 0 starts, until rank 0 ends. Rank 0 reports tasks that fail.
     /// @pre  the rank is not 0
     void help(const RunContext& context);
 

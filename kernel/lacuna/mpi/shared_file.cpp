@@ -14,7 +14,7 @@ class File : public SharedFile {
 public:
     File(const std::string& path, std::string name) : name_(std::move(name))
     {
-        // Each opens for itself: where one cannot, the others need not wait for it.
+        // Not collective: if one process cannot open the file, the others need not wait for it.
         check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
               "; every process must see the folder");
     }
@@ -25,7 +25,7 @@ public:
 
     void write_at(std::uint64_t offset, std::string_view bytes) override
     {
-        const std::lock_guard<std::mutex> hold(lock_); // MPI is asked by one thread at a time
+        const std::lock_guard<std::mutex> hold(lock_); // MPI must be called by one thread at a time
         while (!bytes.empty()) {
             const std::size_t count = std::min(bytes.size(), kMostAtOnce);
             MPI_Status status;
@@ -34,7 +34,7 @@ public:
                   "");
             int written = 0;
             MPI_Get_count(&status, MPI_BYTE, &written);
-            if (written <= 0) fail("the disk took nothing; make room, or name another");
+            if (written <= 0) fail("no space left on the disk; free some, or write to another");
             offset += static_cast<std::uint64_t>(written);
             bytes.remove_prefix(static_cast<std::size_t>(written));
         }

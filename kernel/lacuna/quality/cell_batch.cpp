@@ -14,7 +14,7 @@ namespace {
 template <int N>
 using Lanes3 = double[3][N];
 
-/// det(a, b, c), all lanes; plain loops of fixed length, which compilers turn into vector code.
+/// det(a, b, c) for all lanes; loops of fixed length, which compilers vectorise.
 template <int N>
 LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b, const Lanes3<N>& c, double* out)
 {
@@ -25,8 +25,8 @@ LACUNA_INLINE void determinant(const Lanes3<N>& a, const Lanes3<N>& b, const Lan
     }
 }
 
-/// Edges of the cells: along[d][e] runs in direction d; e counts the ends in the other two directions, the
-/// lower direction fastest: U(v, w) at v + 2w, V(u, w) at u + 2w, W(u, v) at u + 2v.
+/// Edge vectors of the cells: along[d][e] runs in direction d; e encodes its ends in the other two
+/// directions, the lower direction fastest: U(v, w) at v + 2w, V(u, w) at u + 2w, W(u, v) at u + 2v.
 template <int N>
 struct Edges {
     alignas(64) double along[3][4][3][N];
@@ -54,8 +54,8 @@ LACUNA_INLINE void find_edges(const CellBatch<N>& batch, Edges<N>& edges)
     }
 }
 
-/// Coefficients at the corners, and the smallest scaled Jacobian. It is compared squared, with its sign, so
-/// that one root a cell is enough.
+/// Coefficients at the corners, and the smallest scaled Jacobian. Its signed square is compared, so that one
+/// square root per cell is enough.
 template <int N>
 LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
 {
@@ -86,8 +86,9 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
     }
 }
 
-/// How edges turn along the cells: across[r][s] is the edge of a direction p at the upper end of q less that
-/// at the lower end, p and q other than r, at the end s of r. Parallel edges of one length turn by nothing.
+/// Change of edges across the cells: across[r][s] is the edge of direction p at the upper end of q minus that
+/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for parallel edges of
+/// equal length.
 template <int N>
 struct Turns {
     alignas(64) double across[3][2][3][N];
@@ -99,7 +100,7 @@ LACUNA_INLINE void find_turns(const Edges<N>& edges, Turns<N>& turns)
     for (int r = 0; r < 3; ++r) {
         const int p = r == 0 ? 1 : 0;
         for (int s = 0; s < 2; ++s) {
-            // Of the ends that an edge along p counts, r is the lower direction but for r = 2.
+            // In the index of an edge along p, r is the lower of the two directions, except for r = 2.
             const auto& low = edges.along[p][r == 2 ? 2 * s : s];
             const auto& high = edges.along[p][r == 2 ? 2 * s + 1 : s + 2];
             for (int d = 0; d < 3; ++d)
@@ -108,7 +109,7 @@ LACUNA_INLINE void find_turns(const Edges<N>& edges, Turns<N>& turns)
     }
 }
 
-/// The integral of J: with the means of the edges and of the turns, all other terms vanish by symmetry.
+/// Integral of J: from the means of the edges and of their changes, as all other terms vanish by symmetry.
 template <int N>
 LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {
@@ -132,20 +133,20 @@ LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, Cel
         values.volume[i] = straight[i] * (1.0 / 64) + (u[i] + v[i] + w[i]) * (1.0 / 192);
 }
 
-/// Whether all cells are positive by a bound that costs less than their coefficients; then `smallest` is it.
+/// Inexpensive lower bound of the coefficients of all cells. If it is positive, it is stored in `smallest`.
 ///
-/// With d = det(edge, turn, turn) a coefficient in the middle of an edge is the mean of its ends less d / 2;
-/// that in the middle of a side the mean of its corners less a quarter of its four d; that of the cell the
-/// mean of its corners less an eighth of all twelve. So none is below the least corner less 3/2 of the
-/// largest d, which is no larger than the product of the largest lengths. Cells of swept meshes turn little
-/// from layer to layer.
+/// With d = det(edge, change, change), a coefficient at the middle of an edge is the mean of its ends minus d
+/// / 2; at the middle of a side the mean of its corners minus a quarter of the sum of its four d; at the
+/// centre the mean of the corners minus an eighth of the sum of all twelve d. So no coefficient is below the
+/// smallest corner minus 3/2 of the largest |d|, which is bounded by the product of the largest lengths.
+/// Cells of swept meshes change little from layer to layer, so the bound decides most of them.
 template <int N>
 LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {
-    constexpr double kMost = 1.5 * (1 + 1e-6); // for what is rounded
-    // Of flatter cells rounding may have a say, which coefficients and cuts are left to.
+    constexpr double kMost = 1.5 * (1 + 1e-6); // margin for rounding
+    // Leave flatter cells, where rounding may matter, to the coefficients and to subdivision.
     constexpr double kFlat = 1e-6;
-    alignas(64) double edge[3][N], turn[3][N], least[N]; // largest squares; least J at the corners
+    alignas(64) double edge[3][N], turn[3][N], least[N]; // largest squares; smallest J at the corners
     for (int d = 0; d < 3; ++d) {
         const auto& square = edges.square[d];
         for (int i = 0; i < N; ++i) {
@@ -179,8 +180,8 @@ LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, Cell
     return least[0] > 0;
 }
 
-/// Coefficient in the middle of an edge, `stride` from that at its lower end and from that at its upper end:
-/// from its direction and how the other two turn along it, in the order of u, v, w.
+/// Coefficient at the middle of an edge, `stride` from the coefficients at its two ends: from the edge vector
+/// and the changes of the other two along it, in the order of u, v, w.
 template <int N>
 LACUNA_INLINE void find_middle(CellValues<N>& values, int low, int stride, const Lanes3<N>& u,
                                const Lanes3<N>& v, const Lanes3<N>& w)
@@ -206,7 +207,7 @@ LACUNA_INLINE void find_middles(const Edges<N>& edges, const Turns<N>& turns, Ce
     }
 }
 
-/// Coefficient in the middle of the square spanned by two strides: (2 · edges - corners) / 4.
+/// Coefficient at the middle of the square spanned by two strides: (2 · edges - corners) / 4.
 template <int N>
 LACUNA_INLINE void find_square(CellValues<N>& values, int at, int p, int q)
 {
@@ -220,8 +221,8 @@ LACUNA_INLINE void find_square(CellValues<N>& values, int at, int p, int q)
 
 enum class Wanted {
     all,     ///< all values of a cell
-    verdict, ///< but for coefficients, where a bound tells that all cells are positive
-    corners  ///< the scaled Jacobian, and of the coefficients those at the corners
+    verdict, ///< coefficients only if the inexpensive bound does not decide
+    corners  ///< the scaled Jacobian, and the coefficients at the corners
 };
 
 template <int N, Wanted kWanted>
@@ -243,7 +244,7 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
     }
     find_square<N>(values, 13, 1, 3);
 
-    // Every product of Bernstein polynomials of degree two has the same integral, 1/27.
+    // All products of quadratic Bernstein polynomials have the same integral, 1/27.
     alignas(64) double sum[N];
     alignas(64) double least[N];
     for (int i = 0; i < N; ++i) sum[i] = least[i] = values.bezier[0][i];
@@ -277,7 +278,7 @@ template <Wanted kWanted>
 }
 #endif
 
-/// With the widest vectors the machine has.
+/// With the widest vectors of the processor.
 template <Wanted kWanted>
 void evaluate_widest(const Batch& batch, Values& values)
 {

@@ -7,31 +7,31 @@
 #include <cmath>
 
 // The trilinear map of a cell, with r, s, t from -1 to 1: x = (sum of corners + a r + b s + c t + ab rs + ac
-// rt + bc st + abc rst) / 8. a, b, c are the axes, four times as long; ab, ac, bc say how opposite edges
-// differ (Taylor and Flanagan 1989).
+// rt + bc st + abc rst) / 8. a, b, c are the axes times four; ab, ac, bc are the differences of opposite
+// edges (Taylor and Flanagan 1989).
 
 namespace lacuna::quality {
 namespace {
 
-constexpr double kNothing = 1e-30; // Verdict's limits: no length, area or volume lies below,
-constexpr double kWorst = 1e30;    // and this is said where there is none
+constexpr double kNothing = 1e-30; // limits of Verdict: smaller lengths, areas and volumes count as zero,
+constexpr double kWorst = 1e30;    // and metrics that are then undefined get this value
 
 constexpr int N = kMetricLanes;
 using Real = Lanes<N>;
 using Vector = Vectors<N>;
 using Batch = CellBatch<N>;
 
-/// What several metrics are made of.
+/// Quantities shared by several metrics.
 struct Parts {
-    Vector edge[3][4]; ///< as `kEdgeNodes`
+    Vector edge[3][4]; ///< in the order of `kEdgeNodes`
     Real square[3][4]; ///< their squared lengths
-    Real corner[8];    ///< Jacobian at the corner of bits u, v, w
+    Real corner[8];    ///< Jacobian at the corner with bits u, v, w
     Vector a, b, c;
     Real aa, bb, cc; ///< their squared lengths
-    Real centre;     ///< Jacobian at the centre, of a cell of unit size
+    Real centre;     ///< Jacobian at the centre, for a cell of unit size
 };
 
-/// The three edges at a corner, u v w, by the corner's bits.
+/// The three edges at a corner, in the order u, v, w; the corner is encoded in bits.
 struct CornerEdges {
     int u, v, w;
 };
@@ -82,7 +82,7 @@ LACUNA_INLINE Real least_corner(const Parts& p)
     return r;
 }
 
-/// Call `body(squares of the three edges, Jacobian)` for every corner.
+/// Call `body(squared lengths of the three edges, Jacobian)` for every corner.
 template <class Body>
 LACUNA_INLINE void for_each_corner(const Parts& p, const Body& body)
 {
@@ -115,7 +115,7 @@ LACUNA_INLINE Real with_sign(const Real& square)
     return r;
 }
 
-/// Squared, with its sign, so that one root a cell is enough.
+/// Signed square of the scaled Jacobian, so that one square root per cell is enough.
 LACUNA_INLINE Real scaled_square(const Parts& p)
 {
     Real r = Real::all(1);
@@ -144,7 +144,7 @@ LACUNA_INLINE Real shear(const Parts& p)
     return where_above(shortest_square(p), kNothing, r, 0);
 }
 
-/// Least of 3 det^(2/3) / |edges|², taken cubed.
+/// Smallest 3 det^(2/3) / |edges|², compared as its cube.
 LACUNA_INLINE Real shape(const Parts& p)
 {
     Real r = Real::all(1);
@@ -261,7 +261,7 @@ LACUNA_INLINE Real edge_ratio(const Parts& p, const Real& longest)
     return where_above(shortest, kNothing, root(longest / shortest), kWorst);
 }
 
-/// VTK 9.1 takes the longest of the edges 0-1, 1-2, 2-3, 3-0, 4-5 and 5-6 alone.
+/// As in VTK 9.1, the longest of the edges 0-1, 1-2, 2-3, 3-0, 4-5 and 5-6 only.
 LACUNA_INLINE Real vtk_edge_ratio(const Parts& p)
 {
     const auto& u = p.square[0];
@@ -270,7 +270,7 @@ LACUNA_INLINE Real vtk_edge_ratio(const Parts& p)
     return edge_ratio(p, greatest(bottom, greatest(u[2], v[3])));
 }
 
-/// Squared length of the shortest and longest of the four diagonals through the cell.
+/// Squared lengths of the shortest and longest of the four body diagonals.
 LACUNA_INLINE void diagonals(const Batch& batch, Real& shortest, Real& longest)
 {
     constexpr int kEnds[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
@@ -304,9 +304,9 @@ LACUNA_INLINE Real volume_64(const Parts& p, const Differences& d)
     return 64 * p.centre + (1.0 / 3) * rest;
 }
 
-/// V / sqrt(2 |dV/dx|²) over all nodes x (Flanagan and Belytschko 1981). The coefficients of the map belong
-/// to orthogonal sign vectors of length √8, so that |dV/dx|² is 8 × the sum over the derivatives by
-/// coefficients.
+/// V / sqrt(2 |dV/dx|²) over all nodes x (Flanagan and Belytschko 1981). The coefficients of the map are
+/// products of the nodes with orthogonal sign vectors of length √8, so |dV/dx|² is 8 × the sum of the squared
+/// derivatives by the coefficients.
 LACUNA_INLINE Real dimension(const Parts& p)
 {
     const Differences d = differences(p);
@@ -320,10 +320,10 @@ LACUNA_INLINE Real dimension(const Parts& p)
     return where_above(squares, 0, magnitude(volume_64(p, d)) / (4 * root(squares)), 0);
 }
 
-/// Jacobian at the Gauss point with the given bits: between the edges that are near and far.
+/// Jacobian at the Gauss point near the given corner: interpolated between near and far edges.
 LACUNA_INLINE Real gauss_jacobian(const Parts& p, int corner)
 {
-    const double far = 0.5 - std::sqrt(1.0 / 12); // weight of the side further away
+    const double far = 0.5 - std::sqrt(1.0 / 12); // weight of the farther side
     const double u = corner & 1 ? 1 - far : far;
     const double v = corner & 2 ? 1 - far : far;
     const double w = corner & 4 ? 1 - far : far;
@@ -411,7 +411,7 @@ LACUNA_INLINE void evaluate_lanes(const Batch& batch, std::span<const Metric> me
 {
     Parts parts;
     find_parts(batch, parts);
-    Real size = Real::all(0); // not finite where a node is not
+    Real size = Real::all(0); // not finite if a node is not finite
     for (const auto& squares : parts.square)
         for (const Real& square : squares) size = size + square;
     for (const Metric metric : metrics) {

@@ -14,12 +14,12 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kChunk = 16384; // points a task takes at once
-constexpr int kBinBits = 10;          // points are sorted into bins small enough for the first-level cache
+constexpr std::size_t kChunk = 16384; // points of one parallel task
+constexpr int kBinBits = 10;          // bins are small enough for the first-level cache
 constexpr std::size_t kBins = std::size_t(1) << kBinBits;
-/// Up to so many points the entries of all bins are made at once: 32 MB. A choice.
+/// Up to this number of points, the entries of all bins are made at once: 32 MB.
 constexpr std::size_t kFew = std::size_t(1) << 22;
-/// Up to so many points of a level are searched at once: their entries take 1 MB, and as much to find them.
+/// Up to this number of points per level, a level is searched at once: its entries take 1 MB.
 constexpr std::size_t kLevel = std::size_t(1) << 17;
 
 std::size_t chunk_count(std::size_t points) { return (points + kChunk - 1) / kChunk; }
@@ -29,9 +29,9 @@ struct Entry {
     Index point;
 };
 
-/// Cubes of 1024 tolerances, so that a point within a tolerance of a cube's side, which is entered in the
-/// cube beyond as well, is rare. Their corner is set a fraction of a cube off the bounds, because meshes like
-/// to put whole planes of nodes exactly there.
+/// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a side is entered in the cube
+/// beyond it too, which is rare. The grid is shifted by a fraction of a cube against the bounds, as meshes
+/// often have whole planes of nodes exactly there.
 struct Grid {
     Vec3 corner;
     double tolerance;
@@ -52,7 +52,7 @@ struct Grid {
         return static_cast<std::uint32_t>(h >> 32);
     }
 
-    /// Call `enter` with the hash of every cube the point is in or near.
+    /// Call `enter` with the hash of every cube that contains the point or is within a tolerance of it.
     template <class Enter>
     void visit(const Vec3& point, const Enter& enter) const
     {
@@ -78,10 +78,10 @@ struct Grid {
     }
 };
 
-/// What the first pass over a chunk leaves for the others.
+/// Hashes computed in the first pass over a chunk.
 struct ChunkHashes {
-    std::array<std::uint32_t, kChunk> first; ///< of each point
-    std::vector<Entry> more;                 ///< of points near another cube
+    std::array<std::uint32_t, kChunk> first; ///< for each point
+    std::vector<Entry> more;                 ///< for points near a second cube
     std::array<std::uint32_t, kBins> count{};
 };
 
@@ -112,10 +112,10 @@ std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Gri
     return hashes;
 }
 
-/// Entries of some bins, bin after bin; in an order that does not depend on threads.
+/// Entries of consecutive bins, in an order that does not depend on threads.
 struct Bins {
     std::unique_ptr<Entry[]> entries;
-    std::vector<std::size_t> start; ///< of each bin from the first, and the end
+    std::vector<std::size_t> start; ///< first entry of each bin, and the end
 };
 
 /// Sort the entries of bins [first, last).
@@ -125,7 +125,7 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
     const std::size_t chunks = chunk_count(points), width = last - first;
     bins.start.assign(width + 1, 0);
     std::size_t total = 0;
-    std::vector<std::size_t> next(chunks * width); // a row a chunk
+    std::vector<std::size_t> next(chunks * width); // one row for each chunk
     for (std::size_t b = 0; b < width; ++b) {
         bins.start[b] = total;
         for (std::size_t c = 0; c < chunks; ++c) {
@@ -134,7 +134,7 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
         }
     }
     bins.start[width] = total;
-    bins.entries.reset(); // else both would be held
+    bins.entries.reset(); // free it before the new array is allocated
     bins.entries = std::make_unique_for_overwrite<Entry[]>(total);
     use_large_pages(bins.entries.get(), total * sizeof(Entry));
     parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
@@ -152,7 +152,7 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
 
 using Pair = std::array<Index, 2>;
 
-/// A pair within entries.
+/// Find a coincident pair among entries.
 std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const Vec3> points, double tolerance,
                                std::vector<std::int32_t>& table)
 {
@@ -161,7 +161,7 @@ std::optional<Pair> search_bin(std::span<const Entry> entries, std::span<const V
     table.assign(size, -1);
     std::optional<Pair> found;
     for (std::size_t e = 0; e < entries.size(); ++e) {
-        bool twin = false; // a twin is not entered itself, so that many in one place cost no more than few
+        bool twin = false; // twins are not entered, so that many points in one place cost no more than two
         std::size_t slot = entries[e].hash & (size - 1);
         for (; table[slot] >= 0; slot = (slot + 1) & (size - 1)) {
             const Entry& other = entries[static_cast<std::size_t>(table[slot])];
@@ -190,7 +190,7 @@ std::optional<Pair> least_of(const std::vector<std::optional<Pair>>& found)
 std::optional<Pair> search_all(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
 {
     const auto hashes = hashes_of(points, grid, context);
-    // Many points are looked at a sixteenth of the bins at a time, which takes a sixteenth of the memory.
+    // With many points, process a sixteenth of the bins at a time, which takes a sixteenth of the memory.
     const std::size_t width = points.size() > kFew ? kBins / 16 : kBins;
     std::vector<std::optional<Pair>> found(kBins);
     Bins bins;
@@ -208,8 +208,7 @@ std::optional<Pair> search_all(std::span<const Vec3> points, const Grid& grid, c
     return least_of(found);
 }
 
-/// Whether there is room between each level and the next along the line that leads from the first to the
-/// last.
+/// Whether each level is separated from the next along the line from the first level to the last.
 bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance, const RunContext& context)
 {
     if (level == 0 || level > kLevel || points.size() % level != 0 || points.size() < 2 * level) return false;
@@ -230,15 +229,15 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
         }
     });
     for (std::size_t l = 1; l < levels; ++l)
-        if (!(range[l][0] - range[l - 1][1] > 2 * tolerance)) return false; // twice, for what is rounded
+        if (!(range[l][0] - range[l - 1][1] > 2 * tolerance)) return false; // twice, for rounding
     return true;
 }
 
-/// A level's entries are made and searched while they are in the second-level cache.
+/// Search level by level, while the entries are in the second-level cache.
 std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t level, const Grid& grid,
                                   const RunContext& context)
 {
-    constexpr std::size_t kTogether = 4; // levels that share a table, for what it takes to get it
+    constexpr std::size_t kTogether = 4; // levels that share a table, to save allocations
     std::vector<std::optional<Pair>> found(points.size() / level);
     parallel_for(context, found.size(), kTogether, [&](std::size_t begin, std::size_t end) {
         std::vector<Entry> entries;
@@ -255,8 +254,8 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
     return least_of(found);
 }
 
-/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... side by side. @return  whether all
-/// are finite.
+/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... in a row. @return  whether all are
+/// finite.
 bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
 {
     constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -271,7 +270,7 @@ bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
             const double value = number[i];
             low[i] = value < low[i] ? value : low[i];
             high[i] = value > high[i] ? value : high[i];
-            zero[i] += 0 * value; // not a number as soon as one of them is not finite
+            zero[i] += 0 * value; // becomes NaN if a number is not finite
         }
     }
     Vec3 zeros(0, 0, 0);

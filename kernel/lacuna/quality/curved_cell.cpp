@@ -12,21 +12,23 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kSide = 6;                    ///< coefficients along a direction, of degree five
-constexpr std::size_t kAll = kSide * kSide * kSide; ///< (a, b, c) at a + 6 b + 36 c
+constexpr std::size_t kSide = 6;                    ///< coefficients in each direction, for degree five
+constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Coefficients this small beside the largest are none: the way from values to coefficients multiplies
-/// rounding by less than 1e4.
+/// Coefficients below this part of the largest count as zero: the conversion from values amplifies rounding
+/// by less than 1e4.
 constexpr double kRounding = 1e-12;
-/// A middle node this near to its place, over the length of the cell, is in it: what sums leave, and more.
+/// Distance below which a middle node counts as straight, relative to the size of the cell: rounding with a
+/// margin.
 constexpr double kStraight = 1e-13;
 
-/// Place of each node of a hex27 on the grid of 3³, a + 3 b + 9 c.
+/// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
 constexpr std::array<std::uint8_t, 27> kGrid{0,  2,  8, 6,  18, 20, 26, 24, 1,  5,  7, 3,  19, 23,
                                              25, 21, 9, 11, 17, 15, 12, 14, 10, 16, 4, 22, 13};
 
-/// Values or derivatives of the quadratics that are 1 at 0, ½ or 1, at N even points of [0, 1].
+/// Values or derivatives of the quadratic Lagrange polynomials for 0, ½ and 1, at N equidistant points of [0,
+/// 1].
 template <std::size_t N>
 using Table = std::array<std::array<double, 3>, N>;
 
@@ -52,7 +54,7 @@ constexpr Table<N> slopes_at()
     return table;
 }
 
-/// From values at 0, 1/5 … 1 to Bézier coefficients of degree five: the inverse of Bernstein's matrix there.
+/// Converts values at 0, 1/5 … 1 to Bézier coefficients of degree five: the inverse of the Bernstein matrix.
 constexpr std::array<std::array<double, kSide>, kSide> kToBezier = [] {
     std::array<std::array<double, 2 * kSide>, kSide> m{};
     constexpr double kChoose[kSide] = {1, 5, 10, 10, 5, 1};
@@ -66,7 +68,7 @@ constexpr std::array<std::array<double, kSide>, kSide> kToBezier = [] {
         }
         m[i][kSide + i] = 1;
     }
-    for (std::size_t c = 0; c < kSide; ++c) { // Gauss and Jordan; the matrix is totally positive
+    for (std::size_t c = 0; c < kSide; ++c) { // Gauss-Jordan elimination; the matrix is totally positive
         const double pivot = m[c][c];
         for (double& value : m[c]) value /= pivot;
         for (std::size_t r = 0; r < kSide; ++r) {
@@ -81,7 +83,7 @@ constexpr std::array<std::array<double, kSide>, kSide> kToBezier = [] {
     return inverse;
 }();
 
-/// One field over the grid of nodes, taken to a grid of N³ points, a table a direction.
+/// Evaluate a field, given at the nodes, on a grid of N³ points, with one table per direction.
 template <std::size_t N>
 LACUNA_INLINE void to_grid(const std::array<double, 27>& nodes, const Table<N>& u, const Table<N>& v,
                            const Table<N>& w, double* out)
@@ -131,7 +133,7 @@ LACUNA_INLINE void determinants(const Slopes<N>& s, double* out)
                  u[2][p] * (v[0][p] * w[1][p] - v[1][p] * w[0][p]);
 }
 
-/// From values on the grid of 6³ to coefficients, direction by direction.
+/// Convert values on the grid of 6³ points to coefficients, direction by direction.
 LACUNA_INLINE void to_bezier(Bezier& values)
 {
     Bezier next;
@@ -159,7 +161,7 @@ LACUNA_INLINE void to_bezier(Bezier& values)
     values = next;
 }
 
-/// Cut along a direction in the middle (de Casteljau): `whole` becomes the lower half.
+/// Bisect along a direction (de Casteljau): `whole` becomes the lower half.
 void split(Bezier& whole, Bezier& high, std::size_t stride)
 {
     for (std::size_t at = 0; at < kAll; ++at) {
@@ -176,8 +178,8 @@ void split(Bezier& whole, Bezier& high, std::size_t stride)
 
 constexpr std::array<std::size_t, 3> kStrides{1, kSide, kSide* kSide};
 
-/// Depth first, along the direction whose inner coefficients are least.
-/// @param floor  positive is above it
+/// Depth-first subdivision along the direction with the smallest inner coefficients.
+/// @param floor  larger values count as positive
 bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_left)
 {
     constexpr std::size_t kLast = kSide - 1;
@@ -206,7 +208,7 @@ bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_
     return positive_parts(low, floor, cuts_left) && positive_parts(high, floor, cuts_left);
 }
 
-/// At the 27 nodes.
+/// The smallest scaled Jacobian at the 27 nodes.
 LACUNA_INLINE double least_scaled(const std::array<double, 27> (&nodes)[3])
 {
     Slopes<3> slopes;
@@ -224,7 +226,7 @@ LACUNA_INLINE double least_scaled(const std::array<double, 27> (&nodes)[3])
     return std::max(least, -1.0);
 }
 
-/// Coefficients, and the scaled Jacobian that is least at the nodes.
+/// Compute the coefficients. @return the smallest scaled Jacobian at the nodes.
 LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
 {
     Slopes<kSide> slopes;
@@ -247,7 +249,7 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
 }
 #endif
 
-/// With the widest vectors the machine has; the same bits on every machine.
+/// With the widest vectors of the processor; the same bits on every processor.
 double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
 {
 #if defined(LACUNA_WIDER_VECTORS)
@@ -262,7 +264,7 @@ double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
 CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
 {
     std::array<double, 27> nodes[3];
-    for (std::size_t n = 0; n < 27; ++n) // from the first corner, so that nothing is lost far from the origin
+    for (std::size_t n = 0; n < 27; ++n) // relative to a corner, to keep precision far from the origin
         for (int d = 0; d < 3; ++d) nodes[d][kGrid[n]] = places[n][d] - places[0][d];
     Bezier bezier;
     const double scaled = coefficients(nodes, bezier);
@@ -303,7 +305,7 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell)
 
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    constexpr std::size_t kGrain = 256; // a cell takes a few microseconds: a choice, not a measurement
+    constexpr std::size_t kGrain = 256; // a curved cell takes a few microseconds
     const std::size_t count = mesh.hex_count();
     std::vector<std::uint8_t> invalid(count, 0);
     parallel_for(context, count, kGrain, [&](std::size_t begin, std::size_t end) {

@@ -17,7 +17,7 @@ namespace {
 using mesh::HexMesh;
 using mesh::LayeredMesh;
 
-/// Layers of cells [first, last).
+/// The layers [first, last).
 struct Slab {
     int first = 0, last = 0;
 };
@@ -31,7 +31,7 @@ std::vector<Slab> slabs_of(const HexMesh& mesh)
     return slabs;
 }
 
-/// Make the slabs of this process's share one after the other, and call `visit(slab, its cells as a mesh)`.
+/// Compute the slabs of this process one by one, and call `visit(slab, its cells as a mesh)`.
 template <class Visit>
 void each_slab(const LayeredMesh& layered, std::span<const Slab> slabs, const Team* team,
                const RunContext& context, const Visit& visit)
@@ -45,7 +45,7 @@ void each_slab(const LayeredMesh& layered, std::span<const Slab> slabs, const Te
     }
 }
 
-/// What is found of slabs, as a team tells each other. One list of fields for writing and reading.
+/// Serialise the results of slabs for a team; the same list of fields serves writing and reading.
 template <class A, class Own>
 void put(A& with, Own& quality)
 {
@@ -57,7 +57,7 @@ void put(A& with, Own& quality)
     });
 }
 
-/// Of all slabs in their order, where each of a team says something of its own slabs.
+/// The results of all slabs in order, where each process contributes its own slabs.
 template <class Value, class Read>
 std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, const Read& read)
 {
@@ -70,10 +70,10 @@ std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, con
     return all;
 }
 
-/// Keep the worst of both, one of each of so many columns, worst first.
+/// Merge lists of worst cells: one for each column, worst first.
 void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more, std::size_t columns)
 {
-    constexpr std::size_t kMost = 10; // as Quality::worst has
+    constexpr std::size_t kMost = 10; // as in Quality::worst
     worst.insert(worst.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     std::stable_sort(worst.begin(), worst.end(), [](const WorstCell& a, const WorstCell& b) {
         return std::pair(a.scaled_jacobian, a.cell) < std::pair(b.scaled_jacobian, b.cell);
@@ -84,7 +84,7 @@ void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more, std::
     });
 }
 
-/// A box that lies as a slab does: its first axis leads from the slab's lowest level to its highest.
+/// An oriented box of a slab: its first axis points from the lowest level to the highest.
 void lay_box(std::span<const Vec3> nodes, std::size_t row, SlabPlace& place)
 {
     Vec3 way = Vec3::Zero();
@@ -100,7 +100,7 @@ void lay_box(std::span<const Vec3> nodes, std::size_t row, SlabPlace& place)
 
 bool contains(const SlabPlace& slab, const Vec3& p) { return slab.box.contains(slab.frame * p); }
 
-/// False where an axis of one of the two boxes tells them apart.
+/// False if an axis of one of the boxes separates them.
 bool may_meet(const SlabPlace& a, const SlabPlace& b)
 {
     const auto apart = [](const SlabPlace& own, const SlabPlace& other) {
@@ -113,7 +113,7 @@ bool may_meet(const SlabPlace& a, const SlabPlace& b)
     return !apart(a, b) && !apart(b, a);
 }
 
-/// Points of different slabs within a distance of each other, which are not in slabs next to each other.
+/// Search for close points in slabs that are not neighbours.
 class FarPairs {
 public:
     FarPairs(const LayeredMesh& layered, const std::vector<Slab>& slabs, std::vector<SlabPlace> boxes,
@@ -141,11 +141,11 @@ public:
         const bool none = std::all_of(beside_.begin(), beside_.end(),
                                       [](const auto& list) { return list.empty(); });
         if (none) return std::nullopt;
-        std::size_t shares = 1; // of the cubes, one looked at after the other
+        std::size_t shares = 1; // parts of the cubes, processed one after the other
         std::vector<Index> suspects;
         for (std::size_t share = 0; share < shares; ++share) {
             if (!gather(share, shares)) {
-                shares *= 2; // from the start, with less at once
+                shares *= 2; // start again with less at a time
                 share = static_cast<std::size_t>(-1);
                 suspects.clear();
                 continue;
@@ -161,10 +161,10 @@ private:
         Index point;
         friend auto operator<=>(const Entry&, const Entry&) = default;
     };
-    /// As many entries are held at once: 64 MB. A choice.
+    /// Most entries held at once: 64 MB.
     static constexpr std::size_t kMost = std::size_t(1) << 22;
 
-    /// Call `visit(node, place)` for the nodes of a slab that lie in the box of another.
+    /// Call `visit(node, point)` for the nodes of a slab that lie in the box of another slab.
     template <class Visit>
     void each_node(std::size_t slab, const Visit& visit)
     {
@@ -180,8 +180,8 @@ private:
         }
     }
 
-    /// Nodes by the cubes of eight tolerances that they are in, or within one of: of one share of the cubes.
-    /// @return false where they are too many
+    /// Collect nodes by cubes with sides of eight tolerances, for one share of the cubes. A node within a
+    /// tolerance of another cube is entered there too. @return false if there are too many
     bool gather(std::size_t share, std::size_t shares)
     {
         entries_.clear();
@@ -218,7 +218,7 @@ private:
         return h ^ (h >> 31);
     }
 
-    /// Nodes that share a cube with another are looked at.
+    /// Compare the nodes that share a cube.
     void find_twins(std::vector<Index>& suspects)
     {
         std::sort(entries_.begin(), entries_.end());
@@ -254,7 +254,7 @@ private:
     Eigen::AlignedBox3d bounds_; ///< of all nodes
     double tolerance_;
     const RunContext& context_;
-    std::vector<std::vector<std::size_t>> beside_; ///< slabs not next to each whose boxes meet its own
+    std::vector<std::vector<std::size_t>> beside_; ///< non-neighbours whose boxes overlap
     std::vector<Vec3> nodes_;
     std::vector<Entry> entries_;
 };
@@ -293,7 +293,7 @@ MeasuredSlab read_slab(Reader& reader)
     return found;
 }
 
-/// @param first  level of the first of the nodes; @param row  nodes of a level
+/// @param first  level of the first of the nodes; @param row  number of nodes of a level
 SlabPlace place_of(std::span<const Vec3> nodes, int first, std::size_t row, const RunContext& context)
 {
     SlabPlace place;
@@ -338,13 +338,14 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
     const auto take = [&](const std::optional<std::array<Index, 2>>& pair) {
         if (pair && (!least || *pair < *least)) least = pair;
     };
-    // A slab and the next one together: what it has in common with that before it was looked at with that.
+    // Search each slab together with the next one. The search of the previous slab covered this one's lower
+    // side.
     std::vector<Vec3> nodes;
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);
         const int first = slabs[s].first, last = slabs[std::min(s + 1, slabs.size() - 1)].last;
         const auto count = [&](int levels) { return static_cast<std::size_t>(levels) * row; };
-        if (!nodes.empty()) // this slab was the next one
+        if (!nodes.empty()) // this slab was loaded as the next of the previous one
             nodes.erase(nodes.begin(),
                         nodes.end() - static_cast<std::ptrdiff_t>(count(slabs[s].last - first + 1)));
         const std::size_t there = nodes.size();
@@ -356,7 +357,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
         }
     }
-    // Bends that meet themselves are few: one looks for all.
+    // Bends where slabs touch are rare, so one process searches all of them.
     if (begin == 0)
         take(FarPairs(layered, slabs, {places.begin(), places.end()}, bounds, tolerance, context).first());
     Writer own_pair;
@@ -389,7 +390,7 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         const SlabPlace place = place_of(cells.nodes, slab.first, index(mesh.nodes_per_layer), context);
         put_place(own_found, place);
     });
-    // Summed in the order of the slabs, whoever measured them.
+    // Sum in the order of the slabs, so that the result does not depend on which process measured them.
     for (MeasuredSlab& slab_found :
          gathered<MeasuredSlab>(team, std::move(own_found), slabs.size(), read_slab)) {
         Quality& own = slab_found.quality;

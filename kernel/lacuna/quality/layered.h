@@ -14,52 +14,54 @@
 
 namespace lacuna::quality {
 
-/// Where the nodes of some layers, made together, lie.
+/// Extent of the nodes of some consecutive layers (a slab).
 struct SlabPlace {
-    Index not_finite = -1; ///< a node that has no finite place, after which nothing else is known; -1: none
+    Index not_finite = -1; ///< a node that is not finite; the box is then not set; -1: none
     Eigen::AlignedBox3d bounds;
-    /// Axes as rows, the first from the lowest level to the highest.
+    /// Axes of the box as rows; the first points from the lowest level to the highest.
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
-    Eigen::AlignedBox3d box; ///< in that frame
+    Eigen::AlignedBox3d box; ///< in the frame
 };
 
-/// What is found of a mesh whose nodes are made while they are there.
+/// Quality of a mesh whose nodes are computed on demand, and the extents of its slabs.
 struct MeasuredLayers {
     Quality quality;
-    std::vector<SlabPlace> slabs; ///< from the source up
+    std::vector<SlabPlace> slabs; ///< in order from the source
 };
 
-/// `measure()` of a mesh whose nodes are made when they are asked for: each layer once, some layers at a
-/// time. Sums may differ from those of `measure()` in the last digits. Memory does not depend on the layers.
-/// A team shares the layers; what is found is the same for any number, and each of the team gets it.
+/// As `measure()`, for a mesh whose nodes are computed on demand, some layers at a time. Sums may differ from
+/// those of `measure()` in the last digits. Memory does not depend on the number of layers.
+/// A team shares the layers; each process gets the whole result, which does not depend on the size of the
+/// team.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
 
-/// The mean volume of such a mesh's cells, by which `metric_values()` of some of its layers are those of the
-/// whole mesh, to the bit; shared by a team as `measure()`.
+/// Mean cell volume of such a mesh. With it, `metric_values()` of some layers has the same bits as for the
+/// whole mesh. A team shares the work as in `measure()`.
 /// @throw Cancelled; TeamFailed
 double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
                    const Team* team = nullptr);
 
-/// A node of such a mesh that is not finite, or two in one place; shared by a team as `measure()`.
+/// Find a node of such a mesh that is not finite, or two coincident nodes. A team shares the work as in
+/// `measure()`.
 ///
-/// Nodes in one place are sought among layers next to each other, and, where boxes of layers further apart
-/// meet, as those of a sharp bend do, among the nodes in both boxes: layers are made anew for each share of
-/// these that has room at once.
-/// @param slabs  of `measure()`
+/// Neighbouring slabs are searched together. Other slabs are searched only if their boxes overlap, as at a
+/// sharp bend, and only among the nodes in both boxes; nodes that do not fit into memory at once are computed
+/// again in parts.
+/// @param slabs  from `measure()`
 /// @throw Cancelled; TeamFailed
 std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::span<const SlabPlace> slabs,
                                       const RunContext& context = {}, const Team* team = nullptr);
 
-/// `prove()` of such a mesh: the same checks.
-/// @param measured   the quality that measure() found
-/// @param misplaced  find_misplaced() in it
+/// As `prove()`, for such a mesh: the same checks.
+/// @param measured   the quality from `measure()`
+/// @param misplaced  the result of `find_misplaced()`
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,
             double min_scaled_jacobian = 0);
 
-/// `prove()` of a mesh whose cells were measured since its nodes last moved: they are not measured again.
-/// @param measured  what `measure()` found; nothing: they are measured.
+/// As `prove()`, for a mesh whose cells were measured after its nodes last moved.
+/// @param measured  the result of `measure()`; if empty, the cells are measured.
 Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
             const RunContext& context = {});
 

@@ -11,8 +11,8 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr int kDepth = 6;          ///< as `certified_positive()`
-constexpr std::size_t kWorst = 10; ///< as `Quality::worst` promises
+constexpr int kDepth = 6;          ///< as in `certified_positive()`
+constexpr std::size_t kWorst = 10; ///< as `Quality::worst` says
 
 struct Ranked {
     double scaled_jacobian;
@@ -25,12 +25,12 @@ struct Ranked {
     }
 };
 
-/// The worst few cells, one of each column, in order.
+/// The worst cells, one for each column, sorted.
 struct WorstList {
     std::array<Ranked, kWorst> cells{};
     std::size_t count = 0;
 
-    /// Whether a cell with that value may be one of them.
+    /// Whether a cell with this value belongs to the list.
     [[nodiscard]] bool takes(double scaled_jacobian) const
     {
         return count < kWorst || scaled_jacobian <= cells[kWorst - 1].scaled_jacobian;
@@ -38,7 +38,7 @@ struct WorstList {
     void offer(const Ranked& candidate)
     {
         if (count == kWorst && !(candidate < cells[kWorst - 1])) return;
-        std::size_t i = 0; // the place that goes: of its column, else a new one, else the last
+        std::size_t i = 0; // entry to replace: that of the same column, else a new one, else the last
         while (i < count && cells[i].column != candidate.column) ++i;
         if (i < count && !(candidate < cells[i])) return;
         if (i == count) i = count < kWorst ? count++ : kWorst - 1;
@@ -62,12 +62,12 @@ int bin_of(double scaled) { return std::clamp(static_cast<int>((scaled + 1) * 10
 using Values = CellValues<kLanes>;
 using Signs = std::array<Sign, kLanes>;
 
-/// Lay what is known of a cell that is no straight hexahedron in its lane.
+/// Replace the values of a lane, for a cell that is not a straight hexahedron.
 void put_cell(Values& values, Signs& signs, int lane, double scaled, double volume, bool positive)
 {
     values.scaled[lane] = scaled;
     values.volume[lane] = volume;
-    values.smallest[lane] = 0; // its sign says it
+    values.smallest[lane] = 0; // only its sign is used
     signs[static_cast<std::size_t>(lane)] = positive ? Sign::positive : Sign::not_positive;
 }
 
@@ -89,8 +89,8 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
     }
 }
 
-/// The cells of a batch, the first of which has the number `first`. What most have in common is asked of all
-/// at once.
+/// Add the cells of a batch, the first of which has the number `first`. Tests that most cells pass are made
+/// for the whole batch first.
 template <class Cells>
 void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,
                std::size_t first, int filled)
@@ -118,11 +118,11 @@ void add_batch(Partial& partial, const Cells& cells, const Values& values, const
     if (!positive) count_bad(partial, values, signs, filled);
 }
 
-/// Of cells that are all of order 1.
+/// For meshes of order 1: no cell is curved.
 constexpr auto kNoneCurved = [](std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; };
 
-/// @param curved  tells whether a cell is curved, and sets its nodes if it is.
-/// @param kept    null, or room for the scaled Jacobian of every cell, none of which is curved.
+/// @param curved  returns whether a cell is curved, and sets its nodes if it is.
+/// @param kept    null, or memory for the scaled Jacobian of every cell, if no cell is curved.
 template <class Cells, class Curved>
 Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& context,
                     float* kept = nullptr)

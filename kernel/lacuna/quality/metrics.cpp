@@ -45,7 +45,7 @@ constexpr std::array<MetricInfo, kMetricCount> kInfos{{
     {Metric::shear_and_size, "shear_and_size", kUnit, Range{0.2, 1}, true, true},
 }};
 
-/// Sums over some cells; those of several parts are joined in order.
+/// Statistics of some cells; those of several parts are merged in order.
 struct Tally {
     std::size_t count = 0, outside = 0, worst = 0;
     double min = kEndless, max = -kEndless, mean = 0;
@@ -61,7 +61,7 @@ struct Tally {
         squares += distance * (value - mean);
         min = std::min(min, value);
         max = std::max(max, value);
-        // A cube's metrics may leave their range by a rounding.
+        // Rounding may put a cube's metrics slightly outside their range.
         constexpr double kRounding = 1e-12;
         if (info.acceptable &&
             !(value >= info.acceptable->low - kRounding && value <= info.acceptable->high + kRounding))
@@ -91,10 +91,10 @@ struct Tally {
     }
 };
 
-/// What stands for the value of a wedge where a metric is none of theirs.
+/// Value of a wedge for metrics that are not defined for wedges.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The metrics of a wedge in one lane.
+/// Store the metrics of a wedge in a lane.
 void put_wedge(std::span<const Metric> metrics, const WedgeCorners& corners, double* values)
 {
     for (std::size_t m = 0; m < metrics.size(); ++m)
@@ -146,7 +146,7 @@ std::vector<Tally> tally(const Cells& cells, std::span<const Metric> metrics, do
     return sums;
 }
 
-/// Cells of a swept mesh that follow each other in a layer.
+/// Consecutive cells in a layer of a swept mesh.
 struct CellsInRow {
     SweptCells all;
     std::size_t first, layer, count;
@@ -184,7 +184,7 @@ double average_volume(const ListedCells& cells, const RunContext& context)
     return mean_volume(std::vector<double>{sum_of_volumes(cells, context)}, cells.columns());
 }
 
-/// Mean volume of the cells, where one of the metrics wants it.
+/// Mean volume of the cells, if a metric needs it.
 template <class Cells>
 double average_volume_of(const Cells& cells, std::span<const Metric> metrics, const RunContext& context)
 {
@@ -219,11 +219,11 @@ std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metri
     return summaries;
 }
 
-/// As `Quality::of_cells` has values.
+/// Rounded as in `Quality::of_cells`.
 double in_single_precision(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Every written mesh carries the scaled Jacobian: a short way to it, without what other metrics need. Of the
-/// columns [begin, end), each cell's at its number.
+/// Fast path for the scaled Jacobian, which every written mesh has, without the data of other metrics. Values
+/// of the columns [begin, end), stored by cell number.
 template <class Cells>
 void put_scaled_jacobians(const Cells& cells, std::size_t begin, std::size_t end, double* out)
 {
@@ -250,7 +250,7 @@ std::vector<double> scaled_jacobians(const Cells& cells, const RunContext& conte
     return result;
 }
 
-/// Some cells of a swept mesh as a list.
+/// Selected cells of a swept mesh as a list.
 struct PickedCells {
     SweptCells all;
     std::span<const std::uint32_t> cells;
@@ -328,7 +328,7 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 {
     std::vector<double> values = values_of(SweptCells{mesh}, metric, average_volume, context);
     if (mesh.order() == 1 || metric != Metric::scaled_jacobian) return values;
-    constexpr std::size_t kGrain = 256; // a curved cell takes a microsecond or two: a choice
+    constexpr std::size_t kGrain = 256; // a curved cell takes one or two microseconds
     parallel_for(context, values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 27> nodes = hex27_of(mesh, c);

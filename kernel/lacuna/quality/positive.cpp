@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// positive_everywhere(): a cell's coefficients are cut in two until all of a part are positive, three
-// coefficients at a time. All of it is compiled into who calls it, for the processor that is compiled for
-// there. No vector is handed on by value: how that is done depends on the processor.
+// positive_everywhere(): bisect a cell's coefficients until all coefficients of each part are positive, three
+// coefficients at a time. Everything is inlined into its callers, to be compiled for their instruction set.
+// Vectors are never passed by value, as the calling convention depends on the instruction set.
 #include <lacuna/quality/detail/cell_batch.h>
 #include <lacuna/quality/detail/lanes.h>
 
@@ -12,15 +12,15 @@
 namespace lacuna::quality {
 namespace {
 
-/// Three coefficients along u, the last of them twice: so the whole of a row can be asked.
+/// Three coefficients along u; the last is repeated, so that all four lanes can be tested.
 using Row = double __attribute__((vector_size(32)));
 
-/// The coefficients of a part of a cell: (a, b, c) is number a of row b + 3c.
+/// The coefficients of a part of a cell: (a, b, c) is element a of row b + 3c.
 struct Part {
     Row row[9];
 };
 
-/// Cuts that are left along u, v and w.
+/// Number of bisections left along u, v and w.
 using CutsLeft = std::array<int, 3>;
 
 LACUNA_INLINE void lower(Row& least, const Row& other) { least = other < least ? other : least; }
@@ -47,8 +47,8 @@ LACUNA_INLINE bool all_positive(const Part& part)
     return least_of(least) > 0;
 }
 
-/// The direction along which the least coefficient lies in the middle, so that a cut lifts it, of those with
-/// cuts left; -1 where none is left.
+/// The direction, among those with bisections left, in which the smallest coefficient is in the middle, so
+/// that a bisection raises it; -1 if no bisection is left.
 LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
 {
     const Row* row = part.row;
@@ -65,8 +65,8 @@ LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
     return (w < uv ? w : uv) < kNone ? best : -1;
 }
 
-/// Cut across rows at the middle (de Casteljau). @param kStep  rows from one coefficient to the next along
-/// the cut direction. @return  the least Jacobian at the four corners the halves share.
+/// Bisect across rows (de Casteljau). @param kStep  distance in rows between coefficients along the direction
+/// of bisection. @return  the smallest Jacobian at the four corners that the halves share.
 template <std::size_t kStep>
 LACUNA_INLINE double split_rows(const Part& whole, Part& low, Part& high)
 {
@@ -88,7 +88,7 @@ LACUNA_INLINE double split_rows(const Part& whole, Part& low, Part& high)
     return corners[2] < corners[0] ? corners[2] : corners[0];
 }
 
-/// The same along rows.
+/// Bisect along rows.
 LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
 {
     for (int r = 0; r < 9; ++r) {
@@ -109,10 +109,9 @@ LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
 
 using Further = bool (*)(const Part& part, const CutsLeft& cuts_left);
 
-/// Depth first; a part is cut in two along the one direction that helps most. Every part that eight-fold
-/// cutting to the same depth finds positive is found so here, as what is cut further only rises (convex
-/// hull).
-/// @param further  this for a half; the last one left open is gone on with here
+/// Depth-first bisection along the most effective direction. By the convex hull property, coefficients only
+/// rise, so this proves every part that eight-fold subdivision to the same depth proves.
+/// @param further  recursion for one half; this function continues with the other half
 /// @pre  `given` is positive at its corners, and finite
 LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left, Further further)
 {
@@ -139,7 +138,7 @@ bool positive_plain(const Part& part, const CutsLeft& cuts_left)
     return positive_parts(part, cuts_left, positive_plain);
 }
 
-/// Whether all are numbers: what is none leaves none when it is taken from itself.
+/// Whether all are finite: x - x is NaN otherwise.
 LACUNA_INLINE bool all_finite(const Part& part)
 {
     Row off = part.row[0] - part.row[0];
@@ -164,19 +163,19 @@ LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth,
 
 using Values = CellValues<kLanes>;
 
-/// The same coefficient of four cells side by side.
+/// The same coefficient of four cells.
 LACUNA_INLINE const Row& four_of(const double (&lanes)[kLanes], int first)
 {
     return *reinterpret_cast<const Row*>(lanes + first);
 }
 
-/// Of four cells, each cut along the same direction.
+/// Four cells bisected along the same direction.
 struct FourCut {
-    Row least;  ///< coefficient of the two halves
-    Row middle; ///< J in the middle of the edges that are cut, times 4
+    Row least;  ///< smallest coefficient of the two halves
+    Row middle; ///< J at the middle of the edges that are bisected, times 4
 };
 
-/// @param kAlong  from a coefficient to the next along the cut; `kRow` and `kNextRow` across it.
+/// @param kAlong  stride of coefficients along the bisection; `kRow` and `kNextRow` across it.
 template <int kAlong, int kRow, int kNextRow>
 LACUNA_INLINE void cut_four(const Values& values, int first, FourCut& cut)
 {
@@ -202,7 +201,7 @@ LACUNA_INLINE void find_signs(const Values& values, int first, Sign* sign)
     cut_four<3, 1, 9>(values, first, along[1]);
     cut_four<9, 1, 3>(values, first, along[2]);
     for (int i = 0; i < 4; ++i) {
-        // What is no number or infinite is so in the sum as well.
+        // If a value is not finite, the sum is not finite.
         const bool finite = std::isfinite(values.volume[first + i]);
         const bool positive = along[0].least[i] > 0 || along[1].least[i] > 0 || along[2].least[i] > 0;
         const bool crossed = !(along[0].middle[i] > 0 && along[1].middle[i] > 0 && along[2].middle[i] > 0);
@@ -246,7 +245,7 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
 
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values)
 {
-    std::array<Sign, kLanes> sign{}; // all open
+    std::array<Sign, kLanes> sign{}; // all undecided
 #if defined(LACUNA_WIDER_VECTORS)
     if (has_avx2()) {
         find_signs_avx2(values, sign);

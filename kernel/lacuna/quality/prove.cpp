@@ -14,9 +14,9 @@
 #include <unordered_set>
 #include <utility>
 
-// Sides of swept cells need no search: the cells stand on quads, so a side of the mesh is a quad on a layer
-// or a side of a quad times a layer. The mesh is conformal, and its skin closed, exactly when the quads are
-// so.
+// Swept cells need no search for common sides: each side of the mesh is a source quad on a level, or a side
+// of a source quad times a layer. So the mesh is conforming and its skin closed if and only if this holds for
+// the source quads.
 
 namespace lacuna::quality {
 namespace {
@@ -40,18 +40,17 @@ Found check_sizes(const mesh::HexMesh& mesh, std::size_t nodes)
           Size{"patches of wall quads", mesh.wall_patch.size(), layers * mesh.rim.size()}}) {
         if (found != expected)
             return Finding{Fault::wrong_size, std::string("the mesh holds ") + std::to_string(found) + " " +
-                                                  what + " where " + std::to_string(expected) +
-                                                  " were expected"};
+                                                  what + "; expected " + std::to_string(expected)};
     }
     const std::size_t first_triangle = mesh.quads.size() - mesh.triangle_count();
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         if (q < first_triangle && mesh::is_triangle(mesh.quads[q]))
-            return Finding{Fault::wrong_size, "source quad " + person(q) +
-                                                  " is a triangle and stands before quads; triangles are "
-                                                  "expected to be the last"};
+            return Finding{Fault::wrong_size,
+                           "source quad " + person(q) +
+                               " is a triangle and precedes quads; triangles must come last"};
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                return Finding{Fault::unknown_node, "source quad " + person(q) + " names node " +
+                return Finding{Fault::unknown_node, "source quad " + person(q) + " has node number " +
                                                         std::to_string(node + 1) + " of " +
                                                         std::to_string(mesh.nodes_per_layer)};
         }
@@ -64,8 +63,8 @@ Found check_patches(const mesh::HexMesh& mesh)
     std::unordered_set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches) {
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            return Finding{Fault::patch_tag, "the skin patch with tag " + std::to_string(patch.tag) +
-                                                 " must have a positive tag of its own"};
+            return Finding{Fault::patch_tag, "tag " + std::to_string(patch.tag) +
+                                                 " of a skin patch is not positive or not unique"};
     }
     const auto count = static_cast<Index>(mesh.patches.size());
     for (const auto& [where, patches] :
@@ -76,7 +75,7 @@ Found check_patches(const mesh::HexMesh& mesh)
         if (wrong != patches->end())
             return Finding{Fault::no_patch, std::string(where) + " quad " +
                                                 person(static_cast<std::size_t>(wrong - patches->begin())) +
-                                                " belongs to no patch of the skin"};
+                                                " has no patch of the skin; set its patch number"};
     }
     return std::nullopt;
 }
@@ -97,13 +96,13 @@ Found check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         return Finding{Fault::not_conformal,
                        "the side of source quad " + person(side / 4) + " from " + source_node(mesh, from) +
                            " to " + source_node(mesh, to) +
-                           (from == to ? " has no length: its ends are one node"
+                           (from == to ? " has the same node at both ends"
                                        : " is used by more than two quads, or twice in the same direction")};
     }
     return std::nullopt;
 }
 
-/// The node that follows each node along the rim, -1 inside.
+/// The next node along the rim for each node; -1 for inner nodes.
 std::vector<Index> rim_followers(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     std::vector<Index> follows(index(mesh.nodes_per_layer), -1);
@@ -114,12 +113,13 @@ std::vector<Index> rim_followers(const mesh::HexMesh& mesh, const std::vector<In
     return follows;
 }
 
-/// Every node must be used, and the quads around it form one fan: else an edge of the mesh is pinched.
+/// Check that every node is used, and that the quads around it form one fan; otherwise the mesh is pinched
+/// there.
 Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     const std::size_t nodes = index(mesh.nodes_per_layer);
     std::vector<Index> valence(nodes, 0);
-    std::vector<Index> first(nodes, -1); // a side that leaves the node; one on the rim where there is one
+    std::vector<Index> first(nodes, -1); // a side that starts at the node; one on the rim if there is one
     for (std::size_t side = 0; side < opposite.size(); ++side) {
         if (opposite[side] == mesh::kNoSide) continue;
         const std::size_t node = index(mesh.quads[side / 4][side % 4]);
@@ -129,8 +129,9 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
     for (std::size_t node = 0; node < nodes; ++node) {
         if (valence[node] == 0)
             return Finding{Fault::unused_node,
-                           source_node(mesh, static_cast<Index>(node)) + " belongs to no quad"};
-        // Turn from quad to quad: a quad's side that arrives at the node is the next quad's that leaves it.
+                           source_node(mesh, static_cast<Index>(node)) + " belongs to no quad; remove it"};
+        // Go around the node: the side of a quad that ends at the node is the side of the next quad that
+        // starts there.
         Index turned = 1;
         for (Index side = first[node];; ++turned) {
             Index arrives = side % 4 == 0 ? side + 3 : side - 1;
@@ -140,7 +141,7 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         }
         if (turned != valence[node])
             return Finding{Fault::pinched, "the quads around " + source_node(mesh, static_cast<Index>(node)) +
-                                               " touch in the node alone; give each part a node of its own"};
+                                               " are connected at this node only; duplicate the node"};
     }
     return std::nullopt;
 }
@@ -160,7 +161,8 @@ Found check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
     if (missed != follows.end())
         return Finding{Fault::open_skin, "the boundary side of the source quads from " +
                                              source_node(mesh, static_cast<Index>(missed - follows.begin())) +
-                                             " to " + source_node(mesh, *missed) + " carries no wall"};
+                                             " to " + source_node(mesh, *missed) +
+                                             " is not listed in the rim"};
     return std::nullopt;
 }
 
@@ -181,12 +183,14 @@ std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_l
     return node_name(nodes[index(node)], node, nodes_per_layer, levels);
 }
 
-Finding not_finite(const std::string& node) { return {Fault::not_finite, node + " has no finite place"}; }
+Finding not_finite(const std::string& node)
+{
+    return {Fault::not_finite, node + " has coordinates that are not finite"};
+}
 
 Finding coincident_nodes(const std::string& a, const std::string& b)
 {
-    return {Fault::coincident_nodes,
-            a + " and " + b + " lie in one place (within 1e-9 of the mesh's diagonal)"};
+    return {Fault::coincident_nodes, a + " and " + b + " coincide (within 1e-9 of the diagonal of the mesh)"};
 }
 
 Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunContext& context)
@@ -220,7 +224,7 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
     if (quality.uncertified > 0)
         return Finding{Fault::not_certified,
                        std::to_string(quality.uncertified) + cells +
-                           "have a Jacobian that is not positive everywhere, though it is at their corners. "
+                           "have a Jacobian that is positive at their corners but not everywhere. "
                            "The worst cells of the mesh:" +
                            worst(std::numeric_limits<double>::infinity())};
     if (quality.min_scaled_jacobian < min_scaled_jacobian)
@@ -280,7 +284,8 @@ Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double m
     };
     const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
     const std::size_t nodes = levels * index(std::max<Index>(mesh.nodes_per_layer, 0));
-    // What is measured has arrays that fit. They are checked all the same, on one thread: nodes beside it.
+    // Arrays of a measured mesh have valid sizes. Check them nevertheless, in parallel with the check of the
+    // nodes.
     const bool beside = measured && nodes > 0 && mesh.nodes.size() == nodes &&
                         !check_quality(*measured, min_scaled_jacobian, mesh.layers);
     std::optional<Background<Found>> arrays;

@@ -9,9 +9,9 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr Index kGivenSkin = -1; ///< owner of a side that comes from the list of skin quads
+constexpr Index kGivenSkin = -1; ///< owner of a side from the given skin
 
-/// A side of a cell, told by its nodes: the lowest, the one across and the others in order.
+/// A side of a cell, with a key for sorting: its lowest node, the opposite one, and the other two in order.
 struct CellSide {
     std::array<Index, 4> key;
     Quad nodes;
@@ -24,14 +24,14 @@ bool operator<(const CellSide& a, const CellSide& b)
     return std::tie(a.key, a.owner) < std::tie(b.key, b.owner);
 }
 
-/// A quad turned so that it begins with its lowest node; same side, same direction.
+/// A quad rotated to start at its lowest node; same side, same direction.
 Quad turned(const Quad& quad)
 {
     const auto lowest = static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
     return {quad[lowest], quad[(lowest + 1) % 4], quad[(lowest + 2) % 4], quad[(lowest + 3) % 4]};
 }
 
-/// A triangle is told by its lowest node and the other two, of which the higher stands twice in the key.
+/// The key of a triangle: its lowest node and the other two, of which the higher is repeated.
 CellSide make_triangle(const Quad& quad, Index owner)
 {
     std::array<Index, 3> nodes{quad[0], quad[1], quad[2]};
@@ -61,7 +61,7 @@ Found check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         for (const Index node : hexes[h]) {
             if (!known(node))
-                return Finding{Fault::unknown_node, "cell " + std::to_string(h + 1) + " names node " +
+                return Finding{Fault::unknown_node, "cell " + std::to_string(h + 1) + " has node number " +
                                                         std::to_string(std::int64_t(node) + 1) + " of " +
                                                         std::to_string(nodes.size())};
             used[static_cast<std::size_t>(node)] = 1;
@@ -69,7 +69,7 @@ Found check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std
     }
     for (const Quad& quad : skin)
         if (!std::all_of(quad.begin(), quad.end(), known))
-            return Finding{Fault::unknown_node, "a quad of the skin names a node that is not there"};
+            return Finding{Fault::unknown_node, "a quad of the given skin has a node number out of range"};
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end())
         return Finding{Fault::unused_node, node_name(nodes, static_cast<Index>(unused - used.begin()), 0) +
@@ -77,7 +77,7 @@ Found check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std
     return std::nullopt;
 }
 
-/// Sides of all cells and of the given skin, brought together by their lowest node.
+/// Sides of all cells and of the given skin, grouped by their lowest node.
 std::vector<CellSide> sorted_sides(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                                    std::span<const Quad> skin)
 {
@@ -118,7 +118,7 @@ std::vector<CellSide> sorted_sides(std::span<const Vec3> nodes, std::span<const 
     return sides;
 }
 
-/// One side with all who use it: the given skin first, then the cells.
+/// Check one side, given all its users: first the given skin, then the cells.
 Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, bool skin_given)
 {
     const auto given = static_cast<std::size_t>(
@@ -128,7 +128,7 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
     const auto& key = any.key;
     const auto end = any.triangle ? key.end() - 1 : key.end();
     if (std::adjacent_find(key.begin(), end) != end)
-        return Finding{Fault::collapsed_side, side_name(nodes, any) + " uses a node twice"};
+        return Finding{Fault::collapsed_side, side_name(nodes, any) + " has the same node twice"};
     if (cells.size() > 2)
         return Finding{Fault::not_conformal,
                        side_name(nodes, any) + " is shared by " + std::to_string(cells.size()) + " cells"};
@@ -138,8 +138,7 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
         const bool alike = any.triangle ? a[1] == b[2] && a[2] == b[1]
                                         : a[1] == b[3] && a[2] == b[2] && a[3] == b[1];
         if (!alike)
-            return Finding{Fault::not_conformal, side_name(nodes, any) +
-                                                     " is not the same, run the other way, in cell " +
+            return Finding{Fault::not_conformal, side_name(nodes, any) + " does not match the side of cell " +
                                                      std::to_string(cells[0].owner + 1)};
     }
     const std::size_t expected = cells.size() == 1 ? 1 : 0;
@@ -147,11 +146,11 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
         return Finding{Fault::skin_differs,
                        "the quad between " + node_name(nodes, any.nodes[0], 0) + " and " +
                            node_name(nodes, any.nodes[2], 0) + " is listed " + std::to_string(given) +
-                           " times as a quad of the skin; expected " + std::to_string(expected)};
+                           " times in the given skin; expected " + std::to_string(expected)};
     return std::nullopt;
 }
 
-/// Every edge of the skin joins two of its quads, which run it in opposite directions.
+/// Check that every edge of the skin joins two of its quads, in opposite directions.
 Found check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& skin)
 {
     struct Use {
@@ -204,7 +203,7 @@ Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::
         for (; j < sides.size() && sides[j].key == sides[i].key; ++j)
             cells += sides[j].owner != kGivenSkin ? 1 : 0;
         if (found(check_side(nodes, std::span(sides).subspan(i, j - i), !skin.empty()))) return proof;
-        if (cells == 1) found_skin.push_back(sides[j - 1].nodes); // the given skin is sorted before the cells
+        if (cells == 1) found_skin.push_back(sides[j - 1].nodes); // the given skin is sorted first
         i = j;
     }
     if (!found(check_skin_edges(nodes, found_skin))) found(check_nodes(nodes, 0, context));

@@ -14,115 +14,115 @@
 
 namespace lacuna::quality {
 
-/// Smallest scaled Jacobian over the eight corners of a hexahedron, Verdict's without the centre; -1…1, 1 for
-/// a cube.
+/// Smallest scaled Jacobian over the eight corners of a hexahedron: Verdict's, without the centre. Between -1
+/// and 1; 1 for a cube.
 double scaled_jacobian(std::span<const Vec3, 8> corners);
 
-/// True when the Jacobian of the trilinear map is positive everywhere in the cell.
+/// True if the Jacobian of the trilinear map is positive in the whole cell.
 ///
-/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017): 27 coefficients, all
-/// positive ⇒ valid; a corner not positive ⇒ invalid; else subdivided until decided or `max_depth`, then
-/// invalid.
+/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017). All 27 coefficients
+/// positive: valid. A corner not positive: invalid. Otherwise the cell is subdivided until decided; undecided
+/// at `max_depth`: invalid.
 bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
-/// The same of a wedge, nodes as `mesh::Wedge`: Verdict's, times 2/√3, so that it is 1 for an even triangle
-/// times a height.
+/// The scaled Jacobian of a wedge, nodes as in `mesh::Wedge`: Verdict's, times 2/√3, so that a right prism on
+/// an equilateral triangle has 1.
 double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 
-/// The same of a wedge, whose Jacobian is linear over the triangle and of degree two along the height: nine
-/// Bernstein coefficients hold it.
+/// As `certified_positive()`, for a wedge: its Jacobian is linear over the triangle and quadratic along the
+/// height, with nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
-/// A cell with what is wrong with it.
+/// One of the worst cells of a mesh.
 struct WorstCell {
     std::size_t cell = 0; ///< from 0
-    int layer = -1;       ///< from 0; -1 where cells are a plain list
+    int layer = -1;       ///< from 0; -1 for a list of cells
     Vec3 centre{0, 0, 0};
     double scaled_jacobian = 0;
 };
 
 struct Quality {
     std::size_t hexes = 0;  ///< hexahedra
-    std::size_t wedges = 0; ///< and wedges, in all that follows too
+    std::size_t wedges = 0; ///< wedges; they count in all values below
     double min_scaled_jacobian = 1;
     double mean_scaled_jacobian = 1;
-    std::size_t inverted = 0;                ///< cells with a corner that is not positive
-    std::size_t uncertified = 0;             ///< cells whose Jacobian could not be shown positive everywhere
+    std::size_t inverted = 0;                ///< cells with a Jacobian <= 0 at a corner
+    std::size_t uncertified = 0;             ///< cells whose Jacobian is not proved positive everywhere
     std::array<std::size_t, 20> histogram{}; ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
-    std::vector<WorstCell> worst;            ///< at most ten, worst first, one of each column of a sweep
+    std::vector<WorstCell> worst;            ///< at most ten, worst first, one for each column of a sweep
     double volume = 0;                       ///< sum over the cells [model length³]
-    /// The scaled Jacobian of every cell, where `measure()` was to keep it; null: not kept.
+    /// The scaled Jacobian of every cell, if requested from `measure()`; else null.
     std::shared_ptr<const std::vector<float>> of_cells;
 };
 
-/// What `measure()` keeps.
+/// Which results `measure()` stores.
 enum class Keep {
-    sums,    ///< what is known of all cells together
-    of_cells ///< the scaled Jacobian of each cell of a mesh of order 1 too, which files have: 4 bytes a cell
+    sums,    ///< statistics only
+    of_cells ///< also the scaled Jacobian of each cell of a mesh of order 1, for writing: 4 bytes a cell
 };
 
-/// Measure every cell; one of order 2 that is curved by `judge()` (`quality/second_order.h`). Parallel; the
-/// same for any thread count. O(cells).
-/// @pre  every corner is the number of a node (`prove()` checks it).
+/// Measure every cell; curved cells of order 2 with `judge()` (`quality/second_order.h`). Parallel;
+/// independent of the number of threads. O(cells).
+/// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
-/// The same for hexahedra, and wedges as `mesh::is_wedge()` has them, of any origin.
-/// @param columns  of sweeps, that of each cell, for `Quality::worst`; empty: none is known.
+/// As above, for a list of hexahedra, and of wedges stored as `mesh::is_wedge()` says.
+/// @param columns  the column of a sweep for each cell, for `Quality::worst`; empty: unknown.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {},
                       std::span<const Index> columns = {});
 
-/// As a table with a histogram.
+/// The quality as a table with a histogram.
 std::string to_table(const Quality& quality);
 
-/// What can be wrong with a mesh.
+/// Faults of a mesh.
 enum class Fault {
     empty,            ///< no cells
-    wrong_size,       ///< arrays of a swept mesh that do not fit its counts
-    unknown_node,     ///< a corner names no node
-    patch_tag,        ///< a patch of the skin without a tag of its own
-    no_patch,         ///< a quad of the skin that belongs to no patch
-    collapsed_side,   ///< a side of a cell with a node twice
-    not_conformal,    ///< a side used by more than two cells, or not alike in both
-    pinched,          ///< quads that touch in one node alone
-    unused_node,      ///< a node no cell uses
-    open_skin,        ///< an edge of the skin without two quads
-    skin_differs,     ///< the skin that was handed over is not that of the cells
-    not_finite,       ///< a coordinate that is no number
-    coincident_nodes, ///< two nodes in one place
-    inverted,         ///< cells with a corner that is not positive
-    not_certified,    ///< cells whose Jacobian could not be shown positive everywhere
-    below_limit,      ///< cells below the least scaled Jacobian that was asked for
+    wrong_size,       ///< arrays of a swept mesh have wrong sizes
+    unknown_node,     ///< a corner has an invalid node number
+    patch_tag,        ///< a patch of the skin has no unique positive tag
+    no_patch,         ///< a quad of the skin has no patch
+    collapsed_side,   ///< a side of a cell has the same node twice
+    not_conformal,    ///< a side is used by more than two cells, or differently in both
+    pinched,          ///< quads are connected at one node only
+    unused_node,      ///< no cell uses a node
+    open_skin,        ///< an edge of the skin does not have two quads
+    skin_differs,     ///< the given skin is not the skin of the cells
+    not_finite,       ///< a coordinate is not finite
+    coincident_nodes, ///< two nodes coincide
+    inverted,         ///< cells with a Jacobian <= 0 at a corner
+    not_certified,    ///< cells whose Jacobian is not proved positive everywhere
+    below_limit,      ///< cells below the required scaled Jacobian
 };
 
 /// Stable name of a fault, for programs: "quality.not_conformal".
 std::string fault_code(Fault fault);
 
-/// Whether moving nodes may cure the fault: cells inverted, not certified or below the limit.
+/// Whether smoothing may remove the fault: cells inverted, not certified or below the limit.
 bool can_be_improved(Fault fault);
 
-/// Something wrong with a mesh.
+/// A fault found in a mesh.
 struct Finding {
     Fault fault;
-    std::string message; ///< for a person: which nodes or cells, their layer and place, and what to try
+    std::string message; ///< for a person: the nodes or cells, their layer and position, and what to try
 };
 
-/// What is known of a mesh that was to be proved.
+/// Result of a proof.
 struct Proof {
-    Quality quality;                ///< of the cells; empty where the fault lies in the arrays themselves
-    std::optional<Finding> finding; ///< the first fault met; none: the mesh is fit to be written
+    Quality quality;                ///< empty if the arrays are faulty
+    std::optional<Finding> finding; ///< the first fault found; none: the mesh is valid
 };
 
-/// Prove a mesh fit to be written: conformal (every side of a cell used once or twice), skin closed and made
-/// of exactly the patches, no node twice in one place or unused, every Jacobian certified positive. O(cells).
+/// Prove that a mesh is valid: conforming (each side used once or twice), skin closed and equal to the
+/// patches, no coincident or unused nodes, every Jacobian certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
-/// The same for hexahedra and wedges of any origin.
-/// @param skin  where not empty, quads and triangles that must be exactly the skin, in any order and
+/// As above, for a list of hexahedra and wedges.
+/// @param skin  if not empty: quads and triangles that must be exactly the skin, in any order and
 ///              direction.
 Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
                   double min_scaled_jacobian = 0, const RunContext& context = {});
 
-/// Turn the finding of a proof, if there is one, into an error.
+/// Throw the finding of a proof, if there is one.
 /// @throw NotSweepable  with the fault's code and the finding's message.
 void require(const Proof& proof);
 

@@ -59,7 +59,7 @@ std::string to_table(const Quality& quality)
 
     const std::size_t most = *std::max_element(quality.histogram.begin(), quality.histogram.end());
     if (most == 0) return text;
-    constexpr std::size_t kBar = 40; ///< letters of the longest bar: a line stays below 80
+    constexpr std::size_t kBar = 40; ///< characters of the longest bar: lines stay below 80
     std::size_t bin = 0;
     while (quality.histogram[bin] == 0) ++bin;
     for (; bin < quality.histogram.size(); ++bin) {

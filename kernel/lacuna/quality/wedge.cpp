@@ -13,7 +13,7 @@ namespace {
 
 double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// Jacobian over the lengths of the edges at corner `i` of the level that begins at `level`.
+/// Scaled Jacobian at corner `i` of the triangle whose first corner is `level`.
 double scaled_at(const WedgeCorners& corners, std::size_t level, std::size_t i)
 {
     const Vec3& p = corners[level + i];
@@ -48,7 +48,7 @@ WedgeValues evaluate_wedge(const WedgeCorners& corners)
         }
     }
     if (!std::isfinite(sum)) values.smallest = values.scaled = 0;
-    // Each coefficient has the same integral: a third of that over the height, of half the square.
+    // Each coefficient has the same integral: 1/3 along the height times 1/2 · 1/3 over the triangle.
     values.volume = sum / 18;
     return values;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/requests.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <map>
@@ -12,20 +13,6 @@
 #include <vector>
 
 namespace lacuna::surface {
-
-/// Faces as a person names them. All of them count, each by any of the three.
-struct FaceNames {
-    std::vector<int> tags;          ///< of given faces
-    std::vector<std::string> names; ///< of given faces; "void:<n>": the void face n; "walls": all walls
-};
-
-/// Rows of cells along chosen faces, thin at the face.
-struct BoundaryLayer {
-    FaceNames walls;   ///< walls, and ends too
-    double first = 0;  ///< thickness of the cells at the face, square to it, > 0 [model length]
-    double growth = 1; ///< of each row over the one before, > 0 [-]
-    int count = 1;     ///< rows, >= 1
-};
 
 /// Heights of the rows over the face, rising [model length].
 std::vector<double> row_heights(const BoundaryLayer& layer);

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/requests.h>
 #include <lacuna/surface/seeds.h>
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::surface {
-
-/// A number of sides of quads that a person asks for.
-struct Interval {
-    /// On what: an edge by its tag, the edge between two vertices by theirs, the rim of walls, the sweep.
-    enum class Of { edge, vertices, wall, sweep };
-    Of of = Of::sweep;
-    int edge = 0;
-    std::array<int, 2> vertices{};
-    FaceNames walls; ///< the sides over all of them: as many columns of quads
-    int count = 1;   ///< >= 1
-    /// Last over first length, > 0 [-]: as the edge runs, from the first vertex to the second, from source to
-    /// target; of walls 1.
-    double bias = 1;
-};
 
 /// What intervals ask of a volume.
 struct IntervalDemands {

@@ -642,6 +642,12 @@ private:
 SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunContext& context)
 {
     std::vector<AssemblyMember> left(members.begin(), members.end());
+    for (AssemblyMember& member : left) {
+        ImproveOptions& improving = member.options.improving;
+        if (improving.seconds == left.front().options.improving.seconds)
+            improving.deadline = left.front().options.improving.deadline;
+        share_deadline(improving);
+    }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
     std::map<std::string, MemberFailed> without_wedges; // by region

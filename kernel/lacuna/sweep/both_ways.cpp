@@ -6,7 +6,6 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -79,16 +78,6 @@ std::string end_of(const OpenVolume& volume) { return volume.turned_round ? "tar
 
 } // namespace
 
-SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start)
-{
-    if (options.improving.seconds > 0) {
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-        options.improving.seconds -= used.count();
-        options.improve = options.improve && options.improving.seconds > 0;
-    }
-    return options;
-}
-
 OpenVolume turned_round(OpenVolume volume)
 {
     for (Role& role : volume.role) {
@@ -115,7 +104,6 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
         if (kept.refusal && kept.refusal->code() == "surface.given_triangles") throw *kept.refusal;
         log_line(context, "swept from the " + end_of(back) + ", to keep its quads: " + kept.why());
     }
-    const auto start = std::chrono::steady_clock::now();
     const bool turned_first = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
                               surface::inner_edges(volume, Role::source).empty();
     std::optional<OpenVolume> turned;
@@ -138,7 +126,7 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
                  "; the other way is tried");
     if (!turned_first) turned = turned_round(volume);
     const OpenVolume& second = turned_first ? volume : *turned;
-    Outcome other = outcome_of(second, remaining(options, start), sweep_one_way);
+    Outcome other = outcome_of(second, options, sweep_one_way);
     const bool swap = other.usable() && (!one.usable() || other.result->swept.min_scaled_jacobian >
                                                               one.result->swept.min_scaled_jacobian);
     const Outcome* better = swap ? &other : &one;
@@ -147,7 +135,7 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
     const bool poor_cells = one.result || other.result;
     for (const OpenVolume* way : {&first, &second}) {
         if (better->good() || !poor_cells || !can_lie_between(*way, options)) break;
-        Outcome between = outcome_of(*way, remaining(options, start), sweep_one_way, Outline::mean);
+        Outcome between = outcome_of(*way, options, sweep_one_way, Outline::mean);
         if (!between.usable())
             log_line(context, "laid out between the outlines of both ends: " + between.why());
         if (!between.usable() || (better->usable() && between.result->swept.min_scaled_jacobian <=

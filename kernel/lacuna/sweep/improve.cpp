@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <memory>
 
 namespace lacuna::sweep {
 
@@ -45,6 +46,7 @@ public:
           best_(places_of(mesh, region)),
           best_quality_(measure(region, best_, context))
     {
+        share_deadline(options_);
     }
 
     Improved run()
@@ -86,9 +88,7 @@ private:
     [[nodiscard]] bool out_of_time() const
     {
         if (work_ > options_.work) return true;
-        return options_.seconds > 0 &&
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >
-                   options_.seconds;
+        return options_.deadline && options_.deadline->passed();
     }
 
     /// Better: a higher least, or, where that is as it was, cells that lack less.
@@ -202,17 +202,29 @@ private:
 
     mesh::HexMesh& mesh_;
     const CellRegion& region_;
-    const ImproveOptions& options_;
+    ImproveOptions options_;
     const Sliding& sliding_;
     const RunContext& context_;
     RegionEnergy energy_;
     std::vector<Vec3> best_;
     RegionQuality best_quality_;
     double work_ = 0; ///< cells evaluated
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 } // namespace
+
+bool ImproveDeadline::passed()
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (!start_) start_ = now;
+    return std::chrono::duration<double>(now - *start_).count() > seconds_;
+}
+
+void share_deadline(ImproveOptions& options)
+{
+    if (options.seconds > 0 && !options.deadline)
+        options.deadline = std::make_shared<ImproveDeadline>(options.seconds);
+}
 
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)

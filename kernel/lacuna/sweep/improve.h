@@ -5,14 +5,27 @@
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::sweep {
+
+/// One time limit for all improving that shares it. It starts when the first of it begins.
+class ImproveDeadline {
+public:
+    explicit ImproveDeadline(double seconds) : seconds_(seconds) {}
+    bool passed();
+
+private:
+    double seconds_;
+    std::optional<std::chrono::steady_clock::time_point> start_;
+};
 
 struct ImproveOptions {
     double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
@@ -21,10 +34,15 @@ struct ImproveOptions {
     double work = 4e7;        ///< cells evaluated at most, > 0; about 20 seconds of one core
     double seconds = 0;       ///< no step is begun after this, >= 0; 0: `work` alone ends it
     // `work` counts and does not time, so that the same comes out on every machine.
+    /// Of `seconds`, for copies of these options that share one limit; null: each has its own.
+    std::shared_ptr<ImproveDeadline> deadline{};
 };
 
 /// @throw InvalidInput  an option out of range; names it.
 void check(const ImproveOptions& options);
+
+/// From here on copies of the options have one time limit, if there is any.
+void share_deadline(ImproveOptions& options);
 
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {

@@ -6,6 +6,7 @@
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/layer_plan.h>
+#include <lacuna/sweep/second_order_options.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <array>
@@ -17,19 +18,6 @@
 #include <vector>
 
 namespace lacuna::sweep {
-
-/// Middle nodes that a deck gives between two places of it, pair by pair; not a number where it gives none.
-using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from, std::span<const Vec3> to)>;
-
-/// The same of quads, by the places of their corners.
-using GivenCentres = std::function<std::vector<Vec3>(std::span<const std::array<Vec3, 4>> corners)>;
-
-struct SecondOrderOptions {
-    bool serendipity = false;     ///< hex20 instead of hex27
-    GivenMiddles given;           ///< null: none
-    GivenCentres given_centres{}; ///< of hex27; null: none
-    bool given_all_over = false;  ///< both are asked for the whole skin, not only where faces came as meshes
-};
 
 /// What became of a mesh that got middle nodes.
 struct Elevated {

@@ -7,6 +7,7 @@
 #include <lacuna/core/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/default_size.h>
+#include <lacuna/surface/intervals.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/finer_by_default.h>
@@ -16,9 +17,10 @@
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/layer_plan.h>
+#include <lacuna/sweep/second_order.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <optional>
@@ -47,7 +49,6 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
                            const std::vector<double>& heights, const SourceSize& size,
                            const SweepOptions& options, Outline outline, const RunContext& context)
 {
-    const auto start = std::chrono::steady_clock::now();
     ProvedSweep alone = sweep_between(volume, links, heights, size, options, outline, context);
     const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
                                           : alone.swept.min_scaled_jacobian < options.improving.good_enough;
@@ -58,8 +59,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
                                          &surface::LinkingSurface::branch);
     if (same) return alone;
     try { // What went wrong first says more than what goes wrong second.
-        ProvedSweep together = sweep_between(volume, as_one, heights, size, remaining(options, start),
-                                             outline, context);
+        ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
         if (together.proof.finding) {
             log_line(context, "loops turned as one body: " + together.proof.finding->message);
         } else if (alone.proof.finding ||
@@ -346,7 +346,9 @@ std::string poor_in_words(double least)
 
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
-    Swept swept = sweep_or_with_wedges(volume, asked, context);
+    SweepOptions options = asked;
+    share_deadline(options.improving);
+    Swept swept = sweep_or_with_wedges(volume, options, context);
     if (!asked.size && swept.min_scaled_jacobian < kPoor) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
         swept.report.push_back(swept.defaults.back());

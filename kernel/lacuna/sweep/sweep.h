@@ -6,13 +6,11 @@
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/intervals.h>
+#include <lacuna/surface/requests.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/improve.h>
-#include <lacuna/sweep/layer_plan.h>
-#include <lacuna/sweep/second_order.h>
+#include <lacuna/sweep/second_order_options.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <functional>
@@ -22,7 +20,13 @@
 #include <utility>
 #include <vector>
 
+namespace lacuna {
+struct Crew;
+}
+
 namespace lacuna::sweep {
+
+struct LayerPlan;
 
 /// How layer heights are spread.
 enum class Spacing { geometric, bell, both_ends };

@@ -8,6 +8,7 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/given_target.h>
 #include <lacuna/surface/imprint.h>
+#include <lacuna/surface/intervals.h>
 #include <lacuna/surface/rim_breaks.h>
 #include <lacuna/surface/source_mesh.h>
 #include <lacuna/surface/wall_breaks.h>
@@ -21,6 +22,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/sweep/layer_plan.h>
 #include <lacuna/sweep/layers.h>
 #include <lacuna/sweep/morph.h>
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kWriteTask = "write", kPartsTask = "write parts";
 
-/// A mesh but for its nodes and quads, which its plan has, within a message.
+/// Serialise a mesh except its nodes and quads, which are in its layer plan.
 template <class A, class Mesh>
 void put_mesh(A& with, Mesh& mesh)
 {
@@ -49,7 +49,7 @@ LayeredFile read_file(Reader& reader)
     return file;
 }
 
-/// A mesh that came in a message, and what its nodes are made by.
+/// A mesh received from rank 0, with the plan that computes its nodes.
 struct Received {
     mesh::HexMesh mesh;
     sweep::PlacedLayers layers;
@@ -85,8 +85,8 @@ mesh::NodeNumbers read_numbers(Reader& reader, const mesh::HexMesh& mesh)
     return {first, std::move(known), mesh::corner_count(mesh)};
 }
 
-/// Values of a metric, of some layers at a time.
-/// @param average_volume  of all cells, where the metric needs it
+/// Values of a metric, computed for a range of layers at a time.
+/// @param average_volume  of all cells, for metrics that are relative to it
 io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metric, double average_volume,
                           const RunContext& context)
 {
@@ -96,7 +96,7 @@ io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metr
             }};
 }
 
-/// What each of a team does.
+/// The work of one process of the team.
 void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, const LayeredFile& file,
                  const Team* team, const RunContext& context)
 {
@@ -120,7 +120,7 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
     else if (io::DeckFormat format{}; io::find_deck_format(ending, format) && io::is_layered(format))
         io::write_deck(layered, {.format = format, .material = file.material}, path, context, team);
     else
-        throw InvalidInput("io.not_layered", path.text() + ": files of this ending are written whole alone");
+        throw InvalidInput("io.not_layered", path.text() + ": this format cannot be written layer by layer");
 }
 
 void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath& path,

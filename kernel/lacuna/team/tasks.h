@@ -14,43 +14,43 @@
 #include <string_view>
 #include <vector>
 
-/// What a crew does together: each the layers that are its share. Nothing that is sent grows with the cells.
+/// Tasks of a process group: each process works on its own layers. Messages do not grow with the mesh.
 namespace lacuna::team {
 
-/// How a layered mesh is written.
+/// Options of writing a layered mesh.
 struct LayeredFile {
     bool binary = true;
-    double version = 4.1;                   ///< of .msh
-    std::vector<quality::Metric> quality{}; ///< fields of cells; decks have none
-    std::string material{};                 ///< of decks
-    io::PartitionOptions partition{};       ///< of .msh and .pvtu
-    bool all_groups = false;                ///< of .msh: as `io::MshOptions::all_groups`
+    double version = 4.1;                   ///< of the MSH format
+    std::vector<quality::Metric> quality{}; ///< written as cell fields; not for decks
+    std::string material{};                 ///< material name, for decks
+    io::PartitionOptions partition{};       ///< for .msh and .pvtu
+    bool all_groups = false;                ///< for .msh, as `io::MshOptions::all_groups`
 };
 
-/// Whether files of an ending (".msh") are written a layer at a time.
+/// Whether files with this ending (such as ".msh") can be written layer by layer.
 bool is_layered(const std::string& ending);
 
-/// Write a mesh whose nodes are made as they are written, in the format that the path's ending says: with a
-/// crew, where there is one.
-/// @param plan  what the layers are placed by.
+/// Write a mesh whose nodes are computed while they are written, in the format given by the ending of the
+/// path. A process group, if there is one, shares the work.
+/// @param plan  computes the nodes of each layer.
 /// @pre  is_layered() of the ending
 /// @throw  as `io::write_msh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
 
-/// Whether the mesh of an assembly, whose parts may not hold their nodes, is written so in files of an
-/// ending.
+/// Whether files with this ending can be written layer by layer for the mesh of an assembly, whose parts may
+/// not store their nodes.
 bool is_layered_of_parts(const std::string& ending);
 
-/// Write the mesh of an assembly with the bytes of `io::write_deck()` of its deck: with a crew, where there
-/// is one and no part holds its nodes.
+/// Write the mesh of an assembly, byte for byte as `io::write_deck()` does for its deck. A process group, if
+/// there is one, shares the work unless a part stores its nodes.
 /// @pre  is_layered_of_parts() of the ending; `file` has no parts, fields or material
 /// @throw  as `write_layered()`
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
                  const Crew* crew, const RunContext& context);
 
-/// Do one's part of a task that a crew was called to.
-/// @throw  what went wrong; all of the team know of it.
+/// Work on the share of this process in a task that rank 0 started.
+/// @throw  what went wrong; all processes of the team are told.
 void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context);
 
 } // namespace lacuna::team

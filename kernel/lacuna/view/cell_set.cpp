@@ -15,7 +15,7 @@ namespace lacuna::view {
 
 namespace {
 
-/// Whether a group is that of a void face: `void:3`, of a member of an assembly `fluid:void:3`.
+/// Whether a group belongs to a void face: `void:3`, or `fluid:void:3` in an assembly.
 bool is_of_void(const std::string& group)
 {
     return group.starts_with("void:") || group.find(":void:") != std::string::npos;
@@ -54,7 +54,7 @@ Hex as_hex(std::span<const Index> nodes, int corners)
     }
 }
 
-/// Names of the sets that elements of two dimensions are in.
+/// Names of the sets that contain two-dimensional elements.
 class SetsOfSides {
 public:
     explicit SetsOfSides(const io::Deck& deck)
@@ -78,7 +78,7 @@ private:
     std::unordered_map<io::DeckTag, std::vector<std::string>> names_;
 };
 
-/// Numbers nodes anew as they are met.
+/// Renumbers nodes in the order in which they occur.
 class Numbering {
 public:
     explicit Numbering(std::size_t points) : number_(points, -1) {}
@@ -97,7 +97,7 @@ private:
     std::vector<Index> number_;
 };
 
-/// The scaled Jacobian of hexahedra and wedges; of other solids not a number.
+/// Scaled Jacobian of hexahedra and wedges; NaN for other solids.
 std::vector<double> quality_of(const ListedCells& region, const RunContext& context)
 {
     std::vector<Hex> measured;
@@ -132,7 +132,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
 {
     DeckCells found;
     std::map<Index, std::size_t> of_region;
-    std::map<std::string, std::size_t> of_name; // regions of one name are shown as one
+    std::map<std::string, std::size_t> of_name; // regions with the same name are merged
     std::vector<Numbering> numbering;
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
@@ -172,8 +172,8 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
     }
     if (found.regions.empty())
         throw InvalidInput("view.no_solids", "view: " + deck.path +
-                                                 " holds no solids, so there are no cells to show; load it "
-                                                 "and look at its faces");
+                                                 " has no solids, so there are no cells to show; use "
+                                                 "show = \"faces\"");
     check_cancelled(context);
 
     const SetsOfSides sets(deck);

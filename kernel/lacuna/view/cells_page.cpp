@@ -14,7 +14,7 @@ namespace lacuna::view {
 
 namespace {
 
-/// Values as the page reads them: ten thousandths, or `kNoValue` in `page/cells.js`.
+/// Values in units of 1e-4, as the page expects them; `kNoValue` of `page/cells.js` for NaN.
 std::vector<Index> rounded(const std::vector<double>& values)
 {
     constexpr double kParts = 10000;
@@ -35,7 +35,7 @@ std::vector<Index> flat(const std::vector<std::array<Index, N>>& rows)
     return numbers;
 }
 
-/// Patches counted from `first`, that of the region among all.
+/// Patch numbers shifted by `first`, from one region to all regions.
 std::vector<Index> shifted(std::vector<Index> patches, Index first)
 {
     for (Index& patch : patches)

@@ -42,10 +42,10 @@ const char* word(topology::Geometry geometry)
     return "";
 }
 
-/// Quads and triangles of all faces, those of each in a row, given quads first.
+/// Quads and triangles of all faces, grouped by face, given quads first.
 struct Sides {
     std::vector<Index> corners;
-    std::vector<std::size_t> first, quads, count; ///< of each face
+    std::vector<std::size_t> first, quads, count; ///< for each face
 };
 
 Sides sides_of(const Model& model)
@@ -64,7 +64,7 @@ Sides sides_of(const Model& model)
     return sides;
 }
 
-/// Edges of a face as its loops use them: a seam twice.
+/// Edges of a face in the order of its loops: a seam appears twice.
 std::vector<EdgeId> edges_of(const topology::Face& face)
 {
     std::vector<EdgeId> edges;
@@ -80,7 +80,7 @@ void add_tags(Json& json, const char* key, const Model& model, const std::vector
     json.end_array();
 }
 
-/// What tells a face from others: its box, its neighbours, the cylinder or sphere it lies on.
+/// Write what distinguishes a face: its box, its neighbours, the cylinder or sphere that it lies on.
 void add_facts(Json& json, const Model& model, const topology::FaceFacts& facts,
                const std::optional<topology::RoundShape>& round)
 {
@@ -161,7 +161,7 @@ void add_cavities(Json& json, const Model& model, const std::vector<closure::Cav
     json.end_array();
 }
 
-/// What is said of a model whose faces are to be chosen, or the roles of a volume whose faces were.
+/// Text for a model whose faces are to be selected, or for a volume with roles.
 struct Told {
     const closure::ModelFacts* model = nullptr;
     const std::vector<topology::Role>* roles = nullptr;
@@ -177,7 +177,7 @@ void write_faces(const Model& model, const Told& told, const std::vector<std::st
             for (const Index point : triangle) box.extend(model.at(point));
     const Grid grid = grid_over(box);
     std::vector<Vec3> points = model.points;
-    for (Vec3& point : points) point = point.cwiseMax(box.min()).cwiseMin(box.max()); // some are in no facet
+    for (Vec3& point : points) point = point.cwiseMax(box.min()).cwiseMin(box.max()); // some are unused
 
     Json json;
     json.begin_object().member("kind", "faces");

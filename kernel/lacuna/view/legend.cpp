@@ -10,15 +10,15 @@ namespace lacuna::view {
 
 namespace {
 
-// Choices, not measurements [pixels].
+// Sizes that look balanced in a picture of 1200 pixels [pixels].
 constexpr double kEdge = 18, kTitle = 13, kLetters = 10, kRow = 24;
 constexpr double kBarWide = 180, kBarHigh = 12, kBox = 14, kGap = 7, kApart = 22;
-constexpr int kRows = 3; // of keys
+constexpr int kRows = 3; // most rows of keys
 constexpr Colour kInk{20, 28, 38};
 
 double width_of(const std::string& text, double height) { return stroked(text).width * height; }
 
-/// Write from the left upper corner `at` on, in capitals of a height.
+/// Write text in capitals of the given height, with its upper left corner at `at`.
 void write(std::vector<Mark>& marks, const std::string& text, const Vec2& at, double height)
 {
     for (const auto& [from, to] : stroked(text).strokes)
@@ -31,13 +31,13 @@ std::string number(double value)
     const int n = std::snprintf(digits, sizeof digits, value == std::floor(value) ? "%.0f" : "%.1f", value);
     std::string said(digits, static_cast<std::size_t>(n));
     for (char& c : said)
-        if (c == ',') c = '.'; // the host's locale
+        if (c == ',') c = '.'; // the locale of the host may use a comma
     return said;
 }
 
 double width_of(const Key& key) { return kBox + kGap + width_of(key.text, kLetters); }
 
-/// Which row each key stands in, from the left, and how many keys there is room for.
+/// Distribute keys to rows, as far as there is room.
 std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
 {
     std::vector<std::vector<Key>> rows;
@@ -47,7 +47,7 @@ std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
             if (rows.size() == kRows) {
                 Key rest{
                     {255, 255, 255}, "and " + std::to_string(keys.size() - k + 1) + " more", false, true};
-                rows.back().back() = rest; // takes the place of the last
+                rows.back().back() = rest; // replaces the last key
                 break;
             }
             rows.emplace_back();

@@ -12,7 +12,7 @@ namespace lacuna::view {
 
 Grid grid_over(const Eigen::AlignedBox3d& box)
 {
-    // Single precision, which graphics cards compute in, tells 2^-24 apart.
+    // Graphics cards compute in single precision, with a resolution of 2^-24.
     constexpr double kSteps = 1 << 21;
     Grid grid;
     if (box.isEmpty()) return grid;

@@ -10,51 +10,51 @@
 #include <span>
 #include <string>
 
-/// What a person looks at: pages that a browser shows, and pictures.
+/// Pages for a browser, and pictures.
 ///
-/// A page is one file of HTML that asks for nothing from anywhere: style, script and data are in it, and it
-/// forbids itself the network. It draws with WebGL 2. Texts of the input are data in it, never markup.
+/// A page is one HTML file that contains style, script and data, loads nothing, and forbids itself network
+/// access. It draws with WebGL 2. Texts of the input are embedded as data, never as markup.
 namespace lacuna::view {
 
-/// A swept mesh, and the name of the region it is.
+/// A swept mesh and the name of its region.
 struct Region {
     const mesh::HexMesh* mesh = nullptr; ///< read, not kept
     std::string name = "volume";
 };
 
 struct PageOptions {
-    std::string title{}; ///< empty: what the input is called
-    /// The file that the recipe on the page of a model loads; empty: the recipe begins with the faces.
+    std::string title{}; ///< empty: the name of the input
+    /// File loaded by the recipe on the page of a model; empty: the recipe starts with the faces.
     std::string path{};
 };
 
-/// A page of a mesh: turned, cut by a plane with whole cells shown, peeled by layers, coloured by quality,
-/// layer, group, region or origin, with a histogram and the worst cells.
+/// Write a page of a mesh. The user can rotate it, cut it by a plane (showing whole cells), hide layers, and
+/// colour it by quality, layer, group, region or origin; the page has a histogram and lists the worst cells.
 ///
-/// A swept region is sent as its source quads and its nodes, whose coordinates are rounded to 2^-21 of the
-/// largest extent; the page computes cells, skin and cuts. Order 2 is drawn with its middle nodes.
-/// @pre    a region at least; those of an assembly in its order.
+/// A swept region is stored as source quads and nodes, with coordinates rounded to 2^-21 of the largest
+/// extent; the page computes cells, skin and cuts. Cells of order 2 are drawn with their middle nodes.
+/// @pre    at least one region; the regions of an assembly in the order of the assembly.
 /// @throw  InvalidInput, BackendError  as `io::WholeFile`. Cancelled.
 /// @note   A million hexahedra of a twisted block take 2.5 MB. O(cells).
 void write_page(std::span<const Region> regions, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// The same of the solids of a file; of order 2 hexahedra alone are drawn with their middle nodes. Elements
-/// of two dimensions give the skin its groups.
+/// Write a page of the solids in a file. Of order-2 cells, only hexahedra are drawn with their middle nodes.
+/// Two-dimensional elements define the groups of the skin.
 /// @throw InvalidInput "view.no_solids"  the deck has no solids.
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// A page of faces: labelled, described where the mouse is, and clicked to collect a recipe's source, target
-/// and walls, or faces without roles. Edges of one face alone are marked. Cavities and unsewn gaps, as
-/// closure::model_facts() finds them, are listed to be picked.
+/// Write a page of faces: with labels and descriptions, and clickable to compose a recipe from source, target
+/// and walls, or from faces without roles. Edges used by one face are marked. Cavities and unsewn gaps found
+/// by closure::model_facts() are listed for selection.
 /// @throw  as `io::WholeFile`. Cancelled.
-/// @note   As closure::model_facts().
+/// @note   Costs as much as closure::model_facts().
 void write_page(const topology::Model& model, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// The same of an open or a sealed volume: its roles, what was made void, free edges, vertices of the ends
-/// that are on no wall.
+/// Write a page of an open or sealed volume: its roles, void faces, free edges, and end vertices that are on
+/// no wall.
 void write_page(const topology::OpenVolume& volume, const io::OutputPath& path,
                 const PageOptions& options = {}, const RunContext& context = {});
 

@@ -8,51 +8,51 @@
 
 namespace lacuna::view {
 
-/// Cells whose centre lies behind a plane are shown whole, the others not at all.
+/// Cells whose centre is behind the plane are shown completely, the others are hidden.
 struct CutPlane {
     Vec3 point = Vec3::Zero();   ///< [model length]
-    Vec3 normal = Vec3::UnitZ(); ///< to the side that is left out; of any length but 0
+    Vec3 normal = Vec3::UnitZ(); ///< points to the hidden side; any length except 0
 };
 
-/// What the colours of a mesh say.
+/// What the colours of a mesh represent.
 enum class ColourBy {
-    quality, ///< scaled Jacobian: from red over pale to blue, which is 1
+    quality, ///< scaled Jacobian: red is poor, pale is medium, blue is 1
     layer,   ///< from dark at the source to light at the target
-    group,   ///< a colour a face of the volume, sides inside pale
-    region,  ///< a colour a region
+    group,   ///< one colour for each face of the volume; inner sides are pale
+    region,  ///< one colour for each region
     origin,  ///< given or void
 };
 
 struct PictureOptions {
     int width = 1200, height = 900; ///< >= 16 [pixels]
-    Vec3 direction{1, -1.6, 0.9};   ///< from what is seen to the eye, of any length but 0
+    Vec3 direction{1, -1.6, 0.9};   ///< from the object to the viewer; any length except 0
     ColourBy colour = ColourBy::quality;
-    std::optional<CutPlane> cut{};              ///< of cells
-    std::optional<std::array<int, 2>> layers{}; ///< first and last that is shown, from 1; none: all
-    bool edges = true;                          ///< sides of cells and quads
-    bool facets = false;                        ///< of faces: sides of their facets
-    bool legend = true;                         ///< title, and what the colours mean
-    std::string title{};                        ///< empty: the name of what is shown, and its counts
+    std::optional<CutPlane> cut{};              ///< hides cells
+    std::optional<std::array<int, 2>> layers{}; ///< first and last visible layer, from 1; none: all
+    bool edges = true;                          ///< draw sides of cells and quads
+    bool facets = false;                        ///< draw sides of facets, in pictures of faces
+    bool legend = true;                         ///< draw the title and the colour legend
+    std::string title{};                        ///< empty: the name of the object, and its counts
 };
 
-/// Draw a mesh into a PNG without a display: a parallel projection onto white, hidden parts removed by depth,
-/// nine samples a pixel.
-/// @pre    a region at least.
+/// Draw a mesh to a PNG file without a display: parallel projection on white, hidden surfaces removed with a
+/// depth buffer, nine samples per pixel.
+/// @pre    at least one region.
 /// @throw  InvalidInput "view.picture_size"  a width or height below 16 or above 16384;
-///                      "view.direction"     a direction or a normal without length;
+///                      "view.direction"     the view direction or the normal has zero length;
 ///                      "view.layers"        layers that the mesh does not have;
-///                      "view.empty"         the cut leaves no cell.
+///                      "view.empty"         the cut hides all cells.
 ///         as `io::WholeFile`. Cancelled.
-/// @note   The same for any thread count. O(cells + pixels).
+/// @note   Independent of the number of threads. O(cells + pixels).
 void write_picture(std::span<const Region> regions, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 
-/// The same of faces: each pale, with its edges, those of one face alone red. Of meshes that faces came with,
-/// the sides are drawn.
+/// Draw faces in pale colours with their edges; edges used by one face are red. For faces that came with a
+/// mesh, the sides of its elements are drawn.
 void write_picture(const topology::Model& model, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 
-/// The same of a volume: source green, target red, walls blue, void faces hatched.
+/// Draw a volume: source green, target red, walls blue, void faces hatched.
 void write_picture(const topology::OpenVolume& volume, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 

@@ -12,16 +12,16 @@ namespace lacuna::view {
 
 namespace {
 
-constexpr int kSamples = 3;         // a pixel, each way
-constexpr double kMargin = 0.05;    // of the picture, that stays free round what is shown
-constexpr double kLeastShare = 0.5; // of the height, for what is shown
+constexpr int kSamples = 3;         // samples per pixel, in each direction
+constexpr double kMargin = 0.05;    // free margin, relative to the picture
+constexpr double kLeastShare = 0.5; // least part of the height left for the object
 constexpr double kSideWidth = 1.1;  // of lines between cells [pixels]
-constexpr double kSideDark = 0.75;  // how dark they are: a choice, not a measurement
-constexpr double kNearer = 0.0008;  // of the depth of what is shown, by which lines lie over their faces
-constexpr double kFront = -2;       // the depth of what stands before all else
+constexpr double kSideDark = 0.75;  // darkness of the lines
+constexpr double kNearer = 0.0008;  // lines are moved to the viewer by this part of the depth range
+constexpr double kFront = -2;       // depth in front of everything else
 constexpr Colour kLineColour{20, 28, 38};
 
-/// A parallel projection of the scene onto samples; depth grows away from the eye.
+/// A parallel projection of the scene to sample coordinates; depth increases away from the viewer.
 class Projection {
 public:
     Projection(const Scene& scene, const PictureOptions& options, const PlacedLegend& legend)
@@ -35,7 +35,7 @@ public:
         Eigen::AlignedBox3d box;
         for (const DrawnSide& side : scene.sides)
             for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
-        // A picture too low for its words is shown behind them.
+        // In a picture too low for its texts, the object is drawn behind them.
         const double words = legend.above + legend.below, room = options.height - words;
         const bool beside = room > options.height * kLeastShare;
         const double width = options.width * kSamples;
@@ -47,7 +47,7 @@ public:
         shift_ = {width / 2, (beside ? legend.above * kSamples : 0) + height / 2};
         depth_ = std::max(size.norm(), 1e-300);
     }
-    /// x to the right, y down [samples]; z away from the eye, in parts of what is shown.
+    /// x to the right, y down [samples]; z away from the viewer, relative to the size of the object.
     [[nodiscard]] Vec3 operator()(const Vec3& place) const
     {
         const Vec3 seen = turn_ * place - middle_;
@@ -78,18 +78,18 @@ Colour mixed(const Colour& a, const Colour& b, double share)
     return c;
 }
 
-/// A side as it lies on the samples.
+/// A side in sample coordinates.
 struct Placed {
     std::array<Vec3, 4> corner; ///< projected
     std::size_t count;
     unsigned hidden;
-    Colour colour; ///< lit
+    Colour colour; ///< after lighting
     bool hatched;
-    double line; ///< how dark its lines are; less where they would cover it
+    double line; ///< darkness of its lines; less if they would cover the side
     Vec2 low, high;
 };
 
-/// The light comes from over the left shoulder.
+/// Brightness of a side; the light comes from behind the viewer's left shoulder.
 double light_on(const Vec3& normal)
 {
     const Vec3 seen = normal.z() < 0 ? Vec3(-normal) : normal;
@@ -125,14 +125,14 @@ std::vector<Placed> place_sides(const Scene& scene, const Projection& project)
         }
         for (std::size_t k = 0; k < side.count; ++k)
             girth += (own.corner[(k + 1) % side.count] - own.corner[k]).head<2>().norm();
-        // Lines fade where quads are a few pixels wide, and are gone below two.
+        // Lines fade out on quads a few pixels wide, and vanish below two pixels.
         const double width = girth / static_cast<double>(side.count) / kSamples;
         own.line = kSideDark * std::clamp((width - 2) / 4, 0.0, 1.0);
     }
     return placed;
 }
 
-/// The samples of some rows of the picture.
+/// The samples of a band of rows.
 class Band {
 public:
     Band(int width, int first, int rows) : width_(width), first_(first), rows_(rows)
@@ -161,7 +161,7 @@ public:
         });
     }
 
-    /// A rectangle before all that is drawn; a later one lies over it.
+    /// Draw a rectangle in front of the scene and of earlier rectangles.
     void draw(const Vec2& low, const Vec2& high, const Colour& colour, bool hatched)
     {
         each(low, high, [&](const Vec2& at, std::size_t sample) {
@@ -170,7 +170,7 @@ public:
         });
     }
 
-    /// Mean of the samples of each pixel, into the picture.
+    /// Average the samples of each pixel into the picture.
     void resolve(Image& image) const
     {
         const int wide = width_ / kSamples;
@@ -197,7 +197,7 @@ private:
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
 
-    /// Call visit(place of the sample, its number) for those in a box.
+    /// Call visit(coordinates, number) for the samples in a box.
     template <class Visit>
     void each(const Vec2& low, const Vec2& high, Visit&& visit) const
     {
@@ -227,7 +227,7 @@ private:
         });
     }
 
-    static constexpr double kStriped = 0.7; // how light a stripe is
+    static constexpr double kStriped = 0.7; // brightness of a stripe
     [[nodiscard]] static bool on_stripe(const Vec2& at)
     {
         constexpr double kHatch = 9 * kSamples, kStripe = 2 * kSamples; // [samples]
@@ -260,7 +260,7 @@ private:
     std::vector<Colour> colour_;
 };
 
-/// A legend's words and colours, before all else.
+/// Draw the legend in front of everything else.
 void draw_marks(Band& band, const std::vector<Mark>& marks)
 {
     for (const Mark& mark : marks) {
@@ -276,7 +276,7 @@ void draw_marks(Band& band, const std::vector<Mark>& marks)
 void check(const PictureOptions& options)
 {
     constexpr int kLeast = 16,
-                  kMost = 16384; // [pixels]; nine samples of so many squared fit in memory in bands
+                  kMost = 16384; // [pixels]; sets a bound on memory, as a picture is sampled in bands
     const std::pair<const char*, int> lengths[] = {{"width", options.width}, {"height", options.height}};
     for (const auto& [name, length] : lengths)
         if (length < kLeast || length > kMost)
@@ -284,9 +284,12 @@ void check(const PictureOptions& options)
                                                         "' must be 16 to 16384 pixels, found " +
                                                         std::to_string(length));
     if (!(options.direction.norm() > 0) || !options.direction.allFinite())
-        throw InvalidInput("view.direction", "picture: the direction of the view has no length");
+        throw InvalidInput("view.direction",
+                           "picture: option 'direction' has zero length; give a vector that is not zero");
     if (options.cut && (!(options.cut->normal.norm() > 0) || !options.cut->normal.allFinite()))
-        throw InvalidInput("view.direction", "picture: the normal of the cut has no length");
+        throw InvalidInput(
+            "view.direction",
+            "picture: the normal of option 'cut' has zero length; give a vector that is not zero");
 }
 
 } // namespace
@@ -300,7 +303,7 @@ Image rasterise(const Scene& scene, const PictureOptions& options, const RunCont
     const std::vector<Placed> sides = place_sides(scene, project);
     Image image{options.width, options.height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
-    constexpr std::size_t kRows = 64; // pixels of a band: its samples stay in the cache
+    constexpr std::size_t kRows = 64; // rows of a band: its samples fit in the cache
     const std::size_t bands = (static_cast<std::size_t>(options.height) + kRows - 1) / kRows;
     parallel_for(context, bands, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {

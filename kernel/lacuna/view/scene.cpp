@@ -17,12 +17,12 @@ double quality_low(double least) { return std::min(0.5, std::floor(least * 10) /
 
 namespace {
 
-constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // which face of the cell stands on side k of its quad
+constexpr std::size_t kFaceOfQuadSide[] = {2, 1, 3, 0}; // face of the cell over side k of its source quad
 constexpr std::size_t kBottom = 4, kTop = 5;
 constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
-constexpr Colour kPlain{240, 240, 240}; // hatched alone, in a key
+constexpr Colour kPlain{240, 240, 240}; // key of hatching alone
 
-/// Cells of a swept region that are shown, and their sides that no other of them has.
+/// The visible cells of a swept region, and their sides that no other visible cell shares.
 class ShownRegion {
 public:
     ShownRegion(const Region& region, const PictureOptions& options)
@@ -33,7 +33,7 @@ public:
         for (std::size_t c = 0; c < mask_.size(); ++c) mask_[c] = shown(c, options) ? 1 : 0;
     }
 
-    /// Call visit(cell, face, patch) for each side; the patch is -1 inside.
+    /// Call visit(cell, face, patch) for each such side; the patch is -1 for inner sides.
     template <class Visit>
     void sides(Visit&& visit) const
     {
@@ -79,14 +79,14 @@ private:
     std::map<Segment, std::size_t> rim_;
 };
 
-/// Draw a face of a cell. Of order 2 it is cut at its middle nodes: a quad between them, a triangle at each
-/// corner.
+/// Draw a face of a cell. A face of order 2 is divided at its middle nodes: one quad between them, and a
+/// triangle at each corner.
 void add_side(std::vector<DrawnSide>& sides, const mesh::HexMesh& mesh, std::size_t cell, std::size_t face,
               const DrawnSide& like)
 {
     const Hex hex = mesh.hex(cell);
     const Quad& corners = mesh::kHexFaces[face];
-    std::vector<std::size_t> kept; // a wedge's sides have corners twice
+    std::vector<std::size_t> kept; // the sides of a wedge have repeated corners
     for (std::size_t k = 0; k < 4; ++k)
         if (hex[index(corners[k])] != hex[index(corners[(k + 1) % 4])]) kept.push_back(k);
     if (kept.size() < 3) return;
@@ -116,7 +116,7 @@ void add_side(std::vector<DrawnSide>& sides, const mesh::HexMesh& mesh, std::siz
 
 Colour kind_colour(std::size_t i) { return kind_colours()[i % kind_colours().size()]; }
 
-/// What a region's cells and sides are coloured with.
+/// The data that determines the colours of a region.
 struct Colours {
     ColourBy by;
     std::vector<double> quality;
@@ -155,8 +155,8 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
     for (const Region& region : regions) most = std::max(most, region.mesh->layers);
     const auto [from, to] = *options.layers;
     if (from < 1 || to < from || from > most)
-        throw InvalidInput("view.layers", "picture: layers from " + std::to_string(from) + " to " +
-                                              std::to_string(to) + " are asked for, and there are 1 to " +
+        throw InvalidInput("view.layers", "picture: option 'layers' is " + std::to_string(from) + " to " +
+                                              std::to_string(to) + ", but the mesh has layers 1 to " +
                                               std::to_string(most));
 }
 
@@ -176,7 +176,7 @@ std::string title_of(std::span<const Region> regions)
 
 std::string joined(const std::vector<std::string>& names) { return full_list(names, std::identity()); }
 
-/// Whether a side that lies inside the volume may be shown.
+/// Whether sides inside the volume may be visible.
 bool laid_open(const PictureOptions& options) { return options.cut || options.layers; }
 
 Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& colours,
@@ -258,7 +258,7 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     if (!options.edges)
         for (DrawnSide& side : scene.sides) side.hidden = 15;
     if (scene.sides.empty())
-        throw InvalidInput("view.empty", "picture: the cut leaves no cell to show; turn its normal round or "
+        throw InvalidInput("view.empty", "picture: option 'cut' hides all cells; reverse its normal or "
                                          "move its point");
     scene.legend = legend_of(regions, colours, options);
     if (options.colour == ColourBy::quality) scene.legend.low = quality_low(least);

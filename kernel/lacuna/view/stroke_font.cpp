@@ -8,12 +8,12 @@ namespace lacuna::view {
 
 namespace {
 
-constexpr double kCapital = 6; // its height, in the units of the table
-constexpr double kGap = 1.7;   // between letters, in the same: a choice, not a measurement
-constexpr double kSpace = 1.4; // a space's own width
+constexpr double kCapital = 6; // height of a capital in units of the table
+constexpr double kGap = 1.7;   // space between letters, in units of the table
+constexpr double kSpace = 1.4; // width of a space, in units of the table
 
-/// Letters from ' ' to '~'. A stroke is a row of pairs of digits, x to the right and y down: capitals stand
-/// on 6 and reach 0, small letters reach 2, tails 8.
+/// Letters from ' ' to '~'. A stroke is a sequence of digit pairs, x to the right and y down: capitals extend
+/// from 0 to 6, small letters from 2 to 6, descenders to 8.
 constexpr std::array<std::string_view, 95> kLetters{
     "",                                 // space
     "0004 0606",                        // !
@@ -121,7 +121,7 @@ StrokedText stroked(std::string_view text)
     double left = 0;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x80 && byte < 0xc0) continue; // within a character of several bytes
+        if (byte >= 0x80 && byte < 0xc0) continue; // a continuation byte of UTF-8
         const std::string_view letter = byte >= ' ' && byte <= '~' ? kLetters[byte - std::size_t{' '}]
                                                                    : kUnknown;
         double width = letter.empty() ? kSpace : 0;
@@ -132,7 +132,7 @@ StrokedText stroked(std::string_view text)
         for (std::size_t i = 0; i < letter.size();) {
             for (; i + 3 < letter.size() && letter[i + 2] != ' '; i += 2)
                 out.strokes.emplace_back(at(i), at(i + 2));
-            i += 3; // the last pair, and a space
+            i += 3; // skip the last pair and a space
         }
         left += width;
         out.width = left / kCapital;

@@ -12,7 +12,7 @@
 
 namespace lacuna::cad {
 
-/// What is to be read, and how: all that it takes to read it again.
+/// Which files to read, and how; enough to read them again.
 struct CadOrder {
     std::vector<std::string> paths;
     double tolerance = 0; ///< [model length]; 0: 1e-6 × the diagonal
@@ -20,22 +20,22 @@ struct CadOrder {
     Limits limits{};
 };
 
-/// The files by their names, for messages.
+/// The names of the files, for messages.
 std::string subject_of(const CadOrder& order);
 
-/// CAD files, opened and copied, as the CAD process takes them.
+/// CAD files opened and copied into memory, as they are sent to the CAD process.
 struct CadFiles {
     cad_protocol::LoadRequest request;
     std::vector<cad_protocol::Descriptor> descriptors;
     std::uint64_t bytes = 0;
-    std::uint64_t digest = 0;       ///< of all contents and their names
-    std::vector<std::string> notes; ///< commands of scripts that are left out
+    std::uint64_t digest = 0;       ///< hash of all contents and names
+    std::vector<std::string> notes; ///< which script commands are skipped
 };
 
 /// @throw as open_input()
 CadFiles open_cad_files(const CadOrder& order, const RunContext& context);
 
-/// Have a process read the files.
+/// Let a CAD process read the files.
 /// @throw as Worker::ask()
 cad_protocol::LoadReply read_cad_files(Worker& worker, const CadOrder& order, const CadFiles& files,
                                        const RunContext& context);

@@ -3,9 +3,9 @@
 
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
-#include <lacuna/cad/left_out.h>
 #include <lacuna/geometry/exact.h>
 #include <lacuna/geometry/plain_curve.h>
+#include <lacuna/topology/left_out.h>
 
 #include <cstdint>
 #include <memory>
@@ -14,11 +14,10 @@
 
 namespace lacuna::cad {
 
-/// A model the CAD process holds, for as long as this object lives; shared by its exact curves and surfaces.
+/// A model held by the CAD process, for the lifetime of this object; shared by its exact curves and surfaces.
 ///
-/// Where the process has ended meanwhile, whoever ended it, the next request has the files read again, by the
-/// process there is then. They must hold what they held; the facets of the model stay those of the first
-/// reading. Safe for several threads.
+/// If the process has ended, the next request lets the current process read the files again. Their contents
+/// must not have changed; the facets of the model stay as they are. Thread-safe.
 class CadSource {
 public:
     CadSource(std::shared_ptr<Worker> worker, std::uint64_t handle, CadOrder order, std::uint64_t digest)
@@ -32,14 +31,14 @@ public:
     CadSource(const CadSource&) = delete;
     CadSource& operator=(const CadSource&) = delete;
 
-    /// Ask the process that holds the model.
-    /// @param make  the request for a handle.
-    /// @throw BackendError  what became of the process over this request; "cad.file_changed": it had ended
-    ///         before, and the files do not hold what they held. Cancelled.
+    /// Send a request to the process that holds the model.
+    /// @param make  makes the request from the handle of the model.
+    /// @throw BackendError  the process ended during this request; "cad.file_changed": it had ended before
+    ///         and the files have changed. Cancelled.
     template <class Reply, class Make>
     Reply ask(cad_protocol::Opcode opcode, const Make& make, const Task& task) const
     {
-        constexpr int kTries = 3; // a process that someone ends over and over again is not started for ever
+        constexpr int kTries = 3; // do not restart for ever a process that is killed again and again
         for (int i = 0;; ++i) {
             const Held held = now();
             try {
@@ -51,9 +50,10 @@ public:
         }
     }
 
-    /// The living process that holds the model; null where it has ended.
+    /// The running process that holds the model; null if it has ended.
     [[nodiscard]] std::shared_ptr<Worker> worker() const;
-    /// The model's handle in a process, which reads the files where it does not hold it. @throw as ask()
+    /// The handle of the model in `worker`, which reads the files first if it does not hold them. @throw as
+    /// ask()
     std::uint64_t handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -72,29 +72,29 @@ private:
     CadOrder order_;
     std::uint64_t digest_;
     mutable std::mutex mutex_;
-    mutable Held held_; ///< under `mutex_`
+    mutable Held held_; ///< guarded by `mutex_`
 };
 
-/// A face of a loaded model.
+/// A face of a loaded model, as an exact surface.
 class CadSurface final : public geometry::ExactSurface {
 public:
     CadSurface(std::shared_ptr<const CadSource> source, int tag) : source_(std::move(source)), tag_(tag) {}
     void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const override;
 
     [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
-    [[nodiscard]] int tag() const { return tag_; } ///< in the source
+    [[nodiscard]] int tag() const { return tag_; } ///< tag in the source file
 
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
 };
 
-/// A curve of a loaded model.
-class CadCurve final : public geometry::ExactCurve {
+/// A curve of a loaded model, as an exact curve.
+class CadCurve final : public geometry::ExactCurve, public topology::BesideLeftOut {
 public:
-    /// @param plain  the same curve, where it is so plain that the CAD process need not be asked.
+    /// @param plain  an equivalent line or arc, evaluated without the CAD process.
     CadCurve(std::shared_ptr<const CadSource> source, int tag, geometry::PlainCurve plain,
-             std::vector<LeftOutFace> left_out)
+             std::vector<topology::LeftOutFace> left_out)
         : source_(std::move(source)), tag_(tag), plain_(std::move(plain)), left_out_(std::move(left_out))
     {
     }
@@ -102,15 +102,14 @@ public:
                   const RunContext& context) const override;
 
     [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
-    [[nodiscard]] int tag() const { return tag_; } ///< in the source
-    /// Faces of the source left out that had the edge this curve is of.
-    [[nodiscard]] const std::vector<LeftOutFace>& left_out() const { return left_out_; }
+    [[nodiscard]] int tag() const { return tag_; } ///< tag in the source file
+    [[nodiscard]] const std::vector<topology::LeftOutFace>& left_out() const override { return left_out_; }
 
 private:
     std::shared_ptr<const CadSource> source_;
     int tag_;
     geometry::PlainCurve plain_;
-    std::vector<LeftOutFace> left_out_;
+    std::vector<topology::LeftOutFace> left_out_;
 };
 
 } // namespace lacuna::cad

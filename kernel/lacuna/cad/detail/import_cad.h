@@ -5,8 +5,8 @@
 
 namespace lacuna::cad {
 
-/// Have the CAD process read CAD files into one model, their tags running on from file to file as in Gmsh.
-/// The warnings are faces left out that are no slivers, and commands of scripts that are skipped.
+/// Read CAD files into one model through the CAD process. Tags continue from file to file, as in Gmsh.
+/// The warnings name faces left out, other than slivers, and script commands that are skipped.
 /// @pre every path has one of the endings that load() gives to this.
 io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
                            const RunContext& context, const Limits& limits);

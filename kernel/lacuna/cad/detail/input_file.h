@@ -12,25 +12,25 @@
 
 namespace lacuna::cad {
 
-/// A CAD file as it is handed to the CAD process: a copy in memory, so that what was looked at is what is
-/// read.
+/// A CAD file as it is sent to the CAD process: a copy in memory, so that the bytes that were checked are the
+/// bytes that are read.
 struct InputFile {
-    cad_protocol::LoadFile file;                       ///< what it is, and the names of its contents
+    cad_protocol::LoadFile file;                       ///< its format, and the names of its contents
     std::vector<cad_protocol::Descriptor> descriptors; ///< of the contents
-    std::vector<std::uint64_t> digests;                ///< of names and contents
+    std::vector<std::uint64_t> digests;                ///< hashes of names and contents
     std::uint64_t bytes = 0;                           ///< of all contents
-    std::vector<std::string> notes;                    ///< commands of scripts that are left out
+    std::vector<std::string> notes;                    ///< which script commands are skipped
 };
 
-/// A number that stands for bytes read after `before`: the hash FNV-1a, over words of eight bytes.
+/// FNV-1a hash over words of eight bytes; `before` is the hash of the preceding bytes.
 std::uint64_t digest_of(std::span<const char> bytes, std::uint64_t before);
 std::uint64_t digest_of(std::uint64_t word, std::uint64_t before);
 
-/// Open a CAD file and look whether it is what its ending promises. A script's text is looked through: it
-/// may include and merge files that lie beside it, which come along. Commands that write files or mesh are
-/// left out of the copy; nothing else may leave Gmsh's geometry.
-/// @throw InvalidInput  not a regular file, no file of its kind, a script that asks for more; names file
-///                      and line.
+/// Open a CAD file and check that its contents agree with its ending. A script is parsed: files in the same
+/// folder that it includes or merges are copied too; commands that write files or mesh are removed from the
+/// copy; any other command outside Gmsh's geometry is an error.
+/// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
+///                      file and line.
 /// @throw BackendError  it cannot be read. Cancelled.
 InputFile open_input(const std::string& path, const RunContext& context);
 

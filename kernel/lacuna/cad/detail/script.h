@@ -7,32 +7,32 @@
 
 namespace lacuna::cad {
 
-/// A file a Gmsh script asks for.
+/// A file that a Gmsh script includes or merges.
 struct ScriptFile {
     std::string name;
     int line = 0;
 };
 
-/// A command of a Gmsh script that makes no geometry: bytes [begin, end) of the text.
+/// A command of a Gmsh script that does not make geometry: bytes [begin, end) of the text.
 struct SkippedCommand {
     std::string word;
     int line = 0;
     std::size_t begin = 0, end = 0;
 };
 
-/// What a Gmsh script is beside its geometry.
+/// The commands of a Gmsh script that do more than make geometry.
 struct ScriptContent {
     std::vector<ScriptFile> files;
-    std::vector<SkippedCommand> skipped; ///< write files, run plugins, mesh; in order
+    std::vector<SkippedCommand> skipped; ///< commands that write files, run plugins or mesh; in order
 };
 
-/// Look through a Gmsh script before it is run: the files it includes or merges, each by its name alone, and
-/// the commands to leave out.
+/// Parse a Gmsh script before it is run: find the files that it includes or merges, which must be names
+/// without a folder, and the commands to remove.
 ///
-/// The CAD process could not do what is refused or left out here, whatever the text; this is for a message
-/// that names the line, and for scripts whose geometry is all that is wanted.
-/// @throw InvalidInput  "cad.script": it runs programs, ends the process, or names a file in another folder
-///                      or by an expression.
+/// The sandbox of the CAD process forbids all of this in any case. Parsing gives an error that names the
+/// line, and makes scripts usable that also mesh or write files.
+/// @throw InvalidInput  "cad.script": the script runs programs, ends the process, or names a file in another
+///                      folder or by an expression.
 ScriptContent look_through_script(const std::string& path, std::string_view text);
 
 } // namespace lacuna::cad

@@ -12,27 +12,27 @@
 
 namespace lacuna::cad {
 
-/// The models behind the exact faces of a volume, and what of each a solid needs.
+/// The CAD models that the exact faces of a volume come from, and the entities of each that a solid needs.
 struct SolidSources {
-    std::shared_ptr<Worker> worker; ///< the one that holds them all; null where no face has an exact surface
+    std::shared_ptr<Worker> worker; ///< holds all the models; null if no face has an exact surface
     std::vector<const CadSource*> order;
-    std::vector<cad_protocol::SolidSource> wanted; ///< of each
+    std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// The models may be held by several processes, some of which have ended; then one reads what it has not.
+/// Bring the models into one process: they may be held by several, some of which may have ended.
 /// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 
-/// How a sealed volume is to be made as a solid: every face an exact one, a plane, spline patches or a
-/// filling, with the edges those need.
+/// How a sealed volume is made into a solid: each face is an exact face, a plane, spline patches or a filled
+/// surface, with the edges that these need.
 struct SolidPlan {
     std::vector<Vec3> points;
     std::vector<cad_protocol::SolidEdge> edges;
     std::vector<cad_protocol::SolidFace> faces;
     double diagonal = 0;                ///< [model length]
-    std::size_t planes = 0, fitted = 0; ///< void faces made
+    std::size_t planes = 0, fitted = 0; ///< numbers of void faces made so
 };
-/// @param found  which of the sources' entities there are.
-/// @throw InvalidInput  a bent face that has facets alone; names it.
+/// @param found  which entities of the sources exist in the CAD process.
+/// @throw InvalidInput  a face is curved and has no exact surface; names it.
 SolidPlan plan_solid(const topology::OpenVolume& volume, const SolidSources& sources,
                      const cad_protocol::BeginSolidReply& found, const RunContext& context);
 

@@ -8,18 +8,19 @@
 #include <span>
 #include <vector>
 
-/// B-splines through points, as a CAD kernel takes them. No Gmsh here.
+/// Interpolating B-splines in the form that a CAD kernel uses. Independent of Gmsh.
 namespace lacuna::cad {
 
-/// Knots of one parameter in [0, 1], and which value stands where.
+/// The knot vector of one parameter in [0, 1], and the parameters of the interpolated values.
 struct SplineAxis {
     int degree = 3;
-    std::vector<double> knots;       ///< each once, rising
-    std::vector<int> multiplicities; ///< of each knot
+    std::vector<double> knots;       ///< distinct, ascending
+    std::vector<int> multiplicities; ///< one for each knot
 
-    /// For `count` values at even parameters: cubic with not-a-knot ends, of lower degree below four values.
+    /// Axis for `count` values at equidistant parameters: cubic, with not-a-knot ends; of lower degree if
+    /// there are fewer than four values.
     static SplineAxis even(std::size_t count);
-    /// For poles over `spans` knot spans of even length: as many as spans + degree.
+    /// Axis with `spans` knot spans of equal length; it has spans + degree poles.
     static SplineAxis spans(std::size_t spans, int degree);
 
     [[nodiscard]] std::size_t poles() const;
@@ -27,7 +28,7 @@ struct SplineAxis {
     [[nodiscard]] Eigen::VectorXd basis(double parameter) const;
 };
 
-/// A curve; the first and last pole are its ends.
+/// A spline curve; its first and last pole are its end points.
 struct SplineCurve {
     SplineAxis axis;
     std::vector<Vec3> poles;
@@ -35,25 +36,25 @@ struct SplineCurve {
     [[nodiscard]] Vec3 at(double parameter) const;
 };
 
-/// A surface; poles row by row, u running fastest.
+/// A spline surface; poles row by row, u running fastest.
 struct SplineSurface {
     SplineAxis u, v;
     std::vector<Vec3> poles;
 };
 
-/// The curve that meets the points at even parameters.
+/// The curve that interpolates the points at equidistant parameters.
 SplineCurve interpolate(std::span<const Vec3> points);
-/// The surface that meets a grid of points, `columns` a row, at even parameters.
+/// The surface that interpolates a grid of points, `columns` in each row, at equidistant parameters.
 SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns);
 
-/// Places wanted at parameters in [0, 1].
+/// Evaluates a curve at parameters in [0, 1].
 using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
-/// A grid of places: rows of u at each v.
+/// Evaluates a surface on a grid: one row of u for each v.
 using SurfaceFunction =
     std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 
-/// Interpolate a function at so many even parameters that halfway between them the spline is within
-/// `precision` of it; the most there are where that is not to be had. A straight side gets degree 1.
+/// Interpolate a function at as many equidistant parameters as it takes for the spline to be within
+/// `precision` halfway between them, up to a fixed maximum. A straight line gets degree 1.
 SplineCurve approximate(const CurveFunction& function, double precision);
 SplineSurface approximate(const SurfaceFunction& function, double precision);
 

@@ -19,34 +19,34 @@
 
 namespace lacuna::cad {
 
-/// What a request is about, for limits and messages.
+/// The subject of a request, for limits and messages.
 struct Task {
     std::string subject{};    ///< the file
     std::string doing{};      ///< "reading it", "projecting points"
-    Limits limits{};          ///< 0: by `bytes` and `points`
-    std::uint64_t bytes = 0;  ///< of files sent along
-    std::uint64_t points = 0; ///< sent along
+    Limits limits{};          ///< 0: derived from `bytes` and `points`
+    std::uint64_t bytes = 0;  ///< size of the files sent with the request
+    std::uint64_t points = 0; ///< number of points sent with the request
     const RunContext* context = nullptr;
-    double grace = 0;       ///< how long it may go on once it is cancelled [s]
-    const char* stage = ""; ///< of the context's progress
+    double grace = 0;       ///< how long the request may continue after it is cancelled [s]
+    const char* stage = ""; ///< stage that is reported as progress
 };
 
-/// The process had ended before it was asked: nothing was done, and another may be asked.
+/// The process had ended before the request was sent: nothing was done, so another process can be asked.
 class WorkerGone : public BackendError {
 public:
     using BackendError::BackendError;
 };
 
-/// The CAD process of this process: lacuna-cad, started when it is first needed and kept.
+/// A CAD process (lacuna-cad), started at the first request and kept.
 ///
-/// It may end at any time (a crash, a limit, someone's kill). Then the request under way is a BackendError
-/// that says how, and every later request to this object is a WorkerGone; `current()` starts another. One
-/// that failed to load a file serves the models it has and loads no more. Safe for several threads: requests
-/// wait for each other. A child made by fork() starts a process of its own.
+/// It may end at any time (a crash, a limit, a signal). The request in progress then fails with a
+/// BackendError that says how it ended, and later requests to this object with WorkerGone; `current()` starts
+/// another one. A process that failed to load a file still serves the models it holds but loads no more.
+/// Thread-safe: requests are serialised. A child made by fork() starts its own process.
 class Worker {
 public:
-    /// The living one, started if need be.
-    /// @param subject  what it is needed for, a file as a rule, for the message.
+    /// The running process, started if there is none.
+    /// @param subject  what it is needed for, usually a file, for the message.
     /// @throw BackendError  "cad.no_worker": the program is not found or does not start; names the subject.
     static std::shared_ptr<Worker> current(const RunContext* context = nullptr,
                                            const std::string& subject = {});
@@ -54,20 +54,20 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// Ask and wait for the answer.
-    /// @throw InvalidInput, NotSweepable, BackendError  as the worker says, or what became of it; Cancelled.
+    /// Send a request and wait for the reply.
+    /// @throw InvalidInput, NotSweepable, BackendError  as the process reports, or how it ended; Cancelled.
     template <class Reply, class Request>
     Reply ask(cad_protocol::Opcode opcode, const Request& request, const Task& task,
               const std::vector<int>& descriptors = {})
     {
         return receive<Reply>(opcode, cad_protocol::encode(request), task, descriptors);
     }
-    /// Remember how large a model is, for the limits, until it is released.
+    /// Add the size of a model to the memory limit, until the model is released.
     void charge(std::uint64_t handle, std::uint64_t bytes);
-    /// Have the worker forget a model or a solid, now or before the next request.
+    /// Let the process free a model or a solid, now or before the next request.
     void release(std::uint64_t handle) noexcept;
 
-    /// Whether it lives, as far as can be known.
+    /// Whether the process is running, as far as is known.
     [[nodiscard]] bool lives();
     [[nodiscard]] const cad_protocol::Hello& hello() const { return hello_; }
     [[nodiscard]] pid_t pid() const { return pid_; }
@@ -87,31 +87,31 @@ private:
             give_up(task, error);
         }
     }
-    /// End it where it has ended by itself. @pre `busy_` is held
+    /// Notice that the process has ended by itself, and clean up. @pre `busy_` is held
     void notice_end() noexcept;
     std::unique_lock<std::timed_mutex> enter(const Task& task);
     cad_protocol::Frame exchange(cad_protocol::Opcode opcode, const std::string& bytes, const Task& task,
                                  const std::vector<int>& descriptors);
     void flush_released();
     void limit_memory(std::uint64_t bytes) const;
-    /// Kill it if it lives, and learn how it ended.
+    /// Kill the process if it is running, and record how it ended.
     void end() noexcept;
     [[nodiscard]] std::string how_it_ended() const;
     [[nodiscard]] std::string last_words() const;
     [[noreturn]] void give_up(const Task& task, const cad_protocol::ProtocolError& error);
     [[noreturn]] void died(const Task& task);
 
-    std::timed_mutex busy_; ///< for the length of a request
+    std::timed_mutex busy_; ///< held during a request
     std::unique_ptr<cad_protocol::Channel> channel_;
     cad_protocol::Descriptor process_; ///< a pidfd
-    cad_protocol::Descriptor words_;   ///< what it printed
+    cad_protocol::Descriptor words_;   ///< its output
     cad_protocol::Hello hello_;
     pid_t pid_ = 0;
-    pid_t owner_ = 0;                 ///< the process that started it
-    bool ended_ = false;              ///< by itself or by us; under `busy_`
-    int status_ = 0;                  ///< how, as wait() says
-    std::string end_;                 ///< why, where we ended it
-    std::atomic<bool> spent_ = false; ///< it failed to load, which may leave Gmsh's parsers in any state
+    pid_t owner_ = 0;                 ///< the process that started it (the host)
+    bool ended_ = false;              ///< by itself or killed by us; guarded by `busy_`
+    int status_ = 0;                  ///< its exit status, as from wait()
+    std::string end_;                 ///< why we killed it
+    std::atomic<bool> spent_ = false; ///< a load failed, so the state of Gmsh's parsers is unknown
     std::mutex released_mutex_;
     std::vector<std::uint64_t> released_;
     std::unordered_map<std::uint64_t, std::uint64_t> charged_;

@@ -5,9 +5,9 @@
 
 namespace lacuna::cad {
 
-/// Where lacuna-cad is: what LACUNA_CAD names; beside the program or the library this code is in, or in
-/// libexec/lacuna of the tree they are installed in; in the build's folder while that is being tested.
-/// @throw BackendError  "cad.no_worker": in none of them; names what was tried.
+/// Path of lacuna-cad: the value of LACUNA_CAD; else next to the program or library that contains this code,
+/// or in libexec/lacuna of its installation; else in the build folder, when tested there.
+/// @throw BackendError  "cad.no_worker": not found; names the places that were searched.
 std::string find_worker_program();
 
 } // namespace lacuna::cad

@@ -9,79 +9,78 @@
 
 namespace lacuna::cad_worker {
 
-/// A curve of the current Gmsh model, as far as its topology goes.
+/// A curve of the current Gmsh model: its topology and a polyline.
 struct CadCurveInfo {
     int tag = 0;
     double low = 0, high = 0;   ///< parameters
     int from = 0, to = 0;       ///< indices in CadWire::vertices
-    int uses = 0;               ///< by faces; a seam counts twice
-    double length = 0;          ///< of a fine polyline [file length]
-    std::vector<double> params; ///< of that fine polyline, rising
+    int uses = 0;               ///< number of uses by faces; a seam counts twice
+    double length = 0;          ///< length of a fine polyline [file length]
+    std::vector<double> params; ///< parameters of that polyline, ascending
     std::vector<Vec3> points;
-    std::vector<std::size_t> pieces; ///< in CadWire::pieces, as the curve runs; empty where it is but a point
+    std::vector<std::size_t> pieces; ///< in CadWire::pieces, along the curve; empty if the curve is a point
 };
 
-/// A part of a curve between two vertices, and the edge of the model it belongs to. Curves that lie on
-/// each other within tolerance have pieces of one edge.
+/// A part of a curve between two vertices, and the edge of the model to which it is sewn. Pieces that
+/// coincide within the tolerance share one edge.
 struct CadPiece {
     std::size_t curve = 0;
     double low = 0, high = 0;
-    Index from = -1, to = -1; ///< points of the model: sewn vertices
+    Index from = -1, to = -1; ///< model points: sewn vertices
     std::size_t edge = 0;
-    bool reversed = false; ///< runs against the edge
+    bool reversed = false; ///< opposite to the direction of the edge
 };
 
-/// The edge of a sewn set of pieces; the first of them gives it its shape.
+/// The edge of a set of sewn pieces; the master piece defines its shape.
 struct CadEdge {
     std::size_t master = 0; ///< in CadWire::pieces
     int tag = 0;
-    std::vector<double> params; ///< of the master's curve, both ends included
-    std::vector<Index> points;  ///< of the model
+    std::vector<double> params; ///< on the master's curve, both ends included
+    std::vector<Index> points;  ///< model points
 };
 
 struct CadVertex {
     int tag = 0;
     Vec3 at = Vec3::Zero();
-    Index point = -1; ///< of the model: vertices closer than the tolerance share it
+    Index point = -1; ///< model point: vertices closer than the tolerance share it
 };
 
-/// The curves around a face, each once.
+/// The curves around a face, each listed once.
 struct CadFaceInfo {
     int tag = 0;
     struct Side {
         std::size_t curve;
-        int uses; ///< 2: a seam, or a slit
+        int uses; ///< 2: a seam or a slit
     };
     std::vector<Side> sides;
 };
 
-/// All curves of a Gmsh model, sewn.
+/// All curves of a Gmsh model, sewn into edges.
 struct CadWire {
     std::vector<CadFaceInfo> faces;
     std::vector<CadVertex> vertices;
     std::vector<CadCurveInfo> curves;
     std::vector<CadPiece> pieces;
     std::vector<CadEdge> edges;
-    std::vector<int> point_tag; ///< tag of the lowest vertex at each sewn vertex
-    std::vector<Vec3> points;   ///< of the model [file length]: sewn vertices, then what `divide()` added
+    std::vector<int> point_tag; ///< lowest tag among the vertices merged into each sewn vertex
+    std::vector<Vec3> points;   ///< model points [file length]: sewn vertices, then those added by `divide()`
 };
 
-/// How fine curves and faces are cut.
+/// How finely curves and faces are divided.
 struct Fineness {
-    double turn = 0;     ///< of the tangent or the normal, from one side to the next [radians]
+    double turn = 0;     ///< largest turn of the tangent or normal per segment [radians]
     double max_size = 0; ///< [file length]
 };
 
-/// Read the curves of the current model and sew them: vertices closer than the tolerance become one; a curve
-/// used by one face alone is cut at other faces' vertices on it; pieces with the same ends that stay within
-/// the tolerance of each other become one edge.
+/// Read the curves of the current model and sew them. Vertices closer than the tolerance are merged. A curve
+/// used by one face only is split at vertices of other faces that lie on it. Pieces with the same ends that
+/// coincide within the tolerance become one edge.
 CadWire read_wire(double tolerance);
 
-/// Give every edge its points, `refinement` (one an edge) times as many as the fineness asks for.
+/// Place points on every edge, `refinement` (one value for each edge) times as many as the fineness requires.
 void divide(CadWire& wire, const Fineness& fineness, const std::vector<double>& refinement);
 
-/// Parameters of a piece at the points of its edge, rising with the edge's direction taken into account, and
-/// those points, both in the direction of the piece.
+/// Parameters of a piece at the points of its edge, and those points, both in the direction of the piece.
 struct PieceNodes {
     std::vector<double> params;
     std::vector<Index> points;

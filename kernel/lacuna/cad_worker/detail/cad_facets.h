@@ -11,32 +11,32 @@
 
 namespace lacuna::cad_worker {
 
-/// Facets of one face. Points from `first_added` on are its own, the others those of the wire.
+/// Facets of one face. Points from `first_added` on belong to the face, the others to the wire.
 struct CadFacets {
     std::vector<Vec3> added;             ///< [file length]
-    std::vector<Triangle> triangles;     ///< counter-clockwise in the surface's parameters
-    std::vector<std::array<Vec2, 3>> uv; ///< at the corners; on a seam, of the triangle's own side
+    std::vector<Triangle> triangles;     ///< counter-clockwise in the parameter plane
+    std::vector<std::array<Vec2, 3>> uv; ///< of the corners; on a seam, those on the triangle's side of it
     ParameterBox box;
     std::string kind;
 };
 
 struct FacetOptions {
     Fineness fineness;
-    double max_cells = 4000; ///< of the grid laid over a face: beyond it the facets grow
+    double max_cells = 4000; ///< limit on the grid cells of a face: the facets grow to keep it
     double tolerance = 0;    ///< [file length]
 };
 
-/// Cut a face into facets in its parameter rectangle: the wire's points around it, a grid inside whose lines
-/// lie as close as the normal turns, joined by a constrained Delaunay triangulation in grid coordinates.
+/// Triangulate a face in its parameter rectangle: a constrained Delaunay triangulation, in grid coordinates,
+/// of the boundary points and of inner grid points, whose spacing follows the turn of the normal.
 ///
-/// @param first_added  number the first point added gets.
-/// @return nothing where the border, as finely as it is divided, crosses itself: divide it finer.
-/// @throw  BackendError  a face with no border.
+/// @param first_added  number of the first point that is added.
+/// @return nothing if the boundary, as finely as it is divided, intersects itself: divide it more finely.
+/// @throw  BackendError  the face has no boundary.
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
                                          const FacetOptions& options, Index first_added);
 
-/// "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface": by Gmsh's word for it, and where
-/// Gmsh does not know, by the principal curvatures.
+/// "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface": the type that Gmsh reports or, if
+/// Gmsh does not know it, the type found from the principal curvatures.
 std::string kind_of_face(int tag, const ParameterBox& box);
 
 } // namespace lacuna::cad_worker

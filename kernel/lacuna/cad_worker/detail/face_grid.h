@@ -8,12 +8,12 @@
 
 namespace lacuna::cad_worker {
 
-/// A map of one surface parameter to grid coordinates, in which the grid lines are the integers. Rising,
-/// linear between knots.
+/// Piecewise linear, increasing map from a surface parameter to grid coordinates, in which grid lines are at
+/// integers.
 class GridAxis {
 public:
     GridAxis() = default;
-    /// @param density  lines wanted between each knot and the next.
+    /// @param density  number of grid lines wanted in each interval between knots.
     GridAxis(std::vector<double> knots, const std::vector<double>& density, int least_cells);
 
     [[nodiscard]] double to_grid(double parameter) const;
@@ -25,7 +25,7 @@ private:
     int cells_ = 1;
 };
 
-/// The grid over a face's parameter rectangle.
+/// A grid over the parameter rectangle of a face.
 struct FaceGrid {
     std::array<GridAxis, 2> axis;
 
@@ -39,8 +39,8 @@ struct FaceGrid {
     }
 };
 
-/// Lay lines so that the normal turns, and the surface runs, no more than the fineness allows from one to the
-/// next, cells are not too long, and there are not too many of them.
+/// Choose grid lines such that between neighbours the normal turns no more than the fineness allows, cells
+/// are not too long, and their number stays below the limit.
 FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells);
 
 } // namespace lacuna::cad_worker

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What differs between the versions of Gmsh's API, so that the rest reads alike. Only sources of this folder
-/// include it.
+/// Wrappers for the differences between versions of Gmsh's API. Only sources of this folder include this
+/// file.
 
 #include <gmsh.h>
 
@@ -15,13 +15,13 @@
 
 namespace lacuna::cad_worker {
 
-/// Has anyone initialised Gmsh?
+/// Whether Gmsh has been initialised.
 inline bool gmsh_is_initialized()
 {
 #if LACUNA_GMSH_AT_LEAST(4, 10)
     return gmsh::isInitialized() != 0;
 #else
-    try { // An initialised Gmsh has one model at least; before and after it lists none or throws.
+    try { // An initialised Gmsh has at least one model; otherwise the list is empty or it throws.
         std::vector<std::string> names;
         gmsh::model::list(names);
         return !names.empty();
@@ -31,7 +31,7 @@ inline bool gmsh_is_initialized()
 #endif
 }
 
-/// "Plane", "Cylinder", "Unknown", …
+/// The type as Gmsh names it: "Plane", "Cylinder", "Unknown", …
 inline std::string gmsh_type(int dim, int tag)
 {
     std::string type;

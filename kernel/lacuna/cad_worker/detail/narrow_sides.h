@@ -7,14 +7,14 @@
 
 namespace lacuna::cad_worker {
 
-/// How many times as many points each edge is to have, 1 or more, so that no side sags by more than a
-/// hundredth of its distance from another edge of the same flat face: a ring of facets is else thicker and
-/// thinner by as much as the polygons of its circles are off.
+/// Factors >= 1 by which to increase the number of points of each edge, so that the sag of each segment is at
+/// most a hundredth of its distance from any other edge of the same planar face. Otherwise the width of a
+/// thin ring varies visibly, by the sag of the polygons that represent its circles.
 ///
-/// Edges that share a vertex do not count against each other. Curved faces ask for nothing: a fillet is
-/// narrow beside its length, and what is beside it is seldom the void.
-/// @param wire  its edges divided (`divide()`).
-/// @cost  O(n log n) in the sides of a face where few of them are near each other.
+/// Edges that share a vertex are not compared. Curved faces need no refinement: a fillet is narrow compared
+/// with its length, and is seldom next to the void.
+/// @param wire  with edges divided by `divide()`.
+/// @cost  O(n log n) in the segments of a face, if few of them are close to each other.
 std::vector<double> narrow_refinement(const CadWire& wire);
 
 } // namespace lacuna::cad_worker

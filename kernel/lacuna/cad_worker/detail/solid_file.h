@@ -5,11 +5,11 @@
 
 namespace lacuna::cad_worker {
 
-/// Gmsh's options for bringing in shapes as they are, `scale` times as large.
+/// Set Gmsh's options to import shapes unchanged except for the factor `scale`.
 void set_plain_import(Session& session, double scale);
 
-/// Sew faces of the current model to one solid, write it, and read it back.
-/// @throw BackendError  the faces make no solid, or the file does not read back as the same one.
+/// Sew faces of the current model into one solid, write it, and read it back.
+/// @throw BackendError  the faces do not form a solid, or the file reads back as a different one.
 cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int>& faces,
                                          const cad_protocol::MakeSolidRequest& request,
                                          const SolidFiles& files);

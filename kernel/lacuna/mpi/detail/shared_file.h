@@ -10,10 +10,10 @@
 /// Internal to this folder.
 namespace lacuna::mpi {
 
-/// Bytes of one call: counts of MPI are of 31 bits.
+/// Most bytes of one MPI call: MPI counts are 32-bit signed integers.
 inline constexpr std::size_t kMostAtOnce = std::size_t(1) << 30;
 
-/// A file that is there, through MPI-IO. @param name  for messages. @throw BackendError
+/// Open an existing file through MPI-IO. @param name  for messages. @throw BackendError
 std::unique_ptr<SharedFile> open_shared(const std::string& path, const std::string& name);
 
 } // namespace lacuna::mpi

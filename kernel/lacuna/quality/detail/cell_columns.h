@@ -9,13 +9,14 @@
 #include <cstddef>
 #include <span>
 
-/// Cells of either kind of mesh as columns, so that a level of nodes is fetched once for the cells below and
-/// above it. Internal to this folder. Cell (column, layer) has the number layer · columns + column.
+/// Access to the cells of both kinds of mesh as columns, so that each level of nodes is loaded once for the
+/// cells below and above it. Internal to this folder. Cell (column, layer) has the number layer · columns +
+/// column.
 namespace lacuna::quality {
 
 using LevelCorners = std::array<const Vec3*, 4>;
 
-/// Cells of a swept mesh: columns of cells on the source quads.
+/// Cells of a swept mesh: one column for each source quad.
 struct SweptCells {
     const mesh::HexMesh& mesh;
     std::size_t hex_columns = mesh.quads.size() - mesh.triangle_count();
@@ -25,7 +26,7 @@ struct SweptCells {
     [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
     [[nodiscard]] std::size_t column_of(std::size_t cell) const { return cell % mesh.quads.size(); }
     [[nodiscard]] std::size_t layers() const { return static_cast<std::size_t>(mesh.layers); }
-    /// Corners 0..3 of the cell on `layer`, which are 4..7 of the one below.
+    /// Corners 0..3 of the cell on `layer`; they are corners 4..7 of the cell below.
     [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const
     {
         const Quad& q = mesh.quads[column];
@@ -34,11 +35,11 @@ struct SweptCells {
     }
 };
 
-/// Cells of a list: columns of one.
+/// Cells of a list: columns with one cell each.
 struct ListedCells {
     std::span<const Vec3> nodes;
     std::span<const Hex> hexes;
-    std::span<const Index> swept{}; ///< column of a sweep that each cell is of; empty: each is its own
+    std::span<const Index> swept{}; ///< column of the sweep for each cell; empty: each cell is a column
 
     [[nodiscard]] std::size_t column_of(std::size_t c) const { return swept.empty() ? c : index(swept[c]); }
     [[nodiscard]] bool is_wedge(std::size_t column) const { return mesh::is_wedge(hexes[column]); }
@@ -53,18 +54,18 @@ struct ListedCells {
     }
 };
 
-/// Cells of one partial result, about. Partial results are added up in order, so that sums do not depend on
-/// which thread did what.
+/// Approximate number of cells of a partial result. Partial results are added in order, so that sums do not
+/// depend on the threads.
 inline constexpr std::size_t kChunk = 4096;
 
-/// Columns of a partial result, a whole number of batches of `lanes`.
+/// Number of columns of a partial result: a multiple of `lanes`.
 template <class Cells>
 std::size_t chunk_width(const Cells& cells, std::size_t lanes)
 {
     return lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, cells.layers()));
 }
 
-/// Corners of a level of up to a batch of columns; idle lanes repeat the last column.
+/// Corners of one level of at most a batch of columns; unused lanes repeat the last column.
 template <int N, class Cells>
 void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, LevelBatch<N>& corner)
 {
@@ -76,23 +77,24 @@ void load_level(const Cells& cells, std::size_t first, int filled, std::size_t l
     }
 }
 
-/// Have memory fetch what comes next while a batch is worked on. Levels of a column lie far apart, so that
-/// the processor does not guess it.
+/// Prefetch the next level while a batch is processed. The levels of a column are far apart in memory, so the
+/// processor cannot predict the access.
 template <int N, class Cells>
 void fetch_after(const Cells& cells, std::size_t first, std::size_t end, std::size_t layer)
 {
     const auto fetch = [&](std::size_t begin, std::size_t level) {
         for (std::size_t column = begin; column < std::min(begin + N, end); ++column) {
             const LevelCorners corners = cells.corners(column, level);
-            for (const std::size_t c : {0, 2}) __builtin_prefetch(corners[c]); // neighbours share the others
+            for (const std::size_t c : {0, 2})
+                __builtin_prefetch(corners[c]); // shared with neighbours: the others
         }
     };
     if (layer + 1 < cells.layers()) return fetch(first, layer + 2);
     for (const std::size_t level : {0, 1}) fetch(first + N, level);
 }
 
-/// Call `body(batch, first cell, filled lanes)` for the columns [begin, end) from the source up: the upper
-/// corners of a cell are the lower ones of the next.
+/// Call `body(batch, first cell, filled lanes)` for the columns [begin, end), from the source upwards: the
+/// upper corners of a cell are reused as the lower corners of the next.
 template <int N, class Cells, class Body>
 void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, const Body& body)
 {
@@ -118,7 +120,7 @@ WedgeCorners wedge_corners(const Cells& cells, std::size_t cell)
     return {*low[0], *low[1], *low[2], *high[0], *high[1], *high[2]};
 }
 
-/// Call `body(lane, corners)` for the wedges of a batch, whose values as hexahedra mean nothing.
+/// Call `body(lane, corners)` for the wedges of a batch, whose values as hexahedra must be replaced.
 template <class Cells, class Body>
 void for_each_wedge(const Cells& cells, std::size_t first, int filled, const Body& body)
 {
@@ -129,7 +131,7 @@ void for_each_wedge(const Cells& cells, std::size_t first, int filled, const Bod
     }
 }
 
-/// Mean of the corners of cell `cell`.
+/// Average of the corners of cell `cell`.
 template <class Cells>
 Vec3 centre_of(const Cells& cells, std::size_t cell)
 {

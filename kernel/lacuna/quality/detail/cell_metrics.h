@@ -6,13 +6,13 @@
 
 #include <span>
 
-/// The arithmetic of the metrics, for several cells at once. Internal to this folder.
+/// Arithmetic of the metrics, for several cells at once. Internal to this folder.
 namespace lacuna::quality {
 
-/// Cells worked on together: one vector of AVX-512, two of AVX2.
+/// Cells processed together: one AVX-512 vector, or two AVX2 vectors.
 inline constexpr int kMetricLanes = 8;
 
-/// Values of `metrics` of every lane, at `values[metric · kMetricLanes + lane]`; always finite.
+/// Values of `metrics` for each lane, at `values[metric · kMetricLanes + lane]`; always finite.
 void evaluate_metrics(const CellBatch<kMetricLanes>& batch, std::span<const Metric> metrics,
                       double average_volume, double* values);
 

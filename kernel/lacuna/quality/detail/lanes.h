@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-/// A number in each of `N` cells, and vectors of such; plain loops of fixed length, which compilers turn into
-/// vector code. Internal to this folder.
+/// A number for each of `N` cells, and vectors of such numbers. Loops have a fixed length, so that compilers
+/// vectorise them. Internal to this folder.
 namespace lacuna::quality {
 
 template <int N>
@@ -46,7 +46,7 @@ struct Lanes {
     LACUNA_INLINE friend Lanes operator*(double a, const Lanes& b) { return all(a) * b; }
 };
 
-/// The lesser; `b` where either is no number.
+/// The smaller number; `b` if one is NaN.
 template <int N>
 LACUNA_INLINE Lanes<N> least(const Lanes<N>& a, const Lanes<N>& b)
 {
@@ -87,7 +87,7 @@ LACUNA_INLINE Lanes<N> cube_root(const Lanes<N>& a)
     return r;
 }
 
-/// `yes` where `a` is above `limit`, else `no`.
+/// `yes` in lanes where `a` > `limit`, else `no`.
 template <int N>
 LACUNA_INLINE Lanes<N> where_above(const Lanes<N>& a, double limit, const Lanes<N>& yes, double no)
 {

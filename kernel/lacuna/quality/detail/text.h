@@ -6,19 +6,19 @@
 
 #include <string>
 
-/// Words for people, the same in every locale. Internal to this folder.
+/// Formatting of text for people, independent of the locale. Internal to this folder.
 namespace lacuna::quality {
 
 /// A number with up to six significant digits.
 std::string number(double value);
 
-/// A number with `digits` after the point, filled with blanks on the left to `width`.
+/// A number with `digits` decimals, padded on the left to `width`.
 std::string fixed(double value, int digits, std::size_t width = 0);
 
 /// "1.5 0 -2"
 std::string place(const Vec3& point);
 
-/// "cell 1234 (layer 3 of 8, at 1.5 0 -2) has scaled Jacobian -0.2"; people count from 1.
+/// "cell 1234 (layer 3 of 8, at 1.5 0 -2) has scaled Jacobian -0.2"; numbers for people start at 1.
 std::string describe(const WorstCell& cell, int layers);
 
 } // namespace lacuna::quality

@@ -5,7 +5,6 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/sweep.h>
 
-#include <chrono>
 #include <functional>
 #include <set>
 #include <vector>
@@ -22,9 +21,6 @@ struct ProvedSweep {
 
 /// Sweeps a sealed volume from its source to its target, the source's quads laid out in an outline.
 using OneWay = std::function<ProvedSweep(const topology::OpenVolume&, const SweepOptions&, Outline)>;
-
-/// The options with the time that is left of one budget for improving.
-SweepOptions remaining(SweepOptions options, std::chrono::steady_clock::time_point start);
 
 /// The sealed volume with source and target exchanged; groups keep the names the person gave.
 topology::OpenVolume turned_round(topology::OpenVolume volume);

@@ -12,12 +12,11 @@ namespace lacuna::view {
 
 std::string base64(std::string_view bytes);
 
-/// Whole numbers as text, small where they follow a pattern: what a prediction misses, as varints (zigzag,
-/// seven bits a byte), deflated, in base 64.
+/// Compact text for integers with regular patterns: differences from a prediction as zigzag varints (seven
+/// bits a byte), deflated, in base 64.
 ///
-/// Number i is predicted from those `stride` and twice `stride` places before: as the first and once more
-/// what lies between (`linear`), or as the first alone. Where there is none of them, as the number before.
-/// `page/numbers.js` reads it.
+/// Number i is predicted from the numbers a = i - stride and b = i - 2 · stride: as a, or with `linear` as
+/// 2 a - b. The first numbers are predicted as the number before. `page/numbers.js` decodes it.
 std::string pack(std::span<const Index> numbers, std::size_t stride, bool linear = false);
 
 } // namespace lacuna::view

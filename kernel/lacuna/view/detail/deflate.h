@@ -7,10 +7,10 @@
 
 namespace lacuna::view {
 
-/// The bytes as a zlib stream (RFC 1950).
+/// Compress bytes to a zlib stream (RFC 1950).
 std::string deflated(std::string_view bytes);
 
-/// CRC-32 of PNG (ISO 3309). O(bytes).
+/// CRC-32 as PNG uses it (ISO 3309). O(bytes).
 std::uint32_t crc32(std::string_view bytes);
 
 } // namespace lacuna::view

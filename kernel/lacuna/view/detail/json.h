@@ -11,15 +11,15 @@
 
 namespace lacuna::view {
 
-/// JSON put together from the left, fit to stand inside a `<script>`: no text in it can end the element.
-/// Numbers are the same in every locale; one that is not finite is null.
+/// Writes JSON that can be placed inside a `<script>` element: no text in it can end the element. Numbers do
+/// not depend on the locale; numbers that are not finite become null.
 class Json {
 public:
     Json& begin_object() { return begin('{'); }
     Json& end_object() { return end('}'); }
     Json& begin_array() { return begin('['); }
     Json& end_array() { return end(']'); }
-    /// Name of the value that comes next.
+    /// Write the key of the next value.
     Json& key(std::string_view name);
 
     Json& value(std::string_view text);
@@ -44,7 +44,7 @@ private:
     void comma();
 
     std::string text_;
-    bool first_ = true; ///< nothing stands in the open brackets yet, or a name precedes
+    bool first_ = true; ///< no comma needed: the brackets are empty so far, or a key precedes
 };
 
 } // namespace lacuna::view

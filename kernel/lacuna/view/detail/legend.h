@@ -9,39 +9,39 @@
 
 namespace lacuna::view {
 
-/// What a colour means.
+/// An entry of the legend: the meaning of a colour.
 struct Key {
     Colour colour{};
     std::string text;
     bool hatched = false;
-    bool line = false; ///< of an edge, not of a face
+    bool line = false; ///< the colour of an edge, not of a face
 };
 
-/// What a picture says in words.
+/// The text of a picture.
 struct Legend {
-    std::string title;            ///< above what is shown; empty: none
-    std::span<const Colour> ramp; ///< a bar of colours with the numbers at its ends; empty: none
+    std::string title;            ///< above the picture; empty: none
+    std::span<const Colour> ramp; ///< colour bar with numbers at its ends; empty: none
     double low = 0, high = 1;
-    std::string quantity; ///< what the bar's numbers are
+    std::string quantity; ///< name of the quantity on the colour bar
     std::vector<Key> keys;
 };
 
-/// A rectangle of one colour, or a stroke.
+/// A filled rectangle or a stroke.
 struct Mark {
-    Vec2 from, to; ///< opposite corners, or ends; y down [pixels]
+    Vec2 from, to; ///< opposite corners, or end points; y points down [pixels]
     Colour colour{};
-    double width = 0;     ///< of a stroke [pixels]; 0: a rectangle
-    bool hatched = false; ///< of a rectangle
+    double width = 0;     ///< stroke width [pixels]; 0: a rectangle
+    bool hatched = false; ///< for rectangles
 };
 
-/// Where the words stand and what they leave free.
+/// The positions of the texts, and the space they take.
 struct PlacedLegend {
     std::vector<Mark> marks;
-    double above = 0, below = 0; ///< rows that they take [pixels]
+    double above = 0, below = 0; ///< height taken above and below the picture [pixels]
 };
 
-/// Place a legend round a picture: the title above, the bar and the keys in rows below. Keys beyond three
-/// rows are counted, not shown.
+/// Lay out a legend: the title above the picture, the colour bar and the keys in rows below it. Keys beyond
+/// three rows are only counted.
 PlacedLegend place_legend(const Legend& legend, int width, int height);
 
 } // namespace lacuna::view

@@ -5,7 +5,7 @@
 
 namespace lacuna::view {
 
-extern const std::string_view kPage_css; ///< the style sheet of every page
-extern const std::string_view kPage_js;  ///< its script, which reads the data and draws it
+extern const std::string_view kPage_css; ///< the style sheet of all pages
+extern const std::string_view kPage_js;  ///< the script of all pages
 
 } // namespace lacuna::view

@@ -7,7 +7,7 @@
 
 namespace lacuna::view {
 
-/// The bytes of a PNG of eight bits a channel (RFC 2083), rows predicted from the one above.
+/// A PNG with eight bits per channel (RFC 2083); each row is predicted from the row above.
 std::string png_of(const Image& image);
 
 } // namespace lacuna::view

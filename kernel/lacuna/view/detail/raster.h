@@ -11,10 +11,10 @@ namespace lacuna::view {
 
 struct Image {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb; ///< rows from the top
+    std::vector<std::uint8_t> rgb; ///< rows from top to bottom
 };
 
-/// Draw a scene as `write_picture()` says.
+/// Draw a scene as `write_picture()` describes.
 Image rasterise(const Scene& scene, const PictureOptions& options, const RunContext& context);
 
 } // namespace lacuna::view

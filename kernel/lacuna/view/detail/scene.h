@@ -8,17 +8,17 @@
 
 namespace lacuna::view {
 
-/// A quad or a triangle to be drawn.
+/// A quad or triangle to draw.
 struct DrawnSide {
     std::array<Vec3, 4> corner;
-    std::size_t count = 4; ///< of corners
-    unsigned hidden = 0;   ///< bit k: no line from corner k to the next
+    std::size_t count = 4; ///< number of corners
+    unsigned hidden = 0;   ///< bit k: do not draw the line from corner k to the next
     Colour colour{};
     bool hatched = false;
-    bool closed = true; ///< part of a skin that faces outward: not drawn from behind
+    bool closed = true; ///< part of a closed skin, facing outward: culled when seen from behind
 };
 
-/// A line over the sides.
+/// A line drawn over the sides.
 struct DrawnLine {
     Vec3 from, to;
     Colour colour{};
@@ -33,11 +33,11 @@ struct Scene {
 
 /// @throw InvalidInput  as `write_picture()`.
 Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context);
-/// @param roles  of each face, or null.
+/// @param roles  of each face; may be null.
 Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
                const PictureOptions& options);
 
-/// The least number on the bar of quality: 0.5, or lower where there is something lower.
+/// Lower end of the colour bar of quality: 0.5, or less if some quality is lower.
 double quality_low(double least);
 
 } // namespace lacuna::view

@@ -9,13 +9,13 @@
 
 namespace lacuna::view {
 
-/// A text as strokes, from its left upper corner on; a dot is a stroke without length.
+/// A text as strokes, starting at its upper left corner; a dot is a stroke of zero length.
 struct StrokedText {
-    std::vector<std::pair<Vec2, Vec2>> strokes; ///< y down [capital height]
+    std::vector<std::pair<Vec2, Vec2>> strokes; ///< y points down [capital height]
     double width = 0;                           ///< [capital height]
 };
 
-/// Write a line with the letters of ASCII. Another character is a box, so that a name keeps its length.
+/// Draw a line of ASCII text. Other characters become boxes, so that texts keep their length.
 /// @param text  UTF-8.
 StrokedText stroked(std::string_view text);
 

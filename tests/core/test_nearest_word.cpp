@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "bindings/options.h"
+#include <lacuna/core/nearest_word.h>
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-using namespace lacuna::lua;
+using namespace lacuna;
 
 namespace {
 
@@ -66,6 +66,6 @@ TEST_CASE("every key with one letter wrong is nearest to itself")
         for (std::size_t place = 0; place < std::string(keys[k]).size(); ++place) {
             std::string typo = keys[k];
             typo[place] = '#';
-            CHECK(nearest(typo.c_str(), keys, std::size(keys)) == k);
+            CHECK(nearest_word(typo.c_str(), keys) == k);
         }
 }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+
+namespace lacuna::closure {
+
+/// Seal a volume in order to compare it with other candidates of the same faces. Unlike close() it does not
+/// move a given end to a missing one, does not compare alternative shapes, accepts an ambiguous closing and
+/// logs nothing: callers enumerate these choices themselves.
+/// @throw  as close().
+Closure close_trial(topology::OpenVolume& volume, const matching::Match& match, const RunContext& context);
+
+} // namespace lacuna::closure

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace lacuna {
+
+/// Letters to be changed, added or taken away to make one word of the other (Levenshtein).
+std::size_t edit_distance(const char* a, const char* b);
+
+/// Position of the key nearest to `word`, the first of equally near ones. @pre there are keys
+std::size_t nearest_word(const char* word, std::span<const char* const> keys);
+
+} // namespace lacuna

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/describe.h>
+
+#include <lacuna/closure/branches.h>
+#include <lacuna/core/error.h>
+#include <lacuna/sweep/assembly.h>
+#include <lacuna/topology/left_out.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace lacuna::fill {
+
+using topology::Origin;
+using topology::Role;
+
+namespace {
+
+const char* word(topology::Geometry geometry)
+{
+    switch (geometry) {
+    case topology::Geometry::given:
+        return "given";
+    case topology::Geometry::newell:
+        return "Newell";
+    case topology::Geometry::transfinite:
+        return "transfinite";
+    case topology::Geometry::annular:
+        return "annular strip";
+    case topology::Geometry::followed:
+        return "followed sides";
+    case topology::Geometry::parallel:
+        return "parallel to the other end";
+    case topology::Geometry::minimal:
+        return "minimal area";
+    }
+    return "unknown";
+}
+
+const char* word(Role role)
+{
+    return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
+}
+
+void list_faces(std::ostream& out, const char* title, const topology::OpenVolume& volume, Role role,
+                Origin origin)
+{
+    std::string names;
+    for (const FaceId face : volume.faces(role))
+        if (volume.model[face].origin == origin)
+            names += (names.empty() ? "" : ", ") + topology::name_of(volume.model, face);
+    if (origin == Origin::given || !names.empty()) out << title << (names.empty() ? "none" : names) << '\n';
+}
+
+std::string faces_in_words(const topology::OpenVolume& volume)
+{
+    const topology::Model& model = volume.model;
+    std::ostringstream out;
+    out << "volume: " << model.faces.size() << " faces, " << model.edges.size() << " edges, "
+        << model.vertices.size() << " vertices\n";
+    for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        const topology::Face& face = model.faces[f];
+        out << "  " << topology::name_of(model, FaceId(f)) << ", " << word(volume.role[f]) << ": "
+            << (face.origin == Origin::given ? face.kind : word(face.geometry)) << ", "
+            << face.triangles.size() << " facets" << (face.surface ? ", exact surface" : "")
+            << (face.given_quads.empty() ? "" : ", given mesh") << '\n';
+        for (const topology::Loop& loop : face.loops) {
+            out << "    loop of " << loop.uses.size() << '\n';
+            for (const topology::EdgeUse use : loop.uses) {
+                const topology::Edge& edge = model[use.edge];
+                out << "      " << topology::name_of(model, use.edge) << (use.reversed ? ", reversed" : "")
+                    << ": " << (edge.curve ? "exact curve" : "polyline") << " of " << edge.points.size() - 1
+                    << ", from " << topology::name_of(model, edge.from) << " to "
+                    << topology::name_of(model, edge.to) << '\n';
+            }
+        }
+    }
+    return out.str();
+}
+
+/// The pieces that a volume with branches or steps is cut into, and which faces they share.
+std::string pieces_in_words(const Volume& volume, const RunContext& context)
+{
+    if (volume.closure || !closure::has_pieces(volume.volume, context)) return "";
+    std::vector<closure::StepPiece> pieces;
+    try {
+        pieces = closure::cut_into_pieces(volume.volume, context);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        return std::string("pieces: it is not cut: ") + error.what() + "\n";
+    }
+    if (pieces.size() < 2) return "";
+    std::vector<sweep::AssemblyMember> members;
+    for (const closure::StepPiece& piece : pieces) {
+        const std::string name = volume.name.empty() ? "piece" : volume.name;
+        members.push_back({&piece.volume, {}, name + "_" + std::to_string(members.size() + 1)});
+    }
+    std::string text = "pieces: " + std::to_string(pieces.size()) + '\n';
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        text += "  " + members[p].region + ": class " +
+                std::string(topology::to_string(topology::classify(pieces[p].volume).value)) + ", level " +
+                std::to_string(pieces[p].level) + ", " + std::to_string(pieces[p].volume.model.faces.size()) +
+                " faces\n";
+    }
+    for (const sweep::SharedFace& face : sweep::shared_faces(members, context)) {
+        text += "  " + members[face.a].region + " and " + members[face.b].region + " share " +
+                topology::name_of(pieces[face.a].volume.model, face.face_a) + '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+std::string ends_in_words(const topology::OpenVolume& volume)
+{
+    const auto list = [&](topology::Role role) {
+        constexpr std::size_t kMost = 6; // what a person reads in a line
+        const std::vector<FaceId> faces = volume.faces(role);
+        std::string text = faces.empty() ? "what is missing" : "";
+        for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
+            text += (i == 0 ? "" : ", ") + topology::name_of(volume.model, faces[i]);
+        return text + (faces.size() > kMost ? ", …" : "");
+    };
+    return "from " + list(Role::source) + " to " + list(Role::target);
+}
+
+std::string tree(const Volume& volume, const RunContext& context)
+{
+    return faces_in_words(volume.volume) + pieces_in_words(volume, context);
+}
+
+std::string describe(const Volume& volume)
+{
+    std::ostringstream out;
+    list_faces(out, "source: ", volume.volume, Role::source, Origin::given);
+    list_faces(out, "target: ", volume.volume, Role::target, Origin::given);
+    list_faces(out, "walls:  ", volume.volume, Role::wall, Origin::given);
+    if (!volume.role_reasons.empty()) out << "likely roles:\n";
+    for (const std::string& reason : volume.role_reasons) out << "  " << reason << '\n';
+    out << "class:  " << topology::to_string(volume.classification.value) << '\n';
+    for (const std::string& reason : volume.classification.reasons) out << "  " << reason << '\n';
+    if (volume.match) {
+        out << "match:  " << volume.match->method << ", " << volume.match->loops.size() << " loops, "
+            << volume.match->vertices.size() << " vertices, confidence " << volume.match->confidence << '\n';
+        for (const std::string& note : volume.match->notes) out << "  " << note << '\n';
+    }
+    list_faces(out, "void source: ", volume.volume, Role::source, Origin::made_void);
+    list_faces(out, "void target: ", volume.volume, Role::target, Origin::made_void);
+    list_faces(out, "void walls:  ", volume.volume, Role::wall, Origin::made_void);
+    if (volume.closure) {
+        out << "sealed: " << volume.closure->void_edges.size() << " void edges, "
+            << volume.closure->void_faces.size() << " void faces, "
+            << (volume.closure->watertight ? "watertight" : "not watertight") << '\n';
+        for (const std::string& algorithm : volume.closure->algorithms) out << "  " << algorithm << '\n';
+        for (const std::string& note : volume.closure->notes) out << "  " << note << '\n';
+    } else if (!volume.classification.free_loops.empty()) {
+        out << "open:   " << topology::free_edges(volume.volume).size() << " free edges in "
+            << volume.classification.free_loops.size() << " loops; close() seals them\n";
+    }
+    for (const std::string& missing : topology::left_out_in_words(volume.volume)) out << missing << '\n';
+    return out.str();
+}
+
+} // namespace lacuna::fill

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/detail/members.h>
+
+#include <lacuna/closure/branches.h>
+#include <lacuna/closure/piece_ends.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/nearest_word.h>
+#include <lacuna/fill/detail/kept_mesh.h>
+#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/topology/left_out.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace lacuna::fill {
+
+namespace {
+
+/// A part of the assembly to be: a volume or a piece of one with its options, or a mesh that stays.
+struct Part {
+    const Member* asked = nullptr; ///< null of a mesh
+    std::string asked_name;        ///< of the volume that `asked` is of, for messages
+    Volume volume;
+    std::unique_ptr<KeptMesh> kept;
+    bool left_out = false;            ///< its faces may be named all the same
+    const Volume* piece_of = nullptr; ///< the volume that it is a piece of; null: it is no piece
+    std::string whole{};              ///< the name of that volume
+};
+
+// --- options that name faces ------------------------------------------------------------------------------
+
+/// Give each option that names faces: its name, whether it was given for one volume alone, and the faces.
+template <class Options, class Do>
+void for_each_names(Options& options, const Do& give)
+{
+    for (auto& layer : options.boundary_layers) give("boundary_layers", layer.walls);
+    for (auto& interval : options.intervals)
+        if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
+}
+
+/// Options for many volumes name faces that one alone has: leave out those that this one has not.
+void keep_known_faces(sweep::AssemblyMember& member)
+{
+    for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
+        std::erase_if(names.tags, [&](int tag) { return !surface::has_face(*member.volume, tag); });
+        std::erase_if(names.names,
+                      [&](const auto& name) { return !surface::has_face(*member.volume, name); });
+    });
+    const auto is_empty = [](const surface::FaceNames& names) {
+        return names.tags.empty() && names.names.empty();
+    };
+    std::erase_if(member.options.boundary_layers, [&](auto& layer) { return is_empty(layer.walls); });
+    std::erase_if(member.options.intervals, [&](auto& interval) {
+        return interval.of == surface::Interval::Of::wall && is_empty(interval.walls);
+    });
+}
+
+constexpr const char* kWhereFacesAre = "; volume:tree() lists faces";
+
+/// "; the nearest is …": of the names of faces of some volumes.
+std::string nearest_face_name(const std::vector<Part>& all, const std::string& wanted, const Member* of)
+{
+    std::set<std::string> known;
+    for (const Part& one : all) {
+        if (one.asked == nullptr || (of != nullptr && one.asked != of)) continue;
+        for (const topology::Face& face : one.volume.volume.model.faces) {
+            if (!face.name.empty() && face.origin == topology::Origin::given) known.insert(face.name);
+            known.insert(face.groups.begin(), face.groups.end());
+        }
+    }
+    if (known.empty()) return kWhereFacesAre;
+    std::vector<const char*> keys;
+    keys.reserve(known.size());
+    for (const std::string& name : known) keys.push_back(name.c_str());
+    return "; the nearest is \"" + std::string(keys[nearest_word(wanted.c_str(), keys)]) + "\"";
+}
+
+/// Refuse a face that is named and that no volume has; of options of one volume, that one.
+void check_known_faces(const std::vector<Part>& all)
+{
+    std::set<std::tuple<const Member*, std::string, std::string>> seen;
+    const auto check = [&](const Part& by, const std::string& option, bool own, const std::string& what,
+                           const auto& face) {
+        const Member* const of = own ? by.asked : nullptr;
+        if (!seen.emplace(of, option, what).second) return;
+        const bool known = std::ranges::any_of(all, [&](const Part& one) {
+            return one.asked != nullptr && (of == nullptr || one.asked == of) &&
+                   surface::has_face(one.volume.volume, face);
+        });
+        if (known) return;
+        std::string advice = kWhereFacesAre;
+        if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
+            advice = nearest_face_name(all, face, of);
+        throw InvalidInput("surface.no_such_face",
+                           "sweep: option '" + option + "'" + (own ? " of " + by.asked_name : "") +
+                               " names " + what + ", which " +
+                               (own ? by.asked_name + " has not" : "no volume of the assembly has") + advice);
+    };
+    for (const Part& one : all) {
+        if (one.asked == nullptr) continue;
+        for_each_names(one.asked->options, [&](const std::string& option, const surface::FaceNames& names) {
+            const bool own = option == "intervals" ? one.asked->own_intervals
+                                                   : one.asked->own_boundary_layers;
+            for (const int tag : names.tags) check(one, option, own, "face " + std::to_string(tag), tag);
+            for (const std::string& name : names.names) check(one, option, own, '"' + name + '"', name);
+        });
+    }
+}
+
+// --- full turns -------------------------------------------------------------------------------------------
+
+/// A turn of fewer layers would have one of 120° and more, which no hexahedron spans.
+constexpr int kLeastPerTurn = 4;
+
+/// A piece of a full turn has its share of the layers asked for.
+void share_layers(const Volume& volume, sweep::LayerSpec& layers)
+{
+    const double share = volume.turn_to - volume.turn_from;
+    if (share == 1) return;
+    if (!layers.heights.empty() || layers.bias != 1)
+        throw InvalidInput(
+            "sweep.full_turn_layers",
+            "layers of a full turn have no first and no last: give their count alone, or "
+            "sweep the pieces that volume:cut() gives with 'heights' or a 'bias' of their own");
+    if (layers.count == 0) return;
+    if (layers.count < kLeastPerTurn)
+        throw InvalidInput("sweep.full_turn_layers", "a full turn needs " + std::to_string(kLeastPerTurn) +
+                                                         " layers at least; asked for are " +
+                                                         std::to_string(layers.count));
+    const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
+    layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));
+}
+
+// --- parts ------------------------------------------------------------------------------------------------
+
+/// A volume, or the pieces it has to be cut into.
+/// @param name   of regions; those of pieces have a number behind it.
+/// @param whole  the group of the pieces' cells.
+void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
+               const std::string& whole, const RunContext& context)
+{
+    const Volume& volume = *asked.volume;
+    if (!closure::has_pieces(volume.volume, context)) {
+        parts.push_back({&asked, name, volume, nullptr});
+        return;
+    }
+    int number = 0;
+    for (closure::StepPiece& piece : closure::cut_into_pieces(volume.volume, context)) {
+        const double from = piece.turn_from, to = piece.turn_to;
+        Part& part = parts.emplace_back(Part{&asked, name, {}, nullptr});
+        part.volume = piece_of(volume, std::move(piece), name + "_" + std::to_string(++number));
+        part.volume.turn_from = from;
+        part.volume.turn_to = to;
+        if (to - from < 1) part.volume.turn_of = name;
+        part.piece_of = &volume;
+        part.whole = whole;
+    }
+}
+
+/// Do something to a volume of an assembly; where it fails and may be left out, note that.
+/// @return  whether it was done.
+template <class Do>
+bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
+                     const Do& what)
+{
+    if (member.options.fallback != sweep::Fallback::leave_out) {
+        what();
+        return true;
+    }
+    try {
+        what();
+        return true;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        left_out.push_back({region, error.code(), region + ": " + error.what()});
+        return false;
+    }
+}
+
+sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)
+{
+    const mesh::HexMesh& own = kept.swept.mesh;
+    sweep::AssemblyMember member{
+        &kept.skin.volume, {}, kept.region.empty() ? number : kept.region, &kept.swept, kept.turn_of};
+    member.whole = kept.whole;
+    member.options.order = own.order();
+    member.options.second_order.serendipity = own.order() > 1 && !own.middles.full;
+    return member;
+}
+
+/// Layers asked for are those of the pieces that go from end to end.
+sweep::AssemblyMember member_of(const Part& part, const std::string& region, bool alone)
+{
+    const Volume& volume = part.volume;
+    sweep::AssemblyMember member{&volume.volume, part.asked->options, region, nullptr, volume.turn_of};
+    member.whole = part.whole;
+    member.piece_of = part.piece_of != nullptr ? &part.piece_of->volume : nullptr;
+    member.alone = alone;
+    if (volume.level > 0) member.options.layers = {};
+    share_layers(volume, member.options.layers);
+    return member;
+}
+
+/// Close the volumes and sweep the parts as one.
+/// @param left_out  what was left out before.
+/// @param alone     they are the pieces of one volume that is all there is.
+FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
+                        const RunContext& context)
+{
+    std::vector<sweep::AssemblyMember> members;
+    std::vector<std::string> materials;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+        Part& part = all[p];
+        const std::string number = "volume_" + std::to_string(p + 1);
+        if (part.kept) {
+            materials.push_back(part.kept->material);
+            members.push_back(member_of(*part.kept, number));
+            continue;
+        }
+        const std::string region = part.volume.name.empty() ? number : part.volume.name;
+        const auto close = [&] { part.volume = close_to_sweep(part.volume, region, context); };
+        if (part.left_out || !do_or_leave_out(left_out, region, *part.asked, close)) continue;
+        materials.push_back(part.volume.material);
+        members.push_back(member_of(part, region, alone));
+    }
+    check_known_faces(all);
+    for (sweep::AssemblyMember& member : members) keep_known_faces(member);
+    if (members.empty() && !left_out.empty())
+        throw NotSweepable(left_out.front().code, left_out.front().message);
+    FilledParts mesh{sweep::sweep_assembly(members, context), {}, {}, std::move(left_out)};
+    for (const std::size_t m : mesh.swept.member) {
+        mesh.regions.push_back(members[m].turn_of.empty() ? members[m].region : members[m].turn_of);
+        mesh.materials.push_back(materials[m]);
+    }
+    for (const Part& one : all)
+        if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
+    for (const sweep::LeftOut& out : mesh.left_out)
+        mesh.swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
+    mesh.left_out.insert(mesh.left_out.end(), mesh.swept.left_out.begin(), mesh.swept.left_out.end());
+    return mesh;
+}
+
+} // namespace
+
+Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context)
+{
+    Volume sealed = close(volume, {}, context);
+    closure::check_ends(sealed.volume, region);
+    return sealed;
+}
+
+void report_left_out(const Volume& volume, std::vector<std::string>& report)
+{
+    for (const std::string& missing : topology::left_out_in_words(volume.volume))
+        report.push_back("closed: " + missing);
+}
+
+FilledParts sweep_pieces(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context)
+{
+    const Member asked{&volume, nullptr, nullptr, options, true, true};
+    const std::string& name = volume.name;
+    std::vector<Part> parts;
+    add_parts(parts, asked, name.empty() ? "piece" : name, name.empty() ? "volume" : name, context);
+    for (Part& part : parts) part.asked_name = name.empty() ? "the volume" : name;
+    return sweep_parts(parts, {}, true, context);
+}
+
+Filled sweep(std::span<const Member> members, const RunContext& context)
+{
+    std::vector<Part> parts;
+    std::vector<sweep::LeftOut> left_out;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const Member& member = members[m];
+        if (member.mesh != nullptr) parts.push_back({nullptr, {}, {}, keep(*member.mesh, context)});
+        if (member.parts != nullptr)
+            for (std::unique_ptr<KeptMesh>& kept : keep(*member.parts, context))
+                parts.push_back({nullptr, {}, {}, std::move(kept)});
+        if (member.volume == nullptr) continue;
+        const std::string& own = member.volume->name;
+        const std::string name = own.empty() ? "volume_" + std::to_string(m + 1) : own;
+        const auto add = [&] { add_parts(parts, member, name, name, context); };
+        if (!do_or_leave_out(left_out, name, member, add))
+            parts.push_back({&member, name, *member.volume, nullptr, true});
+    }
+    Filled filled{{}, sweep_parts(parts, std::move(left_out), false, context)};
+    for (const Member& member : members) {
+        if (member.volume == nullptr) continue;
+        const auto part = std::ranges::find(parts, &member, &Part::asked);
+        filled.volumes.push_back(part != parts.end() && part->piece_of == nullptr ? std::move(part->volume)
+                                                                                  : *member.volume);
+    }
+    return filled;
+}
+
+} // namespace lacuna::fill

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/volume.h>
+
+#include <lacuna/closure/walls_alone.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/progress.h>
+#include <lacuna/topology/auto_walls.h>
+#include <lacuna/topology/left_out.h>
+
+#include <utility>
+
+namespace lacuna::fill {
+
+namespace {
+
+using topology::Model;
+using topology::Roles;
+
+/// Find the walls from the rim of the one end that is named.
+/// @return  which faces were left out, and why.
+std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunContext& context)
+{
+    if (roles.source.empty() && roles.target.empty())
+        throw InvalidInput(
+            "lua.walls_without_ends",
+            "open_volume: walls = \"auto\" finds the walls from the rim of the source or the target; "
+            "name one of them");
+    const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
+    roles.walls = found.walls;
+    std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;
+    end.insert(end.end(), found.more_of_end.begin(), found.more_of_end.end());
+    std::vector<std::string> reasons;
+    if (found.of_cavity)
+        reasons.emplace_back("the given end lies in a cavity of a solid, whose other faces are the walls");
+    for (std::size_t i = 0; i < found.left_out.size(); ++i) {
+        reasons.push_back("no wall: " + topology::name_of(model, found.left_out[i]) +
+                          ", for two faces of the volume have " + topology::name_of(model, found.taken[i]) +
+                          " already");
+    }
+    return reasons;
+}
+
+std::vector<FaceId> faces_of(const Roles& roles)
+{
+    std::vector<FaceId> all = roles.source;
+    all.insert(all.end(), roles.target.begin(), roles.target.end());
+    all.insert(all.end(), roles.walls.begin(), roles.walls.end());
+    return all;
+}
+
+/// The roles found for faces, or for walls named alone; none where they are as they were named.
+std::optional<closure::Reading> find_roles(const Model& model, const std::vector<FaceId>& faces,
+                                           const RoleRequest& request, const RunContext& context)
+{
+    if (!request.roles) {
+        topology::require_none_left_out(model, faces, "roles");
+        return closure::find_reading(model, faces, request.reading, context);
+    }
+    const Roles& named = *request.roles;
+    if (request.find_walls || !named.source.empty() || !named.target.empty() || named.walls.empty() ||
+        request.override_class)
+        return std::nullopt;
+    auto found = closure::read_walls_alone(model, named.walls, request.reading == 1, context);
+    if (found) topology::require_none_left_out(model, named.walls, "roles");
+    return found;
+}
+
+topology::OpenVolume open_full_turn(const Model& model, const std::vector<FaceId>& faces,
+                                    const RoleRequest& request, const RunContext& context)
+{
+    if (!request.roles && !request.faces) topology::require_none_left_out(model, faces, "walls");
+    topology::OpenVolume volume = topology::open_volume(
+        model, request.roles ? *request.roles : Roles{{}, {}, faces}, context);
+    volume.full_turn = true;
+    return volume;
+}
+
+void take(closure::Reading found, Volume& volume)
+{
+    volume.volume = std::move(found.volume);
+    volume.take_guess = !found.holed.valid();
+    volume.role_reasons = std::move(found.roles.reasons);
+    volume.classification = std::move(found.classification);
+    volume.closure = std::move(found.closure);
+    volume.as_read = std::move(found.sealed);
+    volume.others = std::move(found.others);
+}
+
+} // namespace
+
+Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
+{
+    report_progress(context, "roles");
+    Volume volume;
+    std::vector<FaceId> faces;
+    if (!request.roles) faces = request.faces ? *request.faces : topology::all_faces(model);
+    if (request.full_turn) {
+        volume.volume = open_full_turn(model, faces, request, context);
+    } else if (auto found = find_roles(model, faces, request, context)) {
+        take(std::move(*found), volume);
+        if (request.override_class) volume.others.reset();
+    } else {
+        Roles roles = *request.roles;
+        if (request.find_walls) {
+            volume.role_reasons = find_walls(model, roles, context);
+            topology::require_none_left_out(model, faces_of(roles), "walls");
+        }
+        volume.volume = topology::open_volume(model, roles, context);
+    }
+    if (volume.closure && request.override_class && *request.override_class != volume.classification.value)
+        throw InvalidInput("lua.class_of_found_roles",
+                           "open_volume: these faces are swept between ends that closing makes, as class " +
+                               std::string(topology::to_string(volume.classification.value)) +
+                               "; to override the class, name the roles");
+    if (!volume.closure) {
+        volume.volume.override_class = request.override_class;
+        if (request.override_class) volume.as_read.reset();
+        volume.classification = topology::classify(volume.volume);
+    }
+    if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
+    volume.name = request.name;
+    volume.material = request.material;
+    return volume;
+}
+
+} // namespace lacuna::fill

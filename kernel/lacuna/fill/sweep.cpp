@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill.h>
+
+#include <lacuna/closure/branches.h>
+#include <lacuna/core/error.h>
+#include <lacuna/fill/describe.h>
+#include <lacuna/fill/detail/members.h>
+#include <lacuna/io/deck_middles.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <limits>
+#include <utility>
+
+namespace lacuna::fill {
+
+namespace {
+
+// --- middle nodes of decks --------------------------------------------------------------------------------
+
+/// The decks that a volume's faces came from. What asks them may outlive the volume, where layers are left
+/// to be made.
+struct GivenMiddles {
+    std::vector<std::shared_ptr<const io::Deck>> decks;
+    double tolerance = 0, scale = 1;
+
+    /// Nodes where `ask(deck)` finds them; the first deck that has one gives it.
+    template <class Ask>
+    std::vector<Vec3> find(std::size_t count, const Ask& ask) const
+    {
+        std::vector<Vec3> found(count, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        for (const auto& deck : decks) {
+            const std::vector<Vec3> own = ask(*deck);
+            for (std::size_t i = 0; i < found.size(); ++i)
+                if (!found[i].allFinite()) found[i] = own[i];
+        }
+        return found;
+    }
+};
+
+void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
+{
+    constexpr double kTogether =
+        1e-9; // of the diagonal: kept nodes are the decks' to the bit, but for the scale
+    const GivenMiddles given{volume.decks, kTogether * volume.volume.model.diagonal, volume.scale};
+    options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
+        return given.find(from.size(), [&](const io::Deck& deck) {
+            return io::middles_between(deck, from, to, given.tolerance, given.scale);
+        });
+    };
+    options.given_centres = [given](std::span<const std::array<Vec3, 4>> quads) {
+        return given.find(quads.size(), [&](const io::Deck& deck) {
+            return io::centres_of(deck, quads, given.tolerance, given.scale);
+        });
+    };
+}
+
+// --- one sweep of a volume --------------------------------------------------------------------------------
+
+/// Report what closing assumed, and report and log what a match was unsure of that void edges were drawn by.
+void report_closure(const Volume& volume, std::vector<std::string>& report, const RunContext& context)
+{
+    report_left_out(volume, report);
+    if (!volume.closure) return;
+    if (volume.match && !volume.closure->void_edges.empty()) {
+        for (const std::string& note : volume.match->notes) {
+            report.push_back("match: " + note);
+            if (context.log) context.log(report.back());
+        }
+    }
+    for (const std::string& note : volume.closure->notes) report.push_back("closed: " + note);
+}
+
+Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunContext& context)
+{
+    Volume sealed = close_to_sweep(volume, volume.name.empty() ? "the volume" : volume.name, context);
+    if (!sealed.decks.empty()) keep_given_middles(sealed, options.second_order);
+    FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material};
+    report_closure(sealed, mesh.swept.report, context);
+    if (!sealed.name.empty()) mesh.swept.mesh.volume_groups = {sealed.name};
+    Filled filled{{}, std::move(mesh)};
+    filled.volumes.push_back(std::move(sealed));
+    return filled;
+}
+
+Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request, const RunContext& context)
+{
+    if (!pieces) return sweep_whole(volume, request.options, context);
+    sweep::SweepOptions options = request.options;
+    options.layered = options.layered && request.layered_parts;
+    if (!options.layered) options.crew = nullptr;
+    Filled filled{{}, sweep_pieces(volume, options, context)};
+    filled.volumes.push_back(volume);
+    return filled;
+}
+
+// --- other sweeps of the same void ------------------------------------------------------------------------
+
+/// A volume with the roles of another sweep of its void.
+Volume with_other_sweep(const Volume& volume, std::size_t number)
+{
+    Volume other = volume;
+    other.volume = closure::other_sweep(*volume.others, number);
+    other.closure = volume.others->closure;
+    other.classification = topology::classify(other.volume);
+    other.match.reset();
+    return other;
+}
+
+std::vector<std::string>& report_of(Filled& filled)
+{
+    if (auto* parts = std::get_if<FilledParts>(&filled.mesh)) return parts->swept.report;
+    return std::get<FilledVolume>(filled.mesh).swept.report;
+}
+
+} // namespace
+
+Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
+{
+    SweepRequest request = asked;
+    sweep::share_deadline(request.options.improving);
+    std::vector<std::string> failed; // a line for each sweep
+    std::exception_ptr first;
+    Volume now = volume;
+    for (std::size_t next = 0;; ++next) {
+        const bool pieces = closure::has_pieces(now.volume, context);
+        const auto note_failure = [&](const Error& why) {
+            if (!first && !volume.others) throw;
+            if (!first) first = std::current_exception();
+            failed.push_back("roles: swept " + ends_in_words(now.volume) + " it fails: " + why.what() + " [" +
+                             why.code() + "]");
+            log_line(context, failed.back());
+        };
+        try {
+            Filled filled = sweep_once(now, pieces, request, context);
+            if (!failed.empty())
+                failed.push_back("roles: swept " + ends_in_words(filled.volumes.front().volume) +
+                                 " instead, which encloses the same volume");
+            std::vector<std::string>& report = report_of(filled);
+            report.insert(report.begin(), failed.begin(), failed.end());
+            return filled;
+        } catch (const NotSweepable& error) {
+            note_failure(error);
+        } catch (const NotClosed& error) {
+            note_failure(error);
+        }
+        if (next == volume.others->ways.size()) std::rethrow_exception(first);
+        const bool told = now.told || !pieces;
+        now = with_other_sweep(volume, next);
+        now.told = told;
+    }
+}
+
+Filled fill(const topology::Model& model, const Request& request, const RunContext& context)
+{
+    Volume volume = open(model, request.roles, context);
+    volume.decks = request.decks;
+    volume.scale = request.scale;
+    if (request.match) volume = match(std::move(volume), request.match, context);
+    if (request.close) volume = close(std::move(volume), request.close, context);
+    return sweep(volume, request.sweep, context);
+}
+
+} // namespace lacuna::fill

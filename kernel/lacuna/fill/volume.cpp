@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/volume.h>
+
+#include <lacuna/closure/branches.h>
+#include <lacuna/closure/cut.h>
+#include <lacuna/closure/piece_ends.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/progress.h>
+#include <lacuna/fill/detail/members.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::fill {
+
+using topology::Role;
+
+namespace {
+
+bool asks_nothing(const closure::CloseOptions& options)
+{
+    const closure::CloseOptions none;
+    return options.edge_shape == none.edge_shape && options.void_edges.empty() && options.cap == none.cap &&
+           options.holes == none.holes;
+}
+
+void match_ends(Volume& volume, const matching::MatchOptions& options, const RunContext& context)
+{
+    if (options == matching::MatchOptions{} && volume.as_read) {
+        volume.match = volume.as_read->match;
+        return;
+    }
+    volume.as_read.reset();
+    volume.match = matching::match(volume.volume, options, context);
+}
+
+/// The ends match when their holes are covered, and not before.
+bool must_match(const Volume& volume, const closure::CloseOptions& options, const RunContext& context)
+{
+    const topology::OpenVolume& open = volume.volume;
+    if (volume.match || options.holes == closure::Holes::cover || open.faces(Role::source).empty() ||
+        open.faces(Role::target).empty())
+        return false;
+    return !(topology::free_edges(open).empty() && closure::has_steps(open, context));
+}
+
+} // namespace
+
+Volume override_class(Volume volume, topology::VolumeClass value)
+{
+    if (volume.closure)
+        throw InvalidInput("lua.sealed", "override_class: the volume is sealed already; override its "
+                                         "class before close()");
+    volume.others.reset();
+    volume.as_read.reset();
+    volume.volume.override_class = value;
+    volume.classification = topology::classify(volume.volume);
+    return volume;
+}
+
+Volume match(Volume volume, const std::optional<matching::MatchOptions>& options, const RunContext& context)
+{
+    if (volume.closure && (options || !volume.match))
+        throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
+    if (options) volume.others.reset();
+    if (options || !volume.match) match_ends(volume, options.value_or(matching::MatchOptions{}), context);
+    return volume;
+}
+
+Volume close(Volume volume, const std::optional<closure::CloseOptions>& options, const RunContext& context)
+{
+    if (options) volume.others.reset();
+    if (volume.closure) { // sealed as its roles were found: its assumptions were not logged yet
+        if (!std::exchange(volume.told, true)) closure::log_notes(*volume.closure, context);
+        return volume;
+    }
+    closure::CloseOptions asked = options.value_or(closure::CloseOptions{});
+    if (must_match(volume, asked, context)) {
+        matching::MatchOptions by_hand;
+        by_hand.vertices = closure::pairs_by_hand(volume.volume, asked);
+        match_ends(volume, by_hand, context);
+    }
+    report_progress(context, "closing");
+    volume.told = true;
+    // Assumptions of a trial with void edges are measured and logged where it is closed anew.
+    if (volume.as_read && asks_nothing(asked) && volume.as_read->closure.void_edges.empty()) {
+        volume.closure = std::move(volume.as_read->closure);
+        volume.volume = std::move(volume.as_read->volume);
+        volume.as_read.reset();
+        closure::log_notes(*volume.closure, context);
+        return volume;
+    }
+    asked.take_guess = volume.take_guess;
+    volume.closure = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked, context);
+    return volume;
+}
+
+Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name)
+{
+    Volume volume;
+    volume.volume = std::move(piece.volume);
+    volume.level = piece.level;
+    volume.name = name;
+    volume.material = whole.material;
+    volume.take_guess = whole.take_guess;
+    volume.decks = whole.decks;
+    volume.scale = whole.scale;
+    return volume;
+}
+
+std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext& context)
+{
+    std::vector<closure::StepPiece> cut = where.plane
+                                              ? closure::cut_by_plane(volume.volume, *where.plane, context)
+                                          : where.model ? closure::cut_by_face(volume.volume, *where.model,
+                                                                               where.face, context)
+                                                        : closure::cut_into_pieces(volume.volume, context);
+    if (where.plane || where.model) closure::read_ends(cut, context);
+    std::vector<Volume> pieces;
+    for (closure::StepPiece& piece : cut) {
+        const std::string number = "_" + std::to_string(pieces.size() + 1);
+        Volume& own = pieces.emplace_back(
+            piece_of(volume, std::move(piece), volume.name.empty() ? "" : volume.name + number));
+        own.classification = topology::classify(own.volume);
+        own.level = std::max(volume.level, own.level);
+    }
+    return pieces;
+}
+
+} // namespace lacuna::fill

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/open_volume.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::topology {
+
+/// A face of a CAD file that could not be read and is not a sliver: it leaves a hole in the model.
+struct LeftOutFace {
+    int tag = 0;        ///< in the file
+    std::string source; ///< the file(s)
+    std::string why;    ///< completes the sentence "face 6 …"
+    friend bool operator==(const LeftOutFace&, const LeftOutFace&) = default;
+};
+
+/// Base of the exact curves that know which faces of the file were left out next to their edge.
+class BesideLeftOut {
+public:
+    virtual ~BesideLeftOut() = default;
+    [[nodiscard]] virtual const std::vector<LeftOutFace>& left_out() const = 0;
+};
+
+/// A face left out that shares edges with faces that were read.
+struct LeftOutBeside {
+    LeftOutFace face;
+    std::vector<EdgeId> edges; ///< ascending
+};
+
+/// Faces left out next to `faces`: those with an edge that only one of `faces` uses.
+/// @return sorted by their first edges.
+/// @note   O(edges). The information is stored with the exact curves, so it also holds in every model that is
+///         extracted from the loaded one.
+std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector<FaceId>& faces);
+
+/// When walls or roles are detected automatically, a hole counts as part of the void. Throw if the hole is
+/// there because a face was left out.
+/// @param found  what is detected, for the message, such as "walls".
+/// @throw InvalidInput "cad.face_left_out"  names the face, one of its edges, and a remedy.
+void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, const std::string& found);
+
+/// Sentences that name the faces of the file that are missing next to the given faces of a volume and, after
+/// closing, the void faces that replace them.
+std::vector<std::string> left_out_in_words(const OpenVolume& volume);
+
+} // namespace lacuna::topology
