@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
+#include <lacuna/topology/left_out.h>
+
 #include <doctest/doctest.h>
 #include <gmsh.h>
 
