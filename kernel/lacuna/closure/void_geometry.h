@@ -34,7 +34,7 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// A bent face with four logical sides: Algorithm 6 (Algorithm 5 where two of them are closed edges), a
 /// bilinear Coons patch over arc length.
 /// Departure from the paper: a bent four-sided face is transfinite at once, so that its facets and its
-/// mesh are the same surface. What remains, minimal area.
+/// mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
 /// @param follower  null, or what a bent four-sided face follows instead: the source side as the given
 ///                  walls move it up and the target side as they move it down, blended, and shifted to meet
 ///                  the sides.

@@ -14,8 +14,7 @@ namespace lacuna::closure {
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
-/// Whether a face over its rim's plane lies on no quadratic height, be it bent ever so little; or was made
-/// with least area.
+/// Whether a face over its rim's plane lies on no quadratic height, be it bent ever so little.
 bool bends_off_quadratic(const topology::Model& model, FaceId face);
 
 /// Whether a face's rim lies on one quadric, or on a ball, a round cylinder, a cone or two planes among many,
