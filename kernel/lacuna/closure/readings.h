@@ -67,10 +67,6 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A tube with a flat floor round a narrower bore at one of its two ends, as a counterbore's wall and ledge
 /// are, is read from that floor and the bore's mouth in it.
 ///
-/// Where the likeliest void is closed by a membrane, a void face over a rim that lies in no plane and leaves
-/// open how its inside bends, unlikely readings without steps are tried too: where all of them that close
-/// without membranes enclose one void, that is taken instead.
-///
 /// Free loops that flat faces close, though not one each (one has a hole, or a loop lies in two planes), are
 /// one more void. So is a channel without its ends and a wall where nothing else tells: the free loop's runs
 /// in two planes are its ends where they are alike.

@@ -48,16 +48,9 @@ bool leaves_open(const Sealed& sealed);
 std::vector<FaceId> as_named(const topology::Roles& roles);
 
 /// Readings of the given faces, sealed and sorted by what they enclose.
-/// @param most     as many are sealed
-/// @param settled  leave out those that close with a membrane, and count those that do not seal too
+/// @param most  as many are sealed
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
-                        std::size_t most, bool settled, const RunContext& context);
-
-/// The one void that readings without steps enclose, however unlikely, closed without a membrane; what of
-/// several is meant, nobody knows. Only where both ends reach the rim of what is missing do they say how that
-/// bends.
-std::optional<Void> settled_void(const topology::Model& model, const std::vector<FaceId>& faces,
-                                 std::vector<topology::RoleCandidate> candidates, const RunContext& context);
+                        std::size_t most, const RunContext& context);
 
 /// Take the voids that a given end tells when it is moved to where the other is missing: where readings found
 /// one of these that stays, else the moved ones do.
