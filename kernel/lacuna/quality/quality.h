@@ -116,12 +116,6 @@ struct Proof {
 /// of exactly the patches, no node twice in one place or unused, every Jacobian certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
-/// The same for hexahedra and wedges of any origin.
-/// @param skin  where not empty, quads and triangles that must be exactly the skin, in any order and
-///              direction.
-Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
-                  double min_scaled_jacobian = 0, const RunContext& context = {});
-
 /// Turn the finding of a proof, if there is one, into an error.
 /// @throw NotSweepable  with the fault's code and the finding's message.
 void require(const Proof& proof);

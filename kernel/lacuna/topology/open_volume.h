@@ -15,8 +15,6 @@ namespace lacuna::topology {
 enum class VolumeClass { closed, I, II, III, IV, V };
 
 std::string_view to_string(VolumeClass value);
-/// @throw InvalidInput for a word that is no class.
-VolumeClass volume_class(std::string_view word);
 
 /// What a face is to the sweep.
 enum class Role { source, target, wall };
@@ -100,9 +98,6 @@ struct Classification {
 /// Which class the volume is of, the override obeyed.
 /// @throw InvalidInput  an override that contradicts the faces; says which.
 Classification classify(const OpenVolume& volume);
-
-/// One line a face: tag, name, kind, loops, edges, area, normal.
-std::string describe(const Model& model);
 
 /// A face as messages name it: `face 12`, or `face 12 "lid"`.
 std::string name_of(const Model& model, FaceId face);
