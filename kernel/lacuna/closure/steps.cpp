@@ -12,14 +12,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <exception>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 

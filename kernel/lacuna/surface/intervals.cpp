@@ -4,7 +4,6 @@
 #include <lacuna/core/error.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace lacuna::surface {

@@ -17,7 +17,6 @@
 #include <map>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace lacuna::topology {
 
