@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 #include "support/blocks.h"
+#include "support/prove_cells.h"
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
@@ -60,7 +61,7 @@ void check_deck(const io::Deck& deck, const mesh::HexMesh& mesh, bool skin)
     std::multiset<Hex> expected;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) expected.insert(mesh.hex(c));
     CHECK(std::multiset<Hex>(cells.begin(), cells.end()) == expected);
-    CHECK_FALSE(quality::prove_cells(deck.points, cells).finding);
+    CHECK_FALSE(test::prove_cells(deck.points, cells).finding);
     if (!skin) return;
     CHECK(count_of(deck, io::DeckShape::tri3) == 2 * mesh.triangle_count());
     CHECK(count_of(deck, io::DeckShape::quad4) == mesh.skin_count() - 2 * mesh.triangle_count());

@@ -5,7 +5,6 @@
 #include <lacuna/geometry/polyline.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::cad {
 

@@ -8,7 +8,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 

@@ -21,7 +21,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 
 namespace lacuna::closure {

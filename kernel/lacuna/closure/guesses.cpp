@@ -182,8 +182,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
         if (has_many_corners(model, loop) && is_straight_sided(model, loop) &&
             is_rim_far_off_plane(model, enclosed, face, loop))
             return true;
-    return model[face].geometry == Geometry::minimal ||
-           beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
+    return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
 /// Whether a missing end was blended between four sides without two straight opposite ones.

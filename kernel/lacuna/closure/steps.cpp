@@ -12,13 +12,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <exception>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 

@@ -10,9 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 
 namespace lacuna::closure {

@@ -33,7 +33,7 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// keyway on its shaft, the interior takes that, plus the harmonic interpolation of the residual at the rim.
 /// A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a bilinear
 /// Coons patch over arc length. Departure: a bent four-sided face is transfinite at once, so that its facets
-/// and its mesh are the same surface. All other faces: minimal area.
+/// and its mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
 /// @param follower  null, or the motion that a bent four-sided face follows: the source side moved up along
 ///                  the given walls and the target side moved down, blended, and shifted to meet the sides.
 /// @param name  of the face, in messages.

@@ -31,8 +31,6 @@ const char* word(topology::Geometry geometry)
         return "followed sides";
     case topology::Geometry::parallel:
         return "parallel to the other end";
-    case topology::Geometry::minimal:
-        return "minimal area";
     }
     return "unknown";
 }

@@ -5,7 +5,6 @@
 #include <lacuna/geometry/triangulate.h>
 
 #include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/segment.h>
 
 #include <algorithm>
 #include <numeric>
@@ -110,26 +109,16 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
            (cda == 0 && within_box(a, c, d)) || (cdb == 0 && within_box(b, c, d));
 }
 
-bool segments_near(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double tolerance)
-{
-    return distance_to_segment(a, c, d) <= tolerance || distance_to_segment(b, c, d) <= tolerance ||
-           distance_to_segment(c, a, b) <= tolerance || distance_to_segment(d, a, b) <= tolerance;
-}
-
 /// Neighbours share `common`; they overlap where the second folds back onto the first.
-bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b, double tolerance)
+bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b)
 {
-    if ((a - common).dot(b - common) <= 0) return false;
-    if (orient2d(common, a, b) == 0) return true;
-    const bool longer = (a - common).norm() > tolerance && (b - common).norm() > tolerance;
-    return tolerance > 0 && longer &&
-           (distance_to_segment(a, common, b) <= tolerance || distance_to_segment(b, common, a) <= tolerance);
+    return (a - common).dot(b - common) > 0 && orient2d(common, a, b) == 0;
 }
 
 } // namespace
 
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
-                                          std::span<const std::vector<Index>> loops, double tolerance)
+                                          std::span<const std::vector<Index>> loops)
 {
     const auto at = [&](Index i) -> const Vec2& { return points[static_cast<std::size_t>(i)]; };
     std::vector<LoopSegment> segments;
@@ -139,8 +128,7 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
         for (std::size_t k = 0; k < walk.size(); ++k) {
             const Index from = walk[k], to = walk[(k + 1) % walk.size()];
             segments.push_back({from, to, loop, k});
-            const Vec2 reach = Vec2::Constant(tolerance);
-            boxes.push_back({at(from).cwiseMin(at(to)) - reach, at(from).cwiseMax(at(to)) + reach});
+            boxes.push_back({at(from).cwiseMin(at(to)), at(from).cwiseMax(at(to))});
         }
     }
     const SegmentTree tree(boxes);
@@ -148,13 +136,10 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
     const auto bad = [&](const LoopSegment& s, const LoopSegment& r) {
         const std::size_t count = loops[s.loop].size();
         if (s.loop == r.loop && count > 2) {
-            if ((s.segment + 1) % count == r.segment)
-                return folds_back(at(s.to), at(s.from), at(r.to), tolerance);
-            if ((r.segment + 1) % count == s.segment)
-                return folds_back(at(r.to), at(r.from), at(s.to), tolerance);
+            if ((s.segment + 1) % count == r.segment) return folds_back(at(s.to), at(s.from), at(r.to));
+            if ((r.segment + 1) % count == s.segment) return folds_back(at(r.to), at(r.from), at(s.to));
         }
-        return segments_meet(at(s.from), at(s.to), at(r.from), at(r.to)) ||
-               (tolerance > 0 && segments_near(at(s.from), at(s.to), at(r.from), at(r.to), tolerance));
+        return segments_meet(at(s.from), at(s.to), at(r.from), at(r.to));
     };
     for (std::size_t i = 0; i < segments.size(); ++i) {
         std::size_t first = segments.size();

@@ -354,7 +354,7 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
     }
 }
 
-std::vector<Index> DelaunayMesh::mark_inside()
+void DelaunayMesh::mark_inside()
 {
     // Breadth first, one constraint deeper at a time; triangle_of_ of an outer corner is outside.
     std::vector<Index> depth(triangles_.size(), -1);
@@ -375,7 +375,6 @@ std::vector<Index> DelaunayMesh::mark_inside()
         }
         level = std::move(deeper);
     }
-    return depth;
 }
 
 } // namespace lacuna::geometry

@@ -42,8 +42,8 @@ public:
     /// @pre both are inserted; no point lies on the segment and no constraint crosses it.
     void fix_segment(Index a, Index b);
 
-    /// How many constraints lie between each triangle and the outside. Sets `inside` where that is odd.
-    std::vector<Index> mark_inside();
+    /// Set `inside` where an odd number of constraints lies between a triangle and the outside.
+    void mark_inside();
 
     /// The triangle of the directed side a → b, and which of its sides it is; {-1, -1} where there is none.
     [[nodiscard]] std::pair<Index, int> find_side(Index a, Index b) const;

@@ -375,15 +375,4 @@ PlanarLocator::FacetPosition PlanarLocator::locate(const Vec2& place) const
     return {hit.triangle, hit.barycentric, hit.triangle >= 0 ? std::sqrt(hit.distance2) : 0.0};
 }
 
-Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::FacetPosition& place)
-{
-    const Triangle& triangle = flat.triangles[index(place.triangle)];
-    // From one corner out, points far from the origin lose no digits.
-    const auto corner = [&](std::size_t i) -> const Vec3& {
-        return points[index(flat.used[index(triangle[i])])];
-    };
-    return corner(0) + place.barycentric[1] * (corner(1) - corner(0)) +
-           place.barycentric[2] * (corner(2) - corner(0));
-}
-
 } // namespace lacuna::geometry

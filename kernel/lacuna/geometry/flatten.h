@@ -92,8 +92,4 @@ private:
     std::vector<Weights> weights_;
 };
 
-/// The point in space at a place of the flat facets; `points` as given to flatten().
-/// @pre place.triangle >= 0
-Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::FacetPosition& place);
-
 } // namespace lacuna::geometry

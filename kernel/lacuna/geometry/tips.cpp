@@ -3,7 +3,6 @@
 
 #include <lacuna/geometry/angle.h>
 
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/delaunay.h>
-#include <lacuna/geometry/detail/loop_points.h>
 #include <lacuna/geometry/predicates.h>
 
 #include <algorithm>
@@ -27,7 +26,16 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
         throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = loop_name(l, loops.size());
-        check_loop_points<Vec2>(points, loops[l], name, "a region");
+        if (loops[l].size() < 3) {
+            throw InvalidInput("geometry.short_loop", name + " has " + std::to_string(loops[l].size()) +
+                                                          " points; a region needs at least 3");
+        }
+        for (const Index p : loops[l]) {
+            if (p >= 0 && index(p) < points.size() && points[index(p)].allFinite()) continue;
+            throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) + " of " +
+                                                         std::to_string(points.size()) +
+                                                         ", which does not exist or is not finite");
+        }
         const Vec2& a = points[index(loops[l][0])];
         const auto differs = [&](Index p) { return points[index(p)] != a; };
         const auto other = std::find_if(loops[l].begin(), loops[l].end(), differs);
@@ -43,36 +51,6 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
                                   loop_name(crossing->loop_b, loops.size());
         throw InvalidInput("geometry.loops_cross",
                            where + "; loops must be simple and apart from each other");
-    }
-}
-
-/// How many loops lie around each loop.
-std::vector<Index> nesting(const DelaunayMesh& mesh, const std::vector<Index>& depth,
-                           std::span<const std::vector<Index>> loops)
-{
-    std::vector<Index> result;
-    for (const std::vector<Index>& loop : loops) {
-        const Index left = mesh.find_side(loop[0], loop[1]).first;
-        const Index right = mesh.find_side(loop[1], loop[0]).first;
-        result.push_back(std::min(depth[index(left)], depth[index(right)]));
-    }
-    return result;
-}
-
-void check_single_region(const std::vector<Index>& around)
-{
-    const auto outer = static_cast<std::size_t>(std::find(around.begin(), around.end(), 0) - around.begin());
-    for (std::size_t l = 0; l < around.size(); ++l) {
-        const std::string name = loop_name(l, around.size());
-        if (around[l] == 0 && l != outer) {
-            throw InvalidInput("geometry.loops_apart",
-                               name + " and " + loop_name(outer, around.size()) +
-                                   " lie outside each other; one must hold all the others");
-        }
-        if (around[l] > 1) {
-            throw InvalidInput("geometry.island_in_island",
-                               name + " lies within an island; islands must lie side by side");
-        }
     }
 }
 
@@ -339,8 +317,7 @@ Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vec
     for (const std::vector<Index>& loop : loops) {
         for (std::size_t k = 0; k < loop.size(); ++k) mesh.fix_segment(loop[k], loop[(k + 1) % loop.size()]);
     }
-    const std::vector<Index> depth = mesh.mark_inside();
-    if (options.single_region) check_single_region(nesting(mesh, depth, loops));
+    mesh.mark_inside();
     if (options.interior_points) Refinement(mesh, loops, options).run(context);
     return take_inside(mesh);
 }

@@ -28,7 +28,6 @@ struct TriangulateOptions {
     /// spacing all over; infinity: the rim does not count, only `size`.
     double grading = 0.2;
     std::size_t max_points = 1'000'000; ///< refinement stops at this many added points
-    bool single_region = false; ///< a loop outside the outermost one, or inside an island, is an error
 };
 
 /// Constrained Delaunay triangulation of the region within closed loops.
@@ -54,13 +53,10 @@ struct LoopCrossing {
     std::size_t loop_a, segment_a, loop_b, segment_b;
 };
 
-/// The first pair of segments (by loop, then segment) that cross, touch without being neighbours, overlap,
-/// or come within `tolerance` of each other; nothing where the loops are clean.
-///
-/// @param tolerance  0: exact. Segments should be longer than it: those next but one to a shorter one are
-///         near.
+/// The first pair of segments (by loop, then segment) that cross, touch without being neighbours or overlap,
+/// decided exactly; nothing where the loops are clean.
 /// @note  O(n log n) for segments that do not crowd.
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
-                                          std::span<const std::vector<Index>> loops, double tolerance = 0);
+                                          std::span<const std::vector<Index>> loops);
 
 } // namespace lacuna::geometry

@@ -4,7 +4,6 @@
 #include <lacuna/geometry/angle.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace lacuna::matching {

@@ -11,10 +11,8 @@
 #include <lacuna/quads/smooth_plane.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lacuna::quads {
 namespace {

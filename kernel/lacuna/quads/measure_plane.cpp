@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 namespace lacuna::quads {
 

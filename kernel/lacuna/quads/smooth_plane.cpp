@@ -8,7 +8,6 @@
 #include <lacuna/quads/measure_plane.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -4,7 +4,6 @@
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

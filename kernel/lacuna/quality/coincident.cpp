@@ -5,7 +5,6 @@
 #include <lacuna/core/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>

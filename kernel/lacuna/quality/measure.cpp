@@ -6,7 +6,6 @@
 #include <lacuna/core/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::quality {
 namespace {

@@ -286,13 +286,6 @@ const MetricInfo& metric_info(Metric metric) { return kInfos[static_cast<std::si
 
 std::span<const MetricInfo, kMetricCount> metric_infos() { return kInfos; }
 
-std::optional<Metric> metric_named(std::string_view name)
-{
-    for (const MetricInfo& info : kInfos)
-        if (name == info.name) return info.metric;
-    return {};
-}
-
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context)
 {

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lacuna::quality {
@@ -68,7 +67,6 @@ struct MetricInfo {
 
 const MetricInfo& metric_info(Metric metric);
 inline const char* metric_name(Metric metric) { return metric_info(metric).name; }
-std::optional<Metric> metric_named(std::string_view name);
 /// The properties of all metrics, in the order of `Metric`.
 std::span<const MetricInfo, kMetricCount> metric_infos();
 

@@ -6,7 +6,6 @@
 #include <lacuna/surface/edge_nodes.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 

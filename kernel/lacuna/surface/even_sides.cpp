@@ -6,7 +6,6 @@
 #include <lacuna/surface/detail/sides_asked.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

@@ -4,7 +4,6 @@
 #include <lacuna/core/edge_key.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 

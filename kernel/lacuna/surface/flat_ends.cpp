@@ -4,7 +4,6 @@
 #include <lacuna/geometry/polyline.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

@@ -6,13 +6,8 @@
 #include <lacuna/topology/give_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <map>
-#include <numeric>
 #include <set>
-#include <unordered_map>
 
 namespace lacuna::surface {
 

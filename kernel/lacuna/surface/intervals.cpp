@@ -5,7 +5,6 @@
 #include <lacuna/topology/names_of.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace lacuna::surface {

@@ -115,13 +115,4 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
     return faces;
 }
 
-std::vector<FaceId> Projector::closest_face(std::span<const Vec3> points) const
-{
-    std::vector<FaceId> faces(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        faces[i] = face_of_[static_cast<std::size_t>(tree_.closest(points[i]).triangle)];
-    }
-    return faces;
-}
-
 } // namespace lacuna::surface

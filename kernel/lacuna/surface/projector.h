@@ -44,8 +44,6 @@ public:
     /// Move points to the closest place; what the exact surface would have beyond the face's border goes to
     /// the nearest point of that border's curves. @return the face of each.
     std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
-    /// The face whose facets are closest to each point.
-    [[nodiscard]] std::vector<FaceId> closest_face(std::span<const Vec3> points) const;
 
 private:
     const topology::Model* model_;

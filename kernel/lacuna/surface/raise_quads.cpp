@@ -9,7 +9,6 @@
 #include <lacuna/surface/projector.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>

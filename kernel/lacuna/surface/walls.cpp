@@ -12,8 +12,6 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -311,8 +309,8 @@ private:
         }
         for (const auto& [face, work] : on_face) {
             const Face& f = model_[face];
-            const std::vector<Vec3> points =
-                points_at({model_.points, f.triangles, f.uv, exact_ ? f.surface.get() : nullptr}, work.first);
+            const std::vector<Vec3> points = points_at(
+                {model_.points, f.triangles, f.uv, exact_ ? f.surface.get() : nullptr}, work.first);
             for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[work.second[j]] = points[j];
         }
     }
@@ -335,21 +333,6 @@ private:
 };
 
 } // namespace
-
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts)
-{
-    std::vector<std::vector<double>> shares;
-    for (const int count : counts) {
-        shares.emplace_back();
-        for (int k = 0; k < count; ++k) shares.back().push_back(static_cast<double>(k) / count);
-    }
-    return linking_nodes(link, shares);
-}
-
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares)
-{
-    return linking_nodes(link, shares, shares);
-}
 
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target)

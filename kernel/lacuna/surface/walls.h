@@ -18,11 +18,7 @@ struct LinkingNodes {
     std::vector<std::size_t> line; ///< node at the foot of each side line
 };
 
-/// Spread `counts[i]` sides evenly over segment i.
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts);
-/// Nodes at given shares of each segment, rising from 0 and below 1.
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares);
-/// The same, with shares of their own on the target: as many on each segment.
+/// Nodes at given shares of each segment, rising from 0 and below 1: as many on the target as on the source.
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target);
 

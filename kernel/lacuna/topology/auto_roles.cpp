@@ -18,7 +18,6 @@
 #include <map>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace lacuna::topology {
 

@@ -7,7 +7,6 @@
 #include <lacuna/topology/side_points.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -34,8 +34,6 @@ const char* word(topology::Geometry geometry)
         return "a strip between two loops";
     case topology::Geometry::followed:
         return "as the walls lead";
-    case topology::Geometry::minimal:
-        return "of least area";
     case topology::Geometry::parallel:
         return "parallel to the other end";
     }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include "support/prove_cells.h"
+
 #include <lacuna/quality/detail/findings.h>
-#include <lacuna/quality/quality.h>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
-namespace lacuna::quality {
+namespace lacuna::test {
+
+using namespace quality;
+
 namespace {
 
 constexpr Index kGivenSkin = -1; ///< owner of a side from the given skin
@@ -210,4 +214,4 @@ Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::
     return proof;
 }
 
-} // namespace lacuna::quality
+} // namespace lacuna::test
