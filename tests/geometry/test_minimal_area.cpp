@@ -274,7 +274,7 @@ TEST_CASE("loops that cannot bound a surface are refused by number")
                          InvalidInput);
     outline.loops[1] = {0, 1, 2};
     CHECK_THROWS_WITH_AS(minimal_area(outline.points, outline.loops),
-                         doctest::Contains("point 1 where loop 1"), InvalidInput);
+                         doctest::Contains("point 1, which is also in loop 1"), InvalidInput);
     outline.loops[1] = {5, 6, 7};
     CHECK_THROWS_WITH_AS(minimal_area(outline.points, outline.loops), doctest::Contains("does not exist"),
                          InvalidInput);

@@ -19,17 +19,17 @@ namespace {
 
 void check_loops(std::span<const Vec3> points, std::span<const std::vector<Index>> loops)
 {
-    if (loops.empty()) throw InvalidInput("geometry.no_loop", "there is no loop to span; give at least one");
+    if (loops.empty()) throw InvalidInput("geometry.no_loop", "minimal_area needs at least one loop");
     std::vector<Index> loop_of(points.size(), -1);
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = "loop " + std::to_string(l + 1) + " of " + std::to_string(loops.size());
         check_loop_points<Vec3>(points, loops[l], name, "a surface");
         for (const Index p : loops[l]) {
             if (loop_of[index(p)] >= 0) {
-                throw InvalidInput("geometry.loops_touch",
-                                   name + " comes to point " + std::to_string(p + 1) + " where loop " +
-                                       std::to_string(loop_of[index(p)] + 1) +
-                                       " has been; loops must be simple and apart from each other");
+                throw InvalidInput("geometry.loops_touch", name + " contains point " + std::to_string(p + 1) +
+                                                               ", which is also in loop " +
+                                                               std::to_string(loop_of[index(p)] + 1) +
+                                                               "; loops must be simple and disjoint");
             }
             loop_of[index(p)] = static_cast<Index>(l);
         }
@@ -53,7 +53,7 @@ struct Bridge {
     double length2;
 };
 
-/// The shortest bridges between two loops, each as far along the first from those before as `count` asks.
+/// The shortest bridges between two loops, `count` of them, spaced evenly along the first loop.
 std::vector<Bridge> bridges_between(std::span<const Vec3> points, const std::vector<Index>& from,
                                     const std::vector<Index>& to, std::size_t count)
 {
@@ -85,9 +85,10 @@ std::vector<Bridge> bridges_between(std::span<const Vec3> points, const std::vec
 }
 
 /// Bridges of a minimum spanning tree over the loops, `trials` choices for each, in the order a tree grows
-/// from the first loop: every bridge starts at a loop reached before.
+/// Candidate bridges of a minimum spanning tree over the loops, `trials` for each loop, in the order in which
+/// the tree grows from the first loop: every bridge starts at a loop reached earlier.
 struct Joint {
-    std::size_t loop; ///< the one reached
+    std::size_t loop; ///< the loop that the bridge reaches
     std::vector<Bridge> choices;
 };
 
@@ -119,10 +120,10 @@ std::vector<Joint> spanning_joints(std::span<const Vec3> points, std::span<const
     return joints;
 }
 
-/// One polygon along all loops, and which of its sides are the two banks of a bridge.
+/// One polygon along all loops, and the pairs of its sides that belong to a bridge.
 struct JoinedPolygon {
     CoverPolygon polygon;
-    std::vector<std::pair<std::size_t, std::size_t>> banks; ///< sides glued again, side k from corner k
+    std::vector<std::pair<std::size_t, std::size_t>> banks; ///< to merge; side k starts at corner k
 };
 
 JoinedPolygon join_loops(std::span<const Vec3> points, std::span<const std::vector<Index>> loops,
@@ -130,7 +131,7 @@ JoinedPolygon join_loops(std::span<const Vec3> points, std::span<const std::vect
 {
     struct Corner {
         Index point;
-        Index bank; ///< the side from here is bank 2·j or 2·j + 1 of joint j; -1: a loop's side
+        Index bank; ///< the side after this corner is bank 2·j or 2·j + 1 of bridge j; -1: a side of a loop
     };
     std::vector<Corner> walk;
     for (const Index p : loops[0]) walk.push_back({p, -1});
@@ -144,7 +145,7 @@ JoinedPolygon join_loops(std::span<const Vec3> points, std::span<const std::vect
         std::vector<Corner> detour{{bridge.a, static_cast<Index>(2 * j)}};
         for (std::size_t k = 0; k < loop.size(); ++k) detour.push_back({loop[(start + k) % loop.size()], -1});
         detour.push_back({bridge.b, static_cast<Index>(2 * j + 1)});
-        walk.insert(at, detour.begin(), detour.end()); // before the corner, which goes on as it did
+        walk.insert(at, detour.begin(), detour.end()); // inserted before the corner, whose side is unchanged
     }
     JoinedPolygon joined;
     joined.banks.resize(joints.size());
@@ -164,7 +165,7 @@ JoinedPolygon join_loops(std::span<const Vec3> points, std::span<const std::vect
 
 using SideMap = std::map<std::pair<Index, Index>, std::pair<Index, std::size_t>>;
 
-/// Triangle and side of each directed side.
+/// Triangle and side number of each directed side.
 SideMap map_sides(const std::vector<Triangle>& triangles)
 {
     SideMap side_of;
@@ -187,7 +188,7 @@ std::vector<Triangle> neighbours(const SideMap& side_of, std::size_t triangles)
     return next;
 }
 
-/// Triangles over the points, glued along the bridges; nothing where sides stay doubled.
+/// Triangles over the points, merged along the bridges; nothing if duplicate sides remain.
 std::optional<PatchMesh> glued(std::span<const Vec3> points, const JoinedPolygon& joined, const Cover& cover)
 {
     const auto corners = static_cast<Index>(joined.polygon.point.size());
@@ -209,8 +210,8 @@ std::optional<PatchMesh> glued(std::span<const Vec3> points, const JoinedPolygon
     return mesh;
 }
 
-/// The Delaunay triangles of the loops' shadow on their Newell plane, where that is one region whose
-/// boundary runs as the loops do.
+/// Delaunay triangles of the projection of the loops to their Newell plane, if the projection is one region
+/// whose boundary has the direction of the loops.
 std::optional<PatchMesh> shadow_patch(std::span<const Vec3> points, std::span<const std::vector<Index>> loops)
 {
     std::vector<std::vector<Vec3>> places(loops.size());
@@ -224,7 +225,7 @@ std::optional<PatchMesh> shadow_patch(std::span<const Vec3> points, std::span<co
     try {
         flat = triangulate(shadow, loops, {.interior_points = false, .single_region = true});
     } catch (const InvalidInput&) {
-        return std::nullopt; // the shadow crosses itself, or has no area
+        return std::nullopt; // the projection intersects itself, or has no area
     }
     const SideMap side_of = map_sides(flat.triangles);
     for (const std::vector<Index>& loop : loops) {
@@ -262,8 +263,8 @@ PatchMesh best_patch(std::span<const Vec3> points, std::span<const std::vector<I
     if (best) return *std::move(best);
     throw InvalidInput("geometry.no_surface",
                        "the " + std::to_string(loops.size()) +
-                           " loops cannot be joined by triangles between their points without "
-                           "doubling a side; give the loops more points");
+                           " loops cannot be connected by triangles between their points without "
+                           "a duplicate side; give the loops more points");
 }
 
 } // namespace

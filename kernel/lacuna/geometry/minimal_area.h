@@ -10,47 +10,46 @@
 
 namespace lacuna::geometry {
 
-/// Options of `minimal_area()`. Costs are areas; the numbers without a unit weigh them.
+/// Options of `minimal_area()`. Costs are areas; options without a unit are their weights.
 struct MinimalAreaOptions {
-    /// What a turn between two triangles costs: bend × (1 − cos turn) / 2 × (length of their side)².
+    /// Cost of a bend between two triangles: bend × (1 − cos angle) / 2 × (length of their side)².
     double bend = 0.1;
-    /// What slender triangles cost: shape × (area of the equilateral triangle with the same sum of squared
-    /// sides − own area). Decides among equal areas, as in a plane.
+    /// Cost of slender triangles: shape × (area of the equilateral triangle with the same sum of squared
+    /// sides − area). Decides between triangulations of equal area, as in a plane.
     double shape = 0.01;
-    std::size_t exact_limit = 250; ///< loops of more points are cut up first; the work is cubic in this, >= 8
-    std::size_t bridge_trials = 4; ///< ways to join several loops that are tried, the best is kept
+    std::size_t exact_limit = 250; ///< larger loops are divided first, as the cost is cubic in this, >= 8
+    std::size_t bridge_trials = 4; ///< number of ways tried to connect several loops; the best is kept
 
-    bool interior_points = true; ///< refine to the rim's spacing and fair; false: the given points alone
-    double grading = 0.2;        ///< growth of the wanted side length with the distance to the rim, >= 0
-    int fairing_steps = 6;       ///< rounds of harmonic placing; each lessens the area, few are left to gain
-    std::size_t max_points = 200'000; ///< refinement stops at this many added points
+    bool interior_points = true; ///< refine to the spacing of the rim; false: use the given points only
+    double grading = 0.2;        ///< growth of the target side length with the distance from the rim, >= 0
+    int fairing_steps = 6;       ///< rounds of harmonic smoothing; the gain decreases quickly
+    std::size_t max_points = 200'000; ///< refinement stops after adding this many points
 };
 
 /// A surface with a given boundary.
 struct MinimalArea {
-    std::vector<Vec3> points;        ///< the given ones first, unchanged, then those added inside
-    std::vector<Triangle> triangles; ///< every boundary side runs as its loop does
+    std::vector<Vec3> points;        ///< the given ones first, unchanged, then inner points
+    std::vector<Triangle> triangles; ///< boundary sides have the direction of their loop
     double area = 0;                 ///< [length²]
 };
 
-/// Span closed loops in space by a surface of small area: one connected piece with the loops as boundary.
+/// Fill closed loops in space by a surface of small area: one connected patch with the loops as boundary.
 ///
-/// One loop: the triangulation of least cost over all that use its points alone, by dynamic programming
-/// @cite liepa_2003_holes with sums in place of his maximum. Several loops are joined to one by the
-/// shortest bridges along a minimum spanning tree (Zou, Ju and Carr 2013 do without, at the price of a
-/// search over all ways to part the loops), and sides doubled by that are flipped away. More points than
-/// `exact_limit`: where the loops' shadow on their Newell plane is simple, its Delaunay triangles; else the
-/// joined loop is spanned coarsely first, through points chosen by arc length and turning, then within each
-/// coarse triangle's part of the loop. Then sides are halved until they have the length the rim asks for,
-/// and points placed where the area is least for the triangles' angles (Pinkall and Polthier 1993), in turn
-/// with Delaunay flips.
+/// One loop: the triangulation of least cost among all that use its points only, by dynamic programming
+/// @cite liepa_2003_holes with sums in place of the maximum. Several loops are connected to one by the
+/// shortest bridges along a minimum spanning tree, and sides duplicated by that are flipped. (Zou, Ju and
+/// Carr 2013 avoid bridges by searching all partitions of the loops.) More points than `exact_limit`: if the
+/// projection of the loops to their Newell plane is simple, its Delaunay triangles are used; else a coarse
+/// polygon, with corners chosen by arc length and turning, is triangulated first, then the part of the loop
+/// in each coarse triangle. Then sides are split to the length given by the rim, and points are placed to
+/// minimise the area for the present angles (Pinkall and Polthier 1993), alternating with Delaunay flips.
 ///
-/// @param loops  point numbers in walking order, the surface on the left, the first not repeated; at least 3
-///               each, no point twice in all.
-/// @throw InvalidInput  such a loop is not given, or the loops cannot be joined to a manifold; names the
-///         loop. Cancelled.
-/// @note  Nothing keeps the surface from passing through itself where a loop is knotted or crumpled.
-///        O(exact_limit² · n) for the triangles; deterministic.
+/// @param loops  point numbers in order, surface on the left, the first not repeated; at least 3 points in
+///               each, no point twice.
+/// @throw InvalidInput  a loop violates this, or the loops cannot be connected to a manifold; names the loop.
+///         Cancelled.
+/// @note  The surface may intersect itself if a loop is knotted or very irregular.
+///        O(exact_limit² · n) for the triangulation; deterministic.
 MinimalArea minimal_area(std::span<const Vec3> points, std::span<const std::vector<Index>> loops,
                          const MinimalAreaOptions& options = {}, const RunContext& context = {});
 

@@ -14,10 +14,11 @@
 namespace lacuna::geometry {
 namespace {
 
-// A side is halved above this multiple of the wanted length: both halves are then nearer to it than the
-// whole was (Botsch and Kobbelt 2004).
+// Sides longer than this multiple of the target length are split: the halves are then closer to it than the
+// side was (Botsch and Kobbelt 2004).
 constexpr double kTooLong = 4.0 / 3.0;
-// Opposite angles may sum to π by rounding alone, as in squares; flipping those back and forth would not end.
+// Opposite angles may sum to π up to rounding, as in squares; without a tolerance, flips would alternate for
+// ever.
 constexpr double kDelaunaySlack = 1e-9;
 
 } // namespace
@@ -64,7 +65,7 @@ double PatchMesh::cotangent(Index triangle, int i) const
     const Vec3 v = at(corner(triangle, i + 2)) - at(corner(triangle, i));
     const double sine = u.cross(v).norm();
     const double cosine = u.dot(v);
-    // A flat triangle has no cotangents; beyond this bound they would drown all others in rounding.
+    // Cotangents of degenerate triangles are limited; larger values would make all others lost in rounding.
     constexpr double bound = 1e6;
     return std::abs(cosine) < bound * sine ? cosine / sine : std::copysign(bound, cosine);
 }
@@ -114,7 +115,7 @@ void PatchMesh::relink(Index triangle, Index before, Index after, Index from)
     next_[index(triangle)][static_cast<std::size_t>(side_towards(triangle, before, from))] = after;
 }
 
-///      d                d        `triangle` a-b-c with its side b → c, `other` d-c-b across it, become
+///      d                d        `triangle` a-b-c with its side b → c, and `other` d-c-b across it, become
 ///    /   \            / | \      a-b-d and a-d-c.
 ///   c --- b    →     c  |  b
 ///    \   /            \ | /
@@ -159,7 +160,7 @@ void PatchMesh::make_delaunay()
             if (across(t, side) > t) pending.emplace_back(t, side);
         }
     }
-    // In a curved surface flips need not settle; this many rounds are far beyond what a plane one takes.
+    // On a curved surface, flips may not terminate; this limit is far above the number needed in a plane.
     std::size_t budget = 20 * pending.size() + 100;
     while (!pending.empty() && budget-- > 0) {
         const auto [t, side] = pending.back();
@@ -204,8 +205,8 @@ double PatchMesh::wanted_between(Index a, Index b, double grading) const
 }
 
 ///      d                d
-///    /   \            / | \      The side b – c of `triangle` a-b-c, with d-c-b across it, gets
-///   c --- b    →     c-m-b     the midpoint m; old numbers go to a-b-m and d-c-m.
+///    /   \            / | \      The side b – c of `triangle` a-b-c, with d-c-b across it, is split at its
+///   c --- b    →     c-m-b     midpoint m; the old numbers are used for a-b-m and d-c-m.
 ///    \   /            \ | /
 ///      a                a
 void PatchMesh::split(Index triangle, int side, double wanted)
@@ -240,14 +241,14 @@ void PatchMesh::refine(double grading, std::size_t max_points, const RunContext&
         std::vector<std::pair<double, std::pair<Index, int>>> longest;
         for (Index t = 0; t < static_cast<Index>(triangles_.size()); ++t) {
             for (int side = 0; side < 3; ++side) {
-                if (across(t, side) <= t) continue; // the boundary, and sides met before
+                if (across(t, side) <= t) continue; // the boundary, and sides already visited
                 const Index b = corner(t, side + 1), c = corner(t, side + 2);
                 const double ratio = (at(b) - at(c)).norm() / wanted_between(b, c, grading);
                 if (ratio > kTooLong) longest.push_back({-ratio, {t, side}});
             }
         }
         if (longest.empty()) break;
-        // A triangle is split once a round, by its worst side, so that halves are looked at again.
+        // Split each triangle once per round, at its longest side; its halves are examined in the next round.
         std::sort(longest.begin(), longest.end());
         std::vector<bool> touched(triangles_.size(), false);
         for (const auto& [ratio, where] : longest) {
@@ -264,7 +265,8 @@ void PatchMesh::refine(double grading, std::size_t max_points, const RunContext&
     }
 }
 
-/// 1 for an equilateral triangle, 0 for a flat one, below where it faces away from `normal`.
+/// Shape quality: 1 for an equilateral triangle, 0 for a degenerate one, negative if it faces away from
+/// `normal`.
 double PatchMesh::shape(const Triangle& triangle, const Vec3& normal) const
 {
     double sides = 0;
@@ -319,11 +321,11 @@ void PatchMesh::place_harmonic(const RunContext& context)
     for (Index t = 0; t < static_cast<Index>(triangles_.size()); ++t) {
         for (int side = 0; side < 3; ++side) {
             const Index other = across(t, side);
-            if (other < t) continue; // the boundary has no free ends; inner sides are met once
+            if (other < t) continue; // the boundary has no free points; visit inner sides once
             const int far = side_towards(other, t, corner(t, side + 2));
             const double sum = cotangent(t, side) + cotangent(other, far);
             if (!(sum > 0))
-                continue; // only where a flip was refused: leave it out, so that no triangle turns over
+                continue; // only where a flip was refused: skip the side, so that no triangle is flipped over
             const Index a = corner(t, side + 1), b = corner(t, side + 2);
             for (const auto& [p, q] : {std::pair(a, b), std::pair(b, a)}) {
                 if (row[index(p)] < 0) continue;
@@ -338,7 +340,7 @@ void PatchMesh::place_harmonic(const RunContext& context)
     Eigen::SparseMatrix<double> matrix(rows, rows);
     matrix.setFromTriplets(entries.begin(), entries.end());
     const SparseFactor solver(matrix, context);
-    if (!solver.good()) return; // a point held by no weight: the surface stays as it is
+    if (!solver.good()) return; // a point has no weights: keep the surface
     const Eigen::MatrixX3d placed = solver.solve(right);
     if (!placed.allFinite()) return;
     for (std::size_t p = 0; p < points_.size(); ++p) {

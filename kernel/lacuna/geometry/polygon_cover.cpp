@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The cost of a chain i … k closed by the side k → i is that of its best triangle (i, m, k) and of the two
-// chains this leaves, so that all chains are solved from the short to the long (Barequet and Sharir 1995,
-// Liepa 2003). The turn across the sides i–m and m–k is taken against those chains' own best triangles.
+// The cost of a chain i … k, closed by the side k → i, is that of its best triangle (i, m, k) and of the two
+// remaining chains, so chains are solved from short to long (Barequet and Sharir 1995, Liepa 2003). The bend
+// at the sides i–m and m–k is measured against the best triangles of these chains.
 #include <lacuna/geometry/detail/polygon_cover.h>
 
 #include <lacuna/geometry/angle.h>
@@ -16,16 +16,16 @@
 namespace lacuna::geometry {
 namespace {
 
-// A triangle whose height is below this part of its longest side is none: rounding decides its normal.
+// A triangle with a height below this part of its longest side is degenerate: its normal is undefined.
 constexpr double kFlat = 1e-10;
 
 struct Chain {
     CoverCost cost{std::numeric_limits<int>::max() / 4, 0};
-    Vec3 normal = Vec3::Zero(); ///< of the triangle on the closing side
-    std::size_t apex = 0;       ///< 0: no way, or a side of the polygon
+    Vec3 normal = Vec3::Zero(); ///< normal of the triangle at the closing side
+    std::size_t apex = 0;       ///< 0: no solution, or a side of the polygon
 };
 
-/// The corners that take part, and the table over their pairs.
+/// The selected corners, and the table of their pairs.
 class ChainTable {
 public:
     ChainTable(const CoverPolygon& polygon, const CoverOptions& options, std::span<const std::size_t> corners)
@@ -73,7 +73,7 @@ private:
         return point(i) != point(k) && !polygon_.barred.contains(std::minmax(point(i), point(k)));
     }
 
-    /// What the turn across the closing side of a solved chain costs.
+    /// Cost of the bend at the closing side of a solved chain.
     [[nodiscard]] double turn_cost(const Chain& beyond, const Vec3& normal, double length2) const
     {
         if (beyond.apex == 0) return 0;
@@ -91,7 +91,7 @@ private:
             if ((m - i > 1 && left.apex == 0) || (k - m > 1 && right.apex == 0)) continue;
             if (point(m) == point(i) || point(m) == point(k)) continue;
             CoverCost cost = left.cost + right.cost;
-            if (best.apex != 0 && best.cost < cost) continue; // sums only grow
+            if (best.apex != 0 && best.cost < cost) continue; // costs only increase
             const Vec3 to = place(m) - place(i);
             const Vec3 cross = to.cross(base);
             const double to2 = to.squaredNorm();
@@ -114,8 +114,8 @@ private:
     std::vector<Chain> table_;
 };
 
-/// Corners that stand for the rest: as many as may be solved exactly, evenly in arc length and turning
-/// together, so that corners of the loop are among them.
+/// Select as many corners as can be solved exactly, evenly in arc length plus turning, so that sharp corners
+/// of the loop are included.
 std::vector<std::size_t> coarse_corners(const CoverPolygon& polygon, std::span<const std::size_t> corners,
                                         std::size_t wanted)
 {
@@ -161,7 +161,7 @@ bool cover_part(const CoverPolygon& polygon, const CoverOptions& options,
     const ChainTable table(polygon, options, coarse_corner);
     if (!table.solved()) return false;
     for (const auto& triangle : table.triangles()) {
-        // A coarse triangle's side is a diagonal, or stands for the part of the polygon between its ends.
+        // A side of a coarse triangle is a diagonal, or replaces the part of the polygon between its ends.
         std::vector<std::size_t> part;
         for (std::size_t side = 0; side < 3; ++side) {
             const std::size_t a = triangle[side];

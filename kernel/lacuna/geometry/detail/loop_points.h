@@ -10,8 +10,8 @@
 
 namespace lacuna::geometry {
 
-/// @param name  of the loop, and `purpose` what it bounds, for messages.
-/// @throw InvalidInput  a loop of fewer than 3 points, or one that does not exist or is not finite.
+/// @param name  of the loop; `purpose`: what it is used for. For messages.
+/// @throw InvalidInput  the loop has fewer than 3 points, or a point that does not exist or is not finite.
 template <class Point>
 void check_loop_points(std::span<const Point> points, std::span<const Index> loop, const std::string& name,
                        std::string_view purpose)

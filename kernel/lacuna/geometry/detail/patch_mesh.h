@@ -12,32 +12,32 @@
 
 namespace lacuna::geometry {
 
-/// A triangulated surface with boundary, in space, that can be flipped, refined and faired.
+/// A triangulated surface in space with a boundary, for flipping, refinement and smoothing.
 ///
-/// Side i of a triangle lies opposite corner i and runs from corner i + 1 to corner i + 2. The boundary,
-/// and points on it, are never touched.
+/// Side i of a triangle lies opposite corner i and runs from corner i + 1 to corner i + 2. The boundary and
+/// its points are never changed.
 class PatchMesh {
 public:
     /// @param next  the triangle across each side, -1 on the boundary.
     PatchMesh(std::vector<Vec3> points, std::vector<Triangle> triangles, std::vector<Triangle> next);
 
-    /// Flip sides that join the same two points as another side does, until none is left.
-    /// @return false where that cannot be.
+    /// Flip sides that connect the same two points as another side, until there are none.
+    /// @return false if this is impossible.
     bool resolve_doubled();
 
-    /// Flip inner sides whose opposite angles sum to more than π, where that neither doubles a side nor
-    /// folds. Every flip raises the least angles; ends after few rounds.
+    /// Flip inner sides whose opposite angles sum to more than π, unless the flip duplicates a side or folds
+    /// the surface. Every flip increases the smallest angles; a few rounds suffice.
     void make_delaunay();
 
-    /// Halve inner sides until all have the length wanted at their points: the mean length of the boundary
-    /// sides there, growing inward by `grading`. Sides are flipped and points evened out in between.
+    /// Split inner sides until all have the desired length at their points: the mean length of the boundary
+    /// sides there, growing inwards by `grading`. Sides are flipped and points smoothed in between.
     void refine(double grading, std::size_t max_points, const RunContext& context);
 
-    /// Move inner points towards the middle of their neighbours along the surface, where their triangles
-    /// become no worse for it.
+    /// Smooth inner points towards the centre of their neighbours along the surface, unless their triangles
+    /// get worse.
     void relax();
 
-    /// Place inner points so that the surface is harmonic for the present triangles, with cotangent weights.
+    /// Move inner points to a harmonic surface: minimal Dirichlet energy with the present cotangent weights.
     void place_harmonic(const RunContext& context);
 
     [[nodiscard]] double area() const;
@@ -54,8 +54,8 @@ private:
     {
         return next_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(side)];
     }
-    /// A triangle a-b-c with side b → c, the triangle d-c-b across that, and what lies over the four other
-    /// sides.
+    /// A triangle a-b-c with its side b → c, the triangle d-c-b across that side, and the neighbours across
+    /// the four other sides.
     struct TrianglePair {
         Index other, a, b, c, d, over_ca, over_ab, over_bd, over_dc;
     };
@@ -76,9 +76,9 @@ private:
     std::vector<Vec3> points_;
     std::vector<Triangle> triangles_;
     std::vector<Triangle> next_;
-    std::vector<bool> fixed_; ///< points of the boundary, and given points
+    std::vector<bool> fixed_; ///< boundary points and given points
     std::vector<double> size_;
-    std::unordered_map<std::uint64_t, int> sides_; ///< how many sides join two points
+    std::unordered_map<std::uint64_t, int> sides_; ///< number of sides that connect two points
 };
 
 } // namespace lacuna::geometry

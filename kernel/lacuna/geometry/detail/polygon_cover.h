@@ -11,7 +11,8 @@
 
 namespace lacuna::geometry {
 
-/// What a triangulation of a polygon in space costs: triangles that are none first, then the sum.
+/// Cost of a triangulation of a polygon in space, compared by the number of degenerate triangles, then by the
+/// sum.
 struct CoverCost {
     int degenerate = 0;
     double sum = 0;
@@ -26,11 +27,11 @@ struct CoverCost {
     }
 };
 
-/// A closed polygon, perhaps one that runs along bridges both ways: then points come twice.
+/// A closed polygon. It may run along bridges in both directions: points then occur twice.
 struct CoverPolygon {
-    std::vector<Vec3> place;                  ///< of each corner
-    std::vector<Index> point;                 ///< number of each corner's point; equal where it comes twice
-    std::set<std::pair<Index, Index>> barred; ///< pairs of points (lesser first) no diagonal may join
+    std::vector<Vec3> place;                  ///< position of each corner
+    std::vector<Index> point;                 ///< point number of each corner; may repeat
+    std::set<std::pair<Index, Index>> barred; ///< pairs of points, smaller first, without diagonal
 };
 
 struct CoverOptions {
@@ -40,9 +41,9 @@ struct CoverOptions {
 };
 
 struct Cover {
-    std::vector<Triangle> triangles; ///< corners of the polygon, running as it does
-    CoverCost cost;                  ///< within the parts that were solved exactly
-    bool found = false;              ///< false: what is barred leaves no way
+    std::vector<Triangle> triangles; ///< corner numbers, in the direction of the polygon
+    CoverCost cost;                  ///< of the parts that were solved exactly
+    bool found = false;              ///< false: there is no triangulation without barred diagonals
 };
 
 /// Triangulate a polygon at the least cost; see `minimal_area()`.
