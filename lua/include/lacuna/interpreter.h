@@ -28,10 +28,10 @@ using Value = std::variant<std::monostate, bool, std::int64_t, double, std::stri
 
 struct InterpreterOptions {
     // Callbacks are called on the thread that runs the recipe. An exception stops the run, which rethrows it.
-    std::function<void(std::string_view text)> print; ///< output of print(), line ends included; empty:
-                                                      ///< standard output
-    std::function<void(std::string_view line)> log;   ///< receives notes of the kernel
-    std::function<bool(std::string_view, double)> progress; ///< stage, fraction in [0, 1]; false: stop the run
+    std::function<void(std::string_view text)> print;       ///< output of print(), line ends included; empty:
+                                                            ///< standard output
+    std::function<void(std::string_view line)> log;         ///< receives notes of the kernel
+    std::function<bool(std::string_view, double)> progress; ///< stage, fraction in [0, 1]; false: stop
     std::function<void()> ended;     ///< the last stage has ended; the recipe continues
     std::function<bool()> cancelled; ///< called every 10,000 instructions and before `progress`; true: stop
 
