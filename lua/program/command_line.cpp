@@ -21,25 +21,25 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
        lacuna [option ...] -j N RECIPE [key=value ...] RECIPE [key=value ...] ...
        lacuna [option ...] -i
 
-  RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
+  RECIPE [key=value ...]  run a recipe with these parameters; - reads it from standard input
   RECIPE --help           list the parameters that it declares with lacuna.params
-  -j N RECIPE ...         run recipes side by side, N at once, each in a process of its own; what each
-                          prints comes whole, in this order
-  -i                      a prompt; help there says what there is, exit leaves it
+  -j N RECIPE ...         run recipes in parallel, N at a time, each in its own process; their outputs are
+                          printed one after the other, in this order
+  -i                      start a prompt; type help for an overview, exit to leave
 )";
 
 const char* const kOptionHelp = R"(
-  --verbose               what the kernel notes as it works, on standard error
-  --quiet                 no progress on standard error: a line on a terminal, elsewhere one every 5 seconds
-  --timing FILE           seconds by stage as a line of JSON into FILE; - for standard error
-  --traceback             where in the recipe an error came from, call by call
-  --threads N             most threads where a recipe asks for none; default all cores, with -j its share
-  --history FILE          of the prompt: lines typed are kept there; default $LACUNA_HISTORY, else nowhere
-  --sandbox               no os, io or bytecode; limits on memory and time; no file is written
-    --output-dir FOLDER   ... but below this folder
+  --verbose               print the notes of the kernel on standard error
+  --quiet                 print no progress (by default a line on a terminal, else one every 5 seconds)
+  --timing FILE           write the seconds by stage as a line of JSON to FILE; - for standard error
+  --traceback             print the calls of the recipe that led to an error
+  --threads N             threads for recipes that set none; default all cores, with -j a share of them
+  --history FILE          keep the lines typed at the prompt; default $LACUNA_HISTORY, else none
+  --sandbox               no os, io or bytecode; memory and time are limited; no file can be written
+    --output-dir FOLDER   ... except below this folder
     --memory MB           default 2048
     --seconds S           default 300
-  --version, --help       COMMAND --help says more about one
+  --version, --help       COMMAND --help explains a command
 
 exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 terminated
 )";
@@ -55,37 +55,37 @@ struct Command {
 };
 
 const Command kCommands[] = {
-    {"info", "FILE", 1, "--json", "the faces of a file, and the roles and class they seem to have",
+    {"info", "FILE", 1, "--json", "list the faces of a file, their likely roles and the class",
      R"(
-Reads CAD, facets or a finite element mesh, and prints a line a face: its tag, which is the one Gmsh
-shows, its kind with its sizes, area, centre, normal, box, edges, neighbours and what it may be. Then free
-edges, gaps and the tolerance that sews them, pockets and bores; the roles and the class of the open volume
-that the faces bound, where they can be found. A recipe names faces by these tags:
+Reads CAD, facets or a finite element mesh, and prints one line for each face: its tag (the same as in
+Gmsh), type, dimensions, area, centre, normal, box, edges, neighbours and likely role. Then it lists free
+edges, gaps and the tolerance that sews them, pockets and bores and, if they can be determined, the roles
+and the class of the open volume. Recipes name faces by these tags:
 part:open_volume { source = 12, target = 31 }.
 
-  --json   what model:info() says, with file =, class =, roles = or roles_refused =, for scripts
+  --json   print the result of model:info(), with file =, class =, roles = or roles_refused =, for scripts
 )"},
-    {"view", "FILE", 1, "--faces", "a page of its cells or faces, for a browser",
+    {"view", "FILE", 1, "--faces", "make a page of its cells or faces, for a browser",
      R"(
-Writes FILE.view.html into the folder it is called in, from any file that is read. The page needs nothing
-else: open it in a browser. A mesh or deck with solid cells is shown as cells, to be cut and coloured; any
-other file as faces, to be picked by clicking and copied as roles.
+Writes FILE.view.html into the current folder, for any file that can be read. The page is self-contained:
+open it in a browser. A mesh or deck with solid cells is shown as cells, which can be cut and coloured; any
+other file as faces, which can be selected and copied as roles.
 
-  --faces  the faces of a mesh or deck too, where its voids are to be filled
+  --faces  show faces for a mesh or deck too, to fill its voids
 )"},
-    {"check", "FILE", 1, "--json", "a mesh and its quality; exit code 1 when a cell is invalid",
+    {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
      R"(
 Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh.
-Prints counts, a histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is
-proved positive everywhere in it. The exit code is 1 when one is not.
+Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
+Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is invalid.
 
-  --json   every number that is printed, and the worst cells, for scripts
+  --json   print all numbers and the worst cells as JSON, for scripts
 )"},
-    {"convert", "IN OUT", 2, nullptr, "a mesh or deck from one format to another",
+    {"convert", "IN OUT", 2, nullptr, "convert a mesh or deck to another format",
      R"(
-Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj, and writes it in the
-format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their
-numbers, regions and sets are kept. What the format cannot hold is named on standard error.
+Reads a mesh (.msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj) and writes it in the format
+given by the ending of OUT: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their numbers,
+regions and sets are kept. Data that the format cannot store is listed on standard error.
 )"},
 };
 

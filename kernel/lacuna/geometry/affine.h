@@ -24,8 +24,7 @@ struct AffineFit {
 /// Least-squares affine fits from one set of points to several others; the factorisation is reused.
 ///
 /// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
-/// given
-/// @cite roca_2010_sweep. A pseudo-normal is n·√|area|: its length is the width of the rim, so that a
+/// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|: its length is the width of the rim, so that a
 /// rotation with a uniform scale maps one onto the other. It determines the direction that a planar rim
 /// leaves open: the map has full rank, preserves orientation, and does not flatten or flip points outside the
 /// plane.
@@ -37,8 +36,7 @@ struct AffineFit {
 class AffineFitter {
 public:
     /// @param from       kept by reference: must outlive the fitter.
-    /// @param from_area  Newell area vector of the rim that the points are on, summed over its loops; zero:
-    ///         none.
+    /// @param from_area  Newell area vector of the rim of the points, summed over its loops; zero: none.
     explicit AffineFitter(std::span<const Vec3> from, const Vec3& from_area = Vec3::Zero());
 
     /// @pre to.size() equals from.size()
