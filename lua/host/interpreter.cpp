@@ -388,8 +388,8 @@ void Interpreter::State::call(int arguments, int results, bool is_run)
     lua_insert(lua, base);
     const int status = lua_pcall(lua, arguments, results, base);
     lua_remove(lua, base);
-    // A stop was requested during the last instructions, or the recipe caught the error: the run is
-    // incomplete.
+    // A stop was requested during the last instructions, or the recipe caught
+    // the error: the run is incomplete.
     if (is_run && (thrown || stop)) {
         lua_settop(lua, base - 1);
         const bool limited = why == Why::instructions;

@@ -26,8 +26,8 @@ struct AffineFit {
 /// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
 /// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|: its length is the width of the rim, so that a
 /// rotation with a uniform scale maps one onto the other. It determines the direction that a planar rim
-/// leaves open: the map has full rank, preserves orientation, and does not flatten or flip points outside the
-/// plane.
+/// leaves open: the map has full rank, preserves orientation, and does not flatten or
+/// flip points outside the plane.
 ///
 /// A direction whose spread is below √ε of the largest is not determined by the data. It is completed: the
 /// third by the normal to the images of the other two, with a length that keeps the shape; the last two by
@@ -42,8 +42,8 @@ public:
     /// @pre to.size() equals from.size()
     [[nodiscard]] AffineFit fit(std::span<const Vec3> to, const Vec3& to_area = Vec3::Zero()) const;
 
-    /// Root mean square spread along the three principal directions, largest first, with the pseudo-normal
-    /// [model length].
+    /// Root mean square spread along the three principal directions, largest first, with
+    /// the pseudo-normal [model length].
     [[nodiscard]] const Vec3& spread() const { return spread_; }
     /// Distance of p from the centre relative to the spread in that direction (Mahalanobis); infinite in
     /// directions that are not in the data.

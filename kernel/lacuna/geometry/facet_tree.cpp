@@ -193,8 +193,8 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     bounds_ = node_.front().box;
 }
 
-/// Build the nodes over triangles [begin, end), starting at node `self`; the lower half precedes the upper
-/// half.
+/// Build the nodes over triangles [begin, end), starting at node `self`; the
+/// lower half precedes the upper half.
 /// @return  the node after them.
 std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                                int threads, const RunContext& context)

@@ -39,8 +39,8 @@ public:
     [[nodiscard]] Hit closest(const Vec3& p, double max_distance2) const;
 
     /// Call `visit` for every pair (own triangle, triangle of other) whose boxes are within `margin`, until
-    /// it returns false. For a tree and itself, each pair of different triangles is visited once, lower index
-    /// first.
+    /// it returns false. For a tree and itself, each pair of different triangles is
+    /// visited once, lower index first.
     /// @return false if `visit` stopped it.
     /// @throw Cancelled
     bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0,
@@ -55,8 +55,8 @@ public:
         double t = std::numeric_limits<double>::infinity(); ///< the point is origin + t direction, t >= 0
         Vec3 barycentric = Vec3::Zero();
     };
-    /// The first intersection; `triangle` is -1 if there is none. A ray in the plane of a facet does not
-    /// intersect it.
+    /// The first intersection; `triangle` is -1 if there is none. A ray in the plane of
+    /// a facet does not intersect it.
     [[nodiscard]] RayHit first_along(const Vec3& origin, const Vec3& direction) const;
     /// Visit all intersections in any order, until `visit` returns false. A ray through a shared edge
     /// intersects both facets. @return false if `visit` stopped it.
@@ -81,8 +81,8 @@ private:
     std::uint32_t build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                         int threads, const RunContext& context);
 
-    /// Visit all intersections up to `farthest`, which `visit` may reduce. @return false if `visit` stopped
-    /// it.
+    /// Visit all intersections up to `farthest`, which `visit` may reduce.
+    /// @return false if `visit` stopped it.
     template <class Visit>
     bool along(const Vec3& origin, const Vec3& direction, const double& farthest, const Visit& visit) const;
 

@@ -41,8 +41,8 @@ double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
     return 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
 }
 
-/// A triangle in its own plane, with its longest side along x; width and height are limited from below,
-/// against rounding.
+/// A triangle in its own plane, with its longest side along x; width and height are
+/// limited from below, against rounding.
 std::array<Vec2, 3> own_plane(const std::array<Vec3, 3>& p, double extent, bool& thin)
 {
     std::size_t base = 0;
@@ -259,8 +259,8 @@ double step_to_flip(const Facets& facets, const Positions& from, const Positions
         const Vec2 a = from[index(c[1])] - from[index(c[0])], b = from[index(c[2])] - from[index(c[0])];
         const Vec2 da = step[index(c[1])] - step[index(c[0])], db = step[index(c[2])] - step[index(c[0])];
         const auto cross = [](const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); };
-        // Area along the step: k0 + k1 s + k2 s², k0 > 0. Smallest positive root, computed without
-        // cancellation.
+        // Area along the step: k0 + k1 s + k2 s², k0 > 0. Smallest positive root,
+        // computed without cancellation.
         const double k0 = cross(a, b), k1 = cross(a, db) + cross(da, b), k2 = cross(da, db);
         const double inside = k1 * k1 - 4 * k2 * k0;
         if (inside < 0) continue;

@@ -265,8 +265,8 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)
 {
-    // Relative to the range of the fixed values: nine digits are then correct a hundred layers from the next
-    // fixed point.
+    // Relative to the range of the fixed values: nine digits are then correct a hundred
+    // layers from the next fixed point.
     constexpr double kOff = 1e-13;
     const Eigen::Index columns = problem.fixed_values.cols();
     if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;

@@ -14,8 +14,8 @@ namespace lacuna::geometry {
 ///
 /// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003), which
 /// are positive for all triangle shapes. So values stay in the range of the fixed ones, and a disc whose rim
-/// is mapped to a convex outline in order is mapped one-to-one (Tutte). On planar triangles, linear functions
-/// are reproduced.
+/// is mapped to a convex outline in order is mapped one-to-one (Tutte). On planar triangles,
+/// linear functions are reproduced.
 ///
 /// Free points on a border have cotangent weights, limited to >= 0. They approximate the natural (Neumann)
 /// condition, independent of the directions of the diagonals.

@@ -25,8 +25,8 @@ struct Plane {
 /// @pre normal is finite and not zero; its length does not matter.
 Plane plane_across(const Vec3& origin, const Vec3& normal);
 
-/// The plane in which the projection of a face bounded by `loops` has the largest area (the paper's Newell
-/// domain).
+/// The plane in which the projection of a face bounded by `loops` has the largest
+/// area (the paper's Newell domain).
 ///
 /// The normal is the sum of the loops' Newell vectors; inner loops are directed oppositely, so holes are
 /// subtracted. The origin is the mean of the points of the outer loop. If the sum vanishes (a slit, collinear

@@ -17,8 +17,8 @@ namespace {
 // Sides longer than this multiple of the target length are split: the halves are then closer to it than the
 // side was (Botsch and Kobbelt 2004).
 constexpr double kTooLong = 4.0 / 3.0;
-// Opposite angles may sum to π up to rounding, as in squares; without a tolerance, flips would alternate for
-// ever.
+// Opposite angles may sum to π up to rounding, as in squares; without a tolerance,
+// flips would alternate for ever.
 constexpr double kDelaunaySlack = 1e-9;
 
 } // namespace
@@ -265,8 +265,8 @@ void PatchMesh::refine(double grading, std::size_t max_points, const RunContext&
     }
 }
 
-/// Shape quality: 1 for an equilateral triangle, 0 for a degenerate one, negative if it faces away from
-/// `normal`.
+/// Shape quality: 1 for an equilateral triangle, 0 for a degenerate one, negative
+/// if it faces away from `normal`.
 double PatchMesh::shape(const Triangle& triangle, const Vec3& normal) const
 {
     double sides = 0;

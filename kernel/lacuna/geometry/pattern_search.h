@@ -25,8 +25,8 @@ inline std::span<const Vec2> all_around()
     return kDirections;
 }
 
-/// Move a point to increase a value by pattern search: try steps in some directions, and halve the step if
-/// none succeeds.
+/// Move a point to increase a value by pattern search: try steps in some directions, and
+/// halve the step if none succeeds.
 /// @param best   the value at `x`.
 /// @param value  called as value(const Vec2&, double floor); if the value is not above the floor, it may
 ///               return any number up to the floor.

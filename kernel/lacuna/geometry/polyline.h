@@ -19,8 +19,8 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 double length(std::span<const Vec3> points);
 
 /// Estimated sag: the distance of a smooth curve through the points from the polyline [model length], as the
-/// largest product of a segment and its angle to the next, divided by 8. Angles above 90° are corners and
-/// ignored.
+/// largest product of a segment and its angle to the next, divided by 8. Angles
+/// above 90° are corners and ignored.
 double sag(std::span<const Vec3> points);
 
 /// A position on a polyline: `fraction` of the segment from point `segment` to point `segment + 1`.

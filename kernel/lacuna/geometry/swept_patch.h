@@ -24,8 +24,8 @@ namespace lacuna::geometry {
 /// closest to those of the top: a circle swept along an arc gives the torus.
 class SweptPatch {
 public:
-    /// Sides as polylines: bottom and top from left to right, left and right from bottom to top, with common
-    /// corners.
+    /// Sides as polylines: bottom and top from left to right, left and right from
+    /// bottom to top, with common corners.
     SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right, std::span<const Vec3> top,
                std::span<const Vec3> left);
 

@@ -38,8 +38,8 @@ struct TriangulateOptions {
 /// no point is added on them. Inside, points are added frontally by Delaunay refinement with size-bound
 /// off-centres (Rebay 1993; Üngör 2004), where a triangle is too large or has a circumradius above √2 × its
 /// shortest side, unless the point would be inside the diametral circle of a rim segment (which only
-/// splitting the segment could cure). Added points keep a minimum distance from visible points, so the
-/// refinement terminates.
+/// splitting the segment could cure). Added points keep a minimum distance from visible
+/// points, so the refinement terminates.
 ///
 ///
 /// @param loops  point numbers in order, the first not repeated; at least 3 in each, no point twice. Points

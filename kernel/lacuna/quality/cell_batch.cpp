@@ -87,8 +87,8 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
 }
 
 /// Change of edges across the cells: across[r][s] is the edge of direction p at the upper end of q minus that
-/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for parallel edges of
-/// equal length.
+/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for
+/// parallel edges of equal length.
 template <int N>
 struct Turns {
     alignas(64) double across[3][2][3][N];

@@ -71,8 +71,8 @@ struct BufferView {
 /// of the host are not changed; numbers always have a decimal point. CAD files are read by a process that all
 /// interpreters share (<lacuna/cad/load.h>).
 ///
-/// Values are named by paths: a global and its fields, such as `mesh`, `mesh.hexes`, `list.1` or
-/// `job.faces.2.area`.
+/// Values are named by paths: a global and its fields, such as `mesh`, `mesh.hexes`,
+/// `list.1` or `job.faces.2.area`.
 class __attribute__((visibility("default"))) Interpreter {
 public:
     /// @throw InvalidInput  the output folder does not exist; std::bad_alloc
@@ -91,8 +91,8 @@ public:
     /// Whether the recipe of the last run_file() read its words.
     bool words_used();
 
-    /// Stop the current run, or the next one: it throws Cancelled. Callable from any thread and from signal
-    /// handlers.
+    /// Stop the current run, or the next one: it throws Cancelled. Callable from any
+    /// thread and from signal handlers.
     void cancel() noexcept;
     /// Discard a cancel() that no run has noticed.
     void resume() noexcept;

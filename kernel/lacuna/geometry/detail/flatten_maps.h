@@ -40,8 +40,8 @@ std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 Positions conformal(const Facets& facets);
 /// As-rigid-as-possible map, starting from `positions`.
 Positions as_rigid_as_possible(const Facets& facets, Positions positions, int max_iterations, double settled);
-/// Map of least symmetric Dirichlet energy, starting from `positions`; these are returned if they flip a
-/// triangle.
+/// Map of least symmetric Dirichlet energy, starting from `positions`; these are
+/// returned if they flip a triangle.
 Positions injective(const Facets& facets, Positions positions, int max_iterations, double settled);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);

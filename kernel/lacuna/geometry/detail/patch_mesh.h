@@ -33,8 +33,8 @@ public:
     /// sides there, growing inwards by `grading`. Sides are flipped and points smoothed in between.
     void refine(double grading, std::size_t max_points, const RunContext& context);
 
-    /// Smooth inner points towards the centre of their neighbours along the surface, unless their triangles
-    /// get worse.
+    /// Smooth inner points towards the centre of their neighbours along the surface,
+    /// unless their triangles get worse.
     void relax();
 
     /// Move inner points to a harmonic surface: minimal Dirichlet energy with the present cotangent weights.

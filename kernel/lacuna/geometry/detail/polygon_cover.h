@@ -11,8 +11,8 @@
 
 namespace lacuna::geometry {
 
-/// Cost of a triangulation of a polygon in space, compared by the number of degenerate triangles, then by the
-/// sum.
+/// Cost of a triangulation of a polygon in space, compared by the number of
+/// degenerate triangles, then by the sum.
 struct CoverCost {
     int degenerate = 0;
     double sum = 0;

@@ -247,8 +247,8 @@ class Drawing {
         this.fine ??= this.makeSkin(this.sideNodes, this.sideCount, kSideTextures);
         return this.fine;
     }
-    // Coarser skins: each has about a quarter of the sides of the previous one, with colours and without
-    // edges.
+    // Coarser skins: each has about a quarter of the sides of the previous one,
+    // with colours and without edges.
     coarseSkin(halvings) {
         if (this.coarse?.halvings !== halvings) {
             const { area, count } = this.fineSkin().parts;
@@ -279,8 +279,8 @@ class Drawing {
         else this.lineCount = words.length / 3;
     }
 
-    // Index buffer of two triangles for each of at least `n` quads; with four vertices, each corner is looked
-    // up once.
+    // Index buffer of two triangles for each of at least `n` quads; with four vertices,
+    // each corner is looked up once.
     makeStrips(n) {
         const gl = this.gl,
             quads = 2 ** Math.ceil(Math.log2(n)),
@@ -497,8 +497,8 @@ class Drawing {
         this.drawLines(camera, size);
     }
 
-    // The number of the side at each pixel of a picture of `size`, from 0; 2**32 - 1: none. `only`: for a
-    // single pixel.
+    // The number of the side at each pixel of a picture of `size`, from 0; 2**32 - 1:
+    // none. `only`: for a single pixel.
     shown(camera, size, only) {
         const gl = this.gl,
             area = only ? [...only, 1, 1] : [0, 0, ...size];

@@ -9,16 +9,16 @@ const kDirections = 54; // nine for each side of a cube
 const kSpots = 4096; // 16 in each direction
 const kNeverAway = 2; // larger than the sine of any angle
 const kRounding = 1e-3; // far above the rounding of single precision
-// Pairs of corners whose differences give a normal by their cross product: for the side, and for its
-// triangles.
+// Pairs of corners whose differences give a normal by their cross product: for
+// the side, and for its triangles.
 const kSpans = [
     [0, 2, 1, 3],
     [0, 1, 0, 2],
     [0, 2, 0, 3],
 ];
 
-// Sides of four nodes each, sorted into parts of close sides; in a closed skin, the sides of a part have
-// similar normals.
+// Sides of four nodes each, sorted into parts of close sides; in a closed skin, the sides
+// of a part have similar normals.
 class Parts {
     constructor(nodes, sides, n, closed) {
         this.count = n;
