@@ -55,7 +55,7 @@ std::string find_worker_program()
     for (const fs::path& place : places)
         if (::access(place.c_str(), X_OK) == 0) return place.string();
     throw BackendError("cad.no_worker",
-                       "CAD files are read by the program lacuna-cad, which is not beside this program "
+                       "CAD files are read by the program lacuna-cad, which is not next to this program "
                        "(" +
                            places.front().string() +
                            ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");
