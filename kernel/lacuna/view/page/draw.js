@@ -129,7 +129,7 @@ const kBackground = [0.965, 0.969, 0.976, 1];
 // Measured on two cores without a graphics card: a side takes 0.4 µs, and four samples per pixel take three
 // times as long as one.
 const kSlow = 30; // [ms] if a complete picture takes longer, moving pictures are drawn coarser
-const kMovingSides = 20000, // to be seen of what moves
+const kMovingSides = 20000, // limits for a moving picture
     kMovingPixels = 300000;
 const kPiece = 16384; // sides drawn at a time in a picture that does not move
 
