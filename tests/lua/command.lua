@@ -170,7 +170,7 @@ for name, lines in pairs {
   local told = { caught = "a=1", none = "has no parameters", late = "before lacuna.params",
     made = "lacuna.synthetic.prism before" }
   expect({ name .. ".lua", "--help" }, told[name] and 0 or 1, { told[name] },
-      told[name] and {} or { "params: a table" })
+      told[name] and {} or { "params: needs a table" })
   check.that(not check.exists(folder .. "/ran"), name .. ": the rest of a recipe is not run")
 end
 expect({ "params.lua" }, 0, { "12\tinteger\t2.0\ta\tfalse", "params.lua\t0\t0" }, {})
