@@ -350,13 +350,13 @@ TEST_CASE("loops that cross, touch or have no area are refused by number")
     Region spike{{Vec2(0, 0), Vec2(2, 0), Vec2(1, 0), Vec2(1, 1)}, {{0, 1, 2, 3}}};
     refuse(spike, "crosses or touches");
     Region flat{{Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}, {{0, 1, 2}}};
-    refuse(flat, "no area");
+    refuse(flat, "zero area");
     Region pair{{Vec2(0, 0), Vec2(1, 1)}, {{0, 1}}};
     refuse(pair, "2 points");
     Region missing{{Vec2(0, 0), Vec2(1, 1), Vec2(0, 1)}, {{0, 1, 7}}};
     refuse(missing, "point 8");
     Region none;
-    refuse(none, "no loop");
+    refuse(none, "at least one loop");
 }
 
 TEST_CASE("find_crossing agrees with comparing all pairs, and finds the first")

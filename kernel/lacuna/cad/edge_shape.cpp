@@ -71,8 +71,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic interpolation through the four nearest samples: the error of the arc length is far below any
-/// tolerance.
+/// Cubic interpolation through the four nearest samples: the error of the arc
+/// length is far below any tolerance.
 double EdgeShape::parameter(double share) const
 {
     const std::size_t n = fine_shares_.size();

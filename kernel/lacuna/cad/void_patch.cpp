@@ -43,8 +43,8 @@ struct BreakMap {
     }
 };
 
-/// Pair the breaks of opposite sides: in order if their numbers agree, else every break is used on both
-/// sides.
+/// Pair the breaks of opposite sides: in order if their numbers agree, else
+/// every break is used on both sides.
 std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const std::vector<double>& b)
 {
     BreakMap on_a, on_b;
@@ -126,8 +126,8 @@ public:
         return places;
     }
 
-    /// Fit the patch to the facets, if their points are farther from the patch than their chords are from the
-    /// sides.
+    /// Fit the patch to the facets, if their points are farther from the patch than
+    /// their chords are from the sides.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 

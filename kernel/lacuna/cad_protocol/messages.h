@@ -144,8 +144,8 @@ struct BeginSolidRequest {
     std::string result;  ///< its name without a folder; the ending gives the format
     std::vector<SolidSource> sources;
 };
-/// The requested entities that exist in the CAD process; for each curve its start, middle and end [model
-/// length].
+/// The requested entities that exist in the CAD process; for each curve its start,
+/// middle and end [model length].
 struct BeginSolidReply {
     struct Found {
         std::vector<std::int32_t> faces, curves;

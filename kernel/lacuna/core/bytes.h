@@ -116,7 +116,7 @@ public:
     /// @throw ProtocolError  bytes are left over.
     void finish() const
     {
-        if (!left_.empty()) throw ProtocolError("a message is longer than what it holds");
+        if (!left_.empty()) throw ProtocolError("a message has bytes left over");
     }
 
 private:
@@ -124,7 +124,7 @@ private:
     {
         std::uint64_t count = 0;
         (*this)(count);
-        if (count > left_.size() / size_of_one) throw ProtocolError("a length goes beyond the message");
+        if (count > left_.size() / size_of_one) throw ProtocolError("a length exceeds the message");
         return static_cast<std::size_t>(count);
     }
     const char* take(std::size_t size)

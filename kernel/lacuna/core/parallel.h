@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-/// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`, on the threads of the
-/// context.
+/// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`,
+/// on the threads of the context.
 ///
 /// The ranges depend only on `count`, `grain` and the number of threads. A body that writes only to its own
 /// indices gives the same result for any number of threads.

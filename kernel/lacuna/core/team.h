@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-/// Work shared by several processes. The host provides the communication; this folder knows neither processes
-/// nor networks.
+/// Work shared by several processes. The host provides the communication; this folder knows
+/// neither processes nor networks.
 namespace lacuna {
 
 /// A file to which all processes of a team write, each at its own offsets.

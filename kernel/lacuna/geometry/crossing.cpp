@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// find_crossing(): segments are put in a tree of boxes along Hilbert-like order (median cuts), each segment
-// asks the tree for those after it. A tree rather than a grid, since spacings may differ a millionfold.
+// find_crossing(): segments are stored in a tree of boxes with median cuts, and each segment queries the tree
+// for later segments. A tree and not a grid, as spacings may differ by a factor of a million.
 #include <lacuna/geometry/triangulate.h>
 
 #include <lacuna/geometry/predicates.h>
@@ -21,7 +21,7 @@ struct Box {
     Vec2 low, high;
 };
 
-/// Segments in a leaf of the tree: boxes are about as dear to test as segments. A choice, not a measurement.
+/// Segments in a leaf of the tree: testing a box costs about as much as testing a segment.
 constexpr std::size_t kLeafSize = 4;
 
 class SegmentTree {
@@ -32,7 +32,7 @@ public:
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Call `visit(i)` for each box that meets `query`.
+    /// Call `visit(i)` for each box that intersects `query`.
     template <class Visit>
     void each_meeting(const Box& query, const Visit& visit) const
     {
@@ -98,7 +98,7 @@ bool within_box(const Vec2& p, const Vec2& a, const Vec2& b)
     return (p.array() >= a.cwiseMin(b).array()).all() && (p.array() <= a.cwiseMax(b).array()).all();
 }
 
-/// Closed segments with a point in common, decided exactly.
+/// Whether two closed segments share a point, decided exactly.
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
 {
     const double abc = orient2d(a, b, c), abd = orient2d(a, b, d);
@@ -109,7 +109,7 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
            (cda == 0 && within_box(a, c, d)) || (cdb == 0 && within_box(b, c, d));
 }
 
-/// Neighbours share `common`; they overlap where the second folds back onto the first.
+/// Neighbouring segments share the point `common`; they overlap if the second folds back onto the first.
 bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b)
 {
     return (a - common).dot(b - common) > 0 && orient2d(common, a, b) == 0;

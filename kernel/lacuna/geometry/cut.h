@@ -9,20 +9,20 @@
 #include <span>
 #include <vector>
 
-/// Cuts through facets that close round, from one of their two rims to the other.
+/// Cuts through a closed strip of facets, from one of its two rims to the other.
 namespace lacuna::geometry {
 
-/// Shortest way along sides of facets from a point to one of `ends`, off the points of `off` but for the
-/// start. Empty where there is none. O(facets log).
+/// Shortest path along sides of facets from a point to one of `ends`, avoiding the points of `off` except the
+/// start. Empty if there is none. O(facets log).
 /// @throw Cancelled
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 Index start, const std::set<Index>& off, const std::set<Index>& ends,
                                 const RunContext& context = {});
 
-/// Turns of the triangles' corners along a cut, as `HarmonicProblem::corner_turns` wants them: seen so that
-/// the triangles are counter-clockwise and the cut leads upwards, corners on it are one turn on for the
-/// triangles on its right. O(triangles).
-/// @param cut  points, each joined to the next by a side.
+/// The branch of each triangle corner at a cut, for `HarmonicProblem::corner_turns`. Seen with
+/// counter-clockwise triangles and the cut pointing upwards, corners on the cut get one turn in the triangles
+/// to its right. O(triangles).
+/// @param cut  points; consecutive ones are joined by a side.
 std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles, std::span<const Index> cut);
 
 } // namespace lacuna::geometry

@@ -13,7 +13,7 @@ namespace lacuna::geometry {
 
 ///        2
 ///       / \        Side i lies opposite corner i and runs from corner i+1 to corner i+2.
-///   s1 /   \ s0    next[i] is the triangle across side i, -1 at the very outside.
+///   s1 /   \ s0    next[i] is the triangle across side i, -1 outside the outermost triangle.
 ///     /     \      Bit i of fixed: side i is a constraint.
 ///    0--s2---1
 struct DelaunayTriangle {
@@ -28,27 +28,27 @@ struct DelaunayTriangle {
     [[nodiscard]] Index across(int side) const { return next[static_cast<std::size_t>(side)]; }
 };
 
-/// The constrained Delaunay triangulation behind `triangulate()`, a step at a time.
+/// The incremental constrained Delaunay triangulation used by `triangulate()`.
 ///
-/// It lives in one huge triangle whose three corners follow the given points. What is delivered lies within
-/// closed constraints, which hide those corners, so they do not touch the result.
+/// It starts from one huge triangle, whose corners have the numbers after the given points. The result is the
+/// part inside closed constraints, which separate it from those corners, so they have no influence on it.
 class DelaunayMesh {
 public:
-    /// The Delaunay triangulation of the points that `used` names, inserted along a space-filling curve.
-    /// @throw InvalidInput where two of them coincide.
+    /// The Delaunay triangulation of the points in `used`, inserted along a space-filling curve.
+    /// @throw InvalidInput  two of them coincide.
     DelaunayMesh(std::span<const Vec2> points, const std::vector<Index>& used);
 
-    /// Make the segment from a to b a side, by triangulating anew what it cuts.
+    /// Insert the constraint a–b by retriangulating the triangles that it crosses.
     /// @pre both are inserted; no point lies on the segment and no constraint crosses it.
     void fix_segment(Index a, Index b);
 
     /// Set `inside` where an odd number of constraints lies between a triangle and the outside.
     void mark_inside();
 
-    /// The triangle of the directed side a → b, and which of its sides it is; {-1, -1} where there is none.
+    /// The triangle with the directed side a → b, and the number of that side; {-1, -1} if there is none.
     [[nodiscard]] std::pair<Index, int> find_side(Index a, Index b) const;
 
-    /// What inserting a point would replace.
+    /// The triangles that the insertion of a point replaces.
     struct Cavity {
         struct Border {
             Index from, to, outer;
@@ -56,15 +56,15 @@ public:
         };
         std::vector<Index> triangles;
         std::vector<Border> border;                 ///< counter-clockwise, closed
-        std::vector<std::pair<Index, int>> pending; ///< scratch
+        std::vector<std::pair<Index, int>> pending; ///< work space
     };
 
-    /// Walk from `start` to the triangle that holds p; -1 where constraints bar the way.
+    /// Walk from `start` to the triangle that contains p; -1 if constraints block the walk.
     [[nodiscard]] Index locate(const Vec2& p, Index start) const;
-    /// Triangles whose circle holds p, from the one it lies in, not across constraints.
-    /// @return false where p is on a constraint or on a point.
+    /// Find the triangles whose circumcircle contains p, starting at the one that contains p, without
+    /// crossing constraints. @return false if p is on a constraint or on a point.
     bool find_cavity(const Vec2& p, Index holder, Cavity& cavity);
-    /// Replace the cavity by a fan around a new point; the new triangles are listed in `fresh`.
+    /// Replace the cavity by triangles around a new point; `fresh` lists them.
     Index fill_cavity(const Vec2& p, const Cavity& cavity, std::vector<Index>& fresh);
 
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
@@ -87,8 +87,8 @@ private:
 
     std::vector<Vec2> points_;
     std::vector<DelaunayTriangle> triangles_;
-    std::vector<Index> triangle_of_; ///< one triangle at each point, -1 while it is not inserted
-    std::vector<Index> stamp_;       ///< last cavity each triangle was found in
+    std::vector<Index> triangle_of_; ///< a triangle at each point; -1: not inserted yet
+    std::vector<Index> stamp_;       ///< the last cavity that contained each triangle
     Index stamp_now_ = 0;
     Index given_ = 0;
 };

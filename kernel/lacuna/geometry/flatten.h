@@ -9,59 +9,57 @@
 
 namespace lacuna::geometry {
 
-/// How the facets were laid flat; the further down, the more they are stretched.
+/// How facets were flattened, ordered by increasing distortion.
 enum class FlatMap {
-    plane,     ///< they lie in a plane: an isometry
-    ring,      ///< a tube as a ring, nearly conformal
+    plane,     ///< planar facets: an isometry
+    ring,      ///< a tube mapped to a ring, nearly conformal
     rigid,     ///< as rigid as possible
-    injective, ///< least symmetric Dirichlet energy, no facet turned over
+    injective, ///< least symmetric Dirichlet energy, no flipped triangles
     conformal, ///< least squares conformal
-    convex,    ///< harmonic onto a disc: one to one whatever the shape
+    convex,    ///< harmonic to a disc: one-to-one for every shape
 };
 
 /// Options of `flatten()`.
 struct FlattenOptions {
-    double planar_tolerance =
-        0;                    ///< points this near a plane lie in it [model length]; 0: 1e-9 × their extent
-    int max_iterations = 200; ///< of each of the iterative maps, >= 1
-    double settled = 1e-6;    ///< relative fall of the energy at which they stop
+    double planar_tolerance = 0; ///< tolerance for planar facets [model length]; 0: 1e-9 × their extent
+    int max_iterations = 200;    ///< of each iterative map, >= 1
+    double settled = 1e-6;       ///< relative decrease of the energy at which iterations stop
 };
 
-/// Facets laid in the plane.
+/// Facets mapped to the plane.
 struct Flattened {
-    std::vector<Index> used;         ///< the given points that the triangles use, rising
-    std::vector<Vec2> position;      ///< where each of `used` lies in the plane [model length]
-    std::vector<Triangle> triangles; ///< the given ones, in the given order, counting in `used`
+    std::vector<Index> used;         ///< the given points that the triangles use, ascending
+    std::vector<Vec2> position;      ///< plane coordinates of each point in `used` [model length]
+    std::vector<Triangle> triangles; ///< the given triangles in the given order, as indices into `used`
     FlatMap map = FlatMap::plane;
-    double max_stretch = 1; ///< largest of length ratios and their inverses over all triangles, >= 1
-    Index flips = 0;        ///< triangles turned over, or flattened to no area
-    bool overlaps = false;  ///< a boundary crosses itself or another
-    bool folded = false;    ///< flips or overlaps: not one to one
+    double max_stretch = 1; ///< largest length ratio, or inverse, of all triangles, >= 1
+    Index flips = 0;        ///< number of triangles flipped or collapsed
+    bool overlaps = false;  ///< the boundary intersects itself
+    bool folded = false;    ///< has flips or overlaps: the map is not one-to-one
 };
 
-/// Lay connected facets, which may have holes, in the plane; triangles stay counter-clockwise.
+/// Map connected facets, which may have holes, to the plane; triangles stay counter-clockwise.
 ///
-/// Facets in a plane are taken as they lie there. A tube, which closes round between two loops, becomes a
-/// ring: no map of it is near rigid, and looking for the least stretched one would take a hundred times as
-/// long. Others start from the least squares conformal map
-/// (Lévy et al. 2002) and are relaxed to as rigid as possible by local and global steps (Liu et al. 2008).
-/// Should that turn a triangle over or a boundary cross, maps that cannot turn triangles over come in: least
-/// symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), at worst the harmonic map onto a
-/// disc. The first that is one to one is given; if none is, the one with the fewest flips, and `folded` says
-/// so.
-/// Curved facets come out with the area they have in space, turned to agree best with their Newell plane.
+/// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: it has
+/// no nearly rigid map, and minimising its distortion would take a hundred times as long. Other facets start
+/// from the least squares conformal map (Lévy et al. 2002) and are relaxed to as rigid as possible by local
+/// and global steps (Liu et al. 2008). If that flips a triangle or makes the boundary intersect, maps without
+/// flips are tried: least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), then the
+/// harmonic map to a disc. The first one-to-one map is returned; if there is none, the map with the fewest
+/// flips, and `folded` is set. The result has the area of the facets in space, and is rotated to agree best
+/// with their Newell plane.
 ///
-/// @param points     the whole model's may be given.
-/// @param triangles  oriented alike.
+/// @param points     may be all points of a model.
+/// @param triangles  consistently oriented.
 /// @throw InvalidInput "geometry.not_flattenable"  no triangles; or curved facets that are not a connected,
 ///        consistently oriented manifold, have no boundary, or have a handle.
-/// @note  Deterministic. About as dear as a sparse factorisation and some dozens of solves, of a tube two
-///        factorisations.
+/// @note  Deterministic. Costs about one sparse factorisation and some dozens of solves; two factorisations
+///        for a tube.
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options = {});
 
-/// Finds the triangle over a place of the plane, to lift it back. A few comparisons inside the triangles,
-/// O(log triangles) outside; parallel-safe, allocates nothing; a value of its own.
+/// Finds the triangle at a point of the plane, to map it back to space. O(1) inside the triangles, O(log
+/// triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
 class PlanarLocator {
 public:
     PlanarLocator() = default;
@@ -69,22 +67,22 @@ public:
     PlanarLocator(std::span<const Vec2> points, std::span<const Triangle> triangles);
 
     struct FacetPosition {
-        Index triangle = -1;             ///< -1 only where there are none
+        Index triangle = -1;             ///< -1 only if there are no triangles
         Vec3 barycentric = Vec3::Zero(); ///< in [0, 1], sum 1
-        double distance = 0;             ///< from the triangle; 0 to rounding inside the facets
+        double distance = 0;             ///< from the triangle; zero up to rounding inside the facets
     };
-    /// The triangle at a place; outside all of them the closest place of the closest one.
+    /// The triangle at a point; outside all triangles, the closest point of the closest triangle.
     [[nodiscard]] FacetPosition locate(const Vec2& place) const;
 
 private:
-    /// Two of the weights of a triangle's corners, which are linear in the place.
+    /// Two of the barycentric weights of a triangle, as linear functions of the point.
     struct Weights {
-        Vec2 corner, first, second; ///< first and second weight: these times (place - corner)
+        Vec2 corner, first, second; ///< the two weights are these times (point - corner)
     };
     [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
 
     FacetTree tree_;
-    // Square bins over all triangles: bin b may meet triangles listed_[start_[b]...start_[b + 1]).
+    // Square bins over all triangles: bin b may intersect triangles listed_[start_[b]...start_[b + 1]).
     Vec2 low_ = Vec2::Zero();
     double bin_ = 1;
     Index across_ = 0, up_ = 0;

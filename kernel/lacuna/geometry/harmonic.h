@@ -10,47 +10,48 @@
 
 namespace lacuna::geometry {
 
-/// Values wanted at the points of a triangulation, smooth between points where they are known.
+/// Harmonic interpolation on a triangulation, from points with known values.
 ///
-/// Each free point is to be a weighted mean of its neighbours, with the mean value weights of Floater (2003):
-/// positive whatever the triangles' shapes. So no value leaves the range of the fixed ones, and a disc whose
-/// rim is fixed round a convex outline in order is mapped one to one (Tutte). Where the triangles lie in a
-/// plane, linear functions are reproduced.
+/// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003), which
+/// are positive for all triangle shapes. So values stay in the range of the fixed ones, and a disc whose rim
+/// is mapped to a convex outline in order is mapped one-to-one (Tutte). On planar triangles,
+/// linear functions are reproduced.
 ///
-/// Free points of a border have cotangent weights, none below zero: values leave it square (Neumann's natural
-/// condition), whichever way the diagonals of the triangles run.
+/// Free points on a border have cotangent weights, limited to >= 0. They approximate the natural (Neumann)
+/// condition, independent of the directions of the diagonals.
 struct HarmonicProblem {
-    std::span<const Vec3> points; ///< the whole model's may be given: those no triangle uses take no part
-    std::span<const Triangle> triangles; ///< either way round
-    std::vector<Index> fixed;            ///< points whose values are known, each once
-    Eigen::MatrixXd fixed_values;        ///< fixed.size() × k, a row a point
+    std::span<const Vec3> points;        ///< may be all points of a model; unused points are ignored
+    std::span<const Triangle> triangles; ///< in either orientation
+    std::vector<Index> fixed;            ///< points with known values, without duplicates
+    Eigen::MatrixXd fixed_values;        ///< fixed.size() × k, one row for each point
 
-    /// For values known up to a period only (an angle round a cylinder): what to add to the value of each
-    /// corner, as a multiple of `period`, for the corners of a triangle to be seen on one branch. Corners of
-    /// a triangle that straddles the cut have different turns; all others may stay 0. Empty: all zero.
+    /// For values known up to a period only, such as the angle around a cylinder: for each triangle corner,
+    /// the multiple of `period` to add to the value of its point to be on the branch of the triangle. Corners
+    /// of a triangle across the cut have different turns; all others may be 0. Empty: all zero.
     std::vector<std::array<int, 3>> corner_turns;
-    Eigen::RowVectorXd period; ///< k numbers; read only where there are corner_turns
+    Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
 
-    /// Cotangent weights everywhere, of either sign: least Dirichlet energy. Mean value weights lean as
-    /// diagonals do that all run one way, however fine the triangles; these do not, but values may leave the
-    /// range of the fixed ones.
+    /// Use cotangent weights of either sign everywhere: least Dirichlet energy. Unlike mean value weights,
+    /// they are not biased by diagonals that all have the same direction, but values may leave the range of
+    /// the fixed ones.
     bool least_energy = false;
 
-    /// Nine digits are enough: multigrid already from 2,000 free points on, a third of the time there, and
-    /// nothing is solved where an affine function of place has the fixed values and the means.
+    /// Nine digits suffice: use multigrid from 2,000 free points, where it takes a third of the time, and
+    /// solve nothing if an affine function of position has the fixed values and satisfies the means.
     bool nine_digits = false;
 };
 
 /// Solve for all points, k values each.
 ///
-/// @return points.size() × k, on the branch of turn 0. The rows of fixed points are the given ones bit for
-///         bit, those of points no triangle uses are 0.
-/// @throw  InvalidInput "geometry.harmonic_input"  sizes that do not fit, an index that is out of range.
-/// @throw  BackendError "geometry.singular"  points that are joined to no fixed point; names one of them.
-/// @throw  Cancelled  between the steps; not within the factorisation.
-/// @note   Triangles of no area do no harm: weights are kept within what rounding can bear. Up to 20,000 free
-///         points (2,000 where nine digits are enough) one sparse factorisation and k solves; beyond that
-///         multigrid, linear in the points, and the factorisation where that does not settle. Deterministic.
+/// @return points.size() × k, on the branch of turn 0. Rows of fixed points are bit-identical to the given
+///         ones; rows of unused points are 0.
+/// @throw  InvalidInput "geometry.harmonic_input"  sizes do not match, or an index is out of range.
+/// @throw  BackendError "geometry.singular"  a free point is not connected to a fixed point; names it.
+/// @throw  Cancelled  between the steps; not during the factorisation.
+/// @note   Degenerate triangles are allowed: weights are limited against rounding. Up to 20,000 free points
+///         (2,000 if nine digits suffice) one sparse factorisation and k solves; beyond that multigrid,
+///         linear in the number of points, and the factorisation if multigrid does not converge.
+///         Deterministic.
 Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context = {});
 
 } // namespace lacuna::geometry

@@ -8,16 +8,16 @@
 #include <span>
 #include <vector>
 
-/// Rotation-minimising frames @cite wang_2008_frames, from section to section by the least turn.
+/// Rotation-minimising frames @cite wang_2008_frames: from section to section by the smallest rotation.
 namespace lacuna::geometry {
 
-/// Which way the line through the sections' middles goes at each of them, over a length as great as the
-/// section is wide: sections of coarse facets lean, and their middles stray a little from step to step.
-/// @return  unit vectors; zero where middles coincide.
+/// Direction of the curve through the section centres at each of them, averaged over a length equal to the
+/// width of the section, as the centres of coarse sections vary slightly from step to step.
+/// @return  unit vectors; zero if centres coincide.
 /// @pre  as many widths as middles.
 std::vector<Vec3> ways_along(std::span<const Vec3> middles, std::span<const double> widths);
 
-/// The least turn from one way to another; none where there is no way.
+/// The smallest rotation from one direction to another; identity if one of them is zero.
 Eigen::Matrix3d least_turn(const Vec3& from, const Vec3& to);
 
 } // namespace lacuna::geometry

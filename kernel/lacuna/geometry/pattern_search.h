@@ -8,14 +8,14 @@
 
 namespace lacuna::geometry {
 
-/// Steps of `pattern_search()`.
+/// Step lengths of `pattern_search()`.
 struct PatternSteps {
-    double scale;       ///< a length of the neighbourhood
-    double first, last; ///< the longest step, and a bound below all [of `scale`]
-    double least_gain;  ///< in the value, for a step as long as `scale`, >= 0
+    double scale;       ///< a length of the neighbourhood, the unit of steps
+    double first, last; ///< longest and shortest step [of `scale`]
+    double least_gain;  ///< required increase of the value for a step of length `scale`, >= 0
 };
 
-/// Eight directions, all around.
+/// Eight directions, every 45°.
 inline std::span<const Vec2> all_around()
 {
     constexpr double kDiagonal = 0.70710678118654752; // √½
@@ -25,18 +25,18 @@ inline std::span<const Vec2> all_around()
     return kDirections;
 }
 
-/// Move a point to where a value is larger, by pattern search: in some directions, the step halved where none
-/// wins.
+/// Move a point to increase a value by pattern search: try steps in some directions, and
+/// halve the step if none succeeds.
 /// @param best   the value at `x`.
-/// @param value  of a place, called as value(const Vec2&, double floor): where it is no more than the floor
-///               it may be any number up to that.
-/// @param directions  of length 1, those that differ in the value: along others it goes up by rounding.
+/// @param value  called as value(const Vec2&, double floor); if the value is not above the floor, it may
+///               return any number up to the floor.
+/// @param directions  unit vectors along which the value varies; along others it would increase by rounding.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,
                       std::span<const Vec2> directions = all_around())
 {
-    // Of each length: values may go up by rounding alone for ever. A choice, far above what is needed.
+    // Bounds the steps of each length, as values may increase by rounding alone; far above what is needed.
     constexpr int kRounds = 10000;
     for (double step = steps.first * steps.scale; step > steps.last * steps.scale; step /= 2) {
         bool better = true;

@@ -8,10 +8,9 @@
 
 namespace lacuna::geometry {
 
-/// A straight line f0 + t f1 or an ellipse f0 + cos t f1 + sin t f2: so plain that nobody need be asked for
-/// its points.
+/// A line f0 + t f1 or an ellipse f0 + cos t f1 + sin t f2, evaluated without the CAD process.
 struct PlainCurve {
-    std::vector<Vec3> form; ///< f0, f1 and, of an ellipse, f2; empty: the curve is another
+    std::vector<Vec3> form; ///< f0, f1 and, for an ellipse, f2; empty: another kind of curve
 
     /// @pre `form` is not empty
     [[nodiscard]] Vec3 at(double t) const

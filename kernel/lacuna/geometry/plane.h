@@ -8,7 +8,7 @@
 
 namespace lacuna::geometry {
 
-/// Twice the signed area of the triangle over u and v, > 0 where v lies to the left of u.
+/// Twice the signed area of the triangle spanned by u and v, > 0 if v is to the left of u.
 inline double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
 
 /// Angle from u counter-clockwise to v, in (0, 2π] [radians].

@@ -7,7 +7,7 @@
 
 namespace lacuna::geometry {
 
-/// Distance of a point from the straight line between two others, in the plane or in space.
+/// Distance of a point from the segment between two others, in the plane or in space.
 template <class Vec>
 double distance_to_segment(const Vec& point, const Vec& from, const Vec& to)
 {

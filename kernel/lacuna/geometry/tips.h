@@ -8,9 +8,9 @@
 
 namespace lacuna::geometry {
 
-/// Points inside facets whose angles there lack more than a tenth of a full turn: tips of cones. None where
-/// there are more than 64, which coarse facets have.
-/// @param triangles  oriented alike; a side that one of them has alone is the border.
+/// Inner points whose angles sum to less than 90 % of a full turn: tips of cones. Empty if there are more
+/// than 64, as on coarse facets.
+/// @param triangles  consistently oriented; sides of one triangle only are the border.
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 } // namespace lacuna::geometry

@@ -29,10 +29,10 @@ void check_sides(std::span<const Point> bottom, std::span<const Point> right, st
                  std::span<const Point> left)
 {
     const auto fail = [](const std::string& what) {
-        throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be laid: " + what);
+        throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be made: " + what);
     };
     if (bottom.size() != top.size() || left.size() != right.size())
-        fail("opposite sides must have as many points as each other; found bottom " +
+        fail("opposite sides must have equal numbers of points; found bottom " +
              std::to_string(bottom.size()) + ", top " + std::to_string(top.size()) + ", left " +
              std::to_string(left.size()) + ", right " + std::to_string(right.size()) +
              "; give opposite sides the same number of divisions");
@@ -69,7 +69,7 @@ std::vector<Point> coons_grid(std::span<const Point> bottom, std::span<const Poi
     return grid;
 }
 
-/// The point at a share of a side's length.
+/// The point at a relative arc length of a side.
 template <class Point>
 Point point_on(std::span<const Point> side, const std::vector<double>& at, double share)
 {
@@ -97,7 +97,7 @@ Vec2 CoonsPatch<Point>::crossing(std::size_t i, std::size_t k, std::size_t l, st
     const double s0 = bottom_.at[i], s1 = top_.at[k], t0 = left_.at[l], t1 = right_.at[j];
     const double ds = s1 - s0, dt = t1 - t0;
     const double determinant = 1 - ds * dt;
-    // It vanishes only where both lines are the same diagonal; any point of it will do, the middle is fair.
+    // Zero only if both lines are the same diagonal; any point of it is a solution, so take the middle.
     if (determinant <= std::numeric_limits<double>::epsilon()) return {0.5 * (s0 + s1), 0.5 * (t0 + t1)};
     return {(s0 + t0 * ds) / determinant, (t0 + s0 * dt) / determinant};
 }
@@ -106,7 +106,7 @@ template <class Point>
 Point CoonsPatch<Point>::blend(const Vec2& st, const Point& bottom, const Point& right, const Point& top,
                                const Point& left) const
 {
-    // Seen from one corner, sides far from the origin lose no digits to it.
+    // Relative to one corner, to keep precision far from the origin.
     const Point& c0 = bottom_.points.front();
     const Point c1 = bottom_.points.back() - c0, c2 = top_.points.back() - c0, c3 = top_.points.front() - c0;
     const double s = st.x(), t = st.y();

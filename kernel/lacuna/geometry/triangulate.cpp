@@ -22,8 +22,7 @@ std::string loop_name(std::size_t loop, std::size_t count)
 
 void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index>> loops)
 {
-    if (loops.empty())
-        throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
+    if (loops.empty()) throw InvalidInput("geometry.no_loop", "triangulate needs at least one loop");
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = loop_name(l, loops.size());
         if (loops[l].size() < 3) {
@@ -42,28 +41,28 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
         const bool flat = other == loops[l].end() || std::all_of(other, loops[l].end(), [&](Index p) {
                               return orient2d(a, points[index(*other)], points[index(p)]) == 0;
                           });
-        if (flat) throw InvalidInput("geometry.zero_area", name + " has all its points in line, so no area");
+        if (flat)
+            throw InvalidInput("geometry.zero_area", name + " has zero area: all its points are collinear");
     }
     if (const auto crossing = find_crossing(points, loops)) {
         const std::string where = "segment " + std::to_string(crossing->segment_a + 1) + " of " +
                                   loop_name(crossing->loop_a, loops.size()) + " crosses or touches segment " +
                                   std::to_string(crossing->segment_b + 1) + " of " +
                                   loop_name(crossing->loop_b, loops.size());
-        throw InvalidInput("geometry.loops_cross",
-                           where + "; loops must be simple and apart from each other");
+        throw InvalidInput("geometry.loops_cross", where + "; loops must be simple and disjoint");
     }
 }
 
 // --- adding points ----------------------------------------------------------------------------------
 
-// Circumradius over side: 1/√3 where equilateral. A right triangle with legs of the wanted length still
-// passes.
+// Ratio of circumradius to side: 1/√3 for an equilateral triangle. A right triangle whose legs have the
+// target length is still accepted.
 constexpr double kEquilateral = 1 / std::numbers::sqrt3;
 constexpr double kTooLarge = 1 / std::numbers::sqrt2;
-// The least ratio for which adding circumcentres is known to end with graded triangles (Ruppert 1995).
+// Smallest ratio for which inserting circumcentres provably ends, with graded triangles (Ruppert 1995).
 constexpr double kTooSkinny = std::numbers::sqrt2;
-// New points keep this part of the wanted length from all they see: the circumradius of an equilateral
-// triangle of the wanted size, within which such a triangle holds no other point.
+// Distance that new points keep from visible points, relative to the target length: the circumradius of an
+// equilateral triangle of target size, which contains no other point.
 constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
@@ -98,9 +97,9 @@ public:
 
 private:
     struct State {
-        double badness = 0;  ///< above 1 where the triangle should go
-        Index stamp = 0;     ///< tells entries of the queue that mean an earlier triangle of the same number
-        bool settled = true; ///< good, or nothing can be done
+        double badness = 0;  ///< above 1: the triangle should be refined
+        Index stamp = 0;     ///< identifies queue entries of an earlier triangle with the same number
+        bool settled = true; ///< good, or cannot be improved
         bool queued = false;
     };
     struct Waiting {
@@ -125,7 +124,7 @@ private:
         }
     }
 
-    /// Bound the sizes of rim points by each other's, along the sides of the first triangulation.
+    /// Limit the sizes of rim points by those of others, along the sides of the first triangulation.
     void grade_rim()
     {
         if (!std::isfinite(options_.grading)) return;
@@ -160,7 +159,7 @@ private:
         if (!options_.size) return std::numeric_limits<double>::infinity();
         const double value = options_.size(p);
         if (value > 0) return value;
-        throw InvalidInput("geometry.bad_size", "the wanted edge length at (" + std::to_string(p.x()) + ", " +
+        throw InvalidInput("geometry.bad_size", "the target edge length at (" + std::to_string(p.x()) + ", " +
                                                     std::to_string(p.y()) + ") is " + std::to_string(value) +
                                                     "; it must be above 0");
     }
@@ -207,7 +206,7 @@ private:
         state.settled = !(state.badness > 1);
     }
 
-    /// A triangle waits for its turn until a side of it is final: so points advance from the rim in rows.
+    /// A triangle is enqueued once one of its sides is final, so that points advance from the rim in rows.
     void enqueue(Index t)
     {
         State& state = state_[index(t)];
@@ -243,7 +242,7 @@ private:
         const Vec2 middle = (a + b) / 2;
         const Vec2 inward = Vec2(a.y() - b.y(), b.x() - a.x()) / base_length;
         const Vec2 apex = mesh_.at(tri.corner[static_cast<std::size_t>(base)]) - middle;
-        // The circle through a, b and the apex has its centre at this height over the middle of the base.
+        // The centre of the circle through a, b and the apex is at this height over the middle of the base.
         const double half = base_length / 2;
         const double height = (apex.squaredNorm() - half * half) / (2 * apex.dot(inward));
         const double wanted = std::min(kEquilateral * mean_size(tri.corner), kTooSkinny * shortest);
@@ -264,7 +263,7 @@ private:
             const Vec2 to_from = mesh_.at(side.from) - p;
             const Vec2 to_to = mesh_.at(side.to) - p;
             if (to_from.norm() < keep_away) return false;
-            if (side.fixed && to_from.dot(to_to) < 0) return false; // within the segment's diametral circle
+            if (side.fixed && to_from.dot(to_to) < 0) return false; // inside the segment's diametral circle
         }
         mesh_.fill_cavity(p, cavity_, fresh_);
         size_.push_back(wanted);
@@ -279,8 +278,8 @@ private:
 
     DelaunayMesh& mesh_;
     const TriangulateOptions& options_;
-    std::vector<double> size_; ///< wanted edge length at each point
-    std::vector<State> state_; ///< of each triangle
+    std::vector<double> size_; ///< target edge length at each point
+    std::vector<State> state_; ///< state of each triangle
     std::priority_queue<Waiting> queue_;
     DelaunayMesh::Cavity cavity_;
     std::vector<Index> fresh_;

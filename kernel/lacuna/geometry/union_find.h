@@ -10,10 +10,10 @@
 
 namespace lacuna::geometry {
 
-/// Disjoint sets of the numbers 0 … count - 1, each known by one of its members, the root.
+/// Disjoint sets of the numbers 0 … count - 1. Each set is represented by one of its members, the root.
 ///
-/// Algorithm: a forest with path halving (Tarjan and van Leeuwen 1984). The caller chooses which root
-/// stays, since callers number things by it; without ranks a step costs O(log n) amortised.
+/// Algorithm: a forest with path halving (Tarjan and van Leeuwen 1984). The caller chooses which root is
+/// kept, as roots are used for numbering; without union by rank, a step costs O(log n) amortised.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count) : parent_(count)
@@ -21,10 +21,10 @@ public:
         std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     }
 
-    /// A set of its own for one number more.
+    /// Add the next number as a set of its own.
     void add() { parent_.push_back(parent_.size()); }
 
-    /// The root of the set that holds `i`.
+    /// The root of the set that contains `i`.
     [[nodiscard]] std::size_t find(std::size_t i)
     {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -32,7 +32,7 @@ public:
     }
     [[nodiscard]] std::size_t find(Index i) { return find(index(i)); }
 
-    /// Put the set of `b` under the root of the set of `a`. @return false where the two are one set already.
+    /// Merge the set of `b` into that of `a`, whose root is kept. @return false if they are one set already.
     bool unite(std::size_t a, std::size_t b)
     {
         a = find(a);
@@ -43,7 +43,7 @@ public:
     }
     bool unite(Index a, Index b) { return unite(index(a), index(b)); }
 
-    /// The same, where the lesser root stays: every root is then the least member of its set.
+    /// Merge two sets and keep the smaller root, so that every root is the smallest member of its set.
     bool unite_least(std::size_t a, std::size_t b)
     {
         a = find(a);

@@ -253,8 +253,8 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
     return least_of(found);
 }
 
-/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... in a row. @return  whether all are
-/// finite.
+/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... in a row.
+/// @return  whether all are finite.
 bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
 {
     constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -112,13 +112,13 @@ std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& c
 /// Mean `volume` of `cells` cells, from the sums of all layers.
 double mean_volume(std::span<const double> layers, std::size_t cells);
 
-/// The scaled Jacobian of selected cells of a mesh of order 1, with the bits of `metric_values()`.
-/// Single-threaded.
+/// The scaled Jacobian of selected cells of a mesh of order 1, with the bits of
+/// `metric_values()`. Single-threaded.
 /// @pre  `out` has the size of `cells`.
 void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> cells, double* out);
 
-/// A table with one line per metric: name, minimum, mean, maximum, acceptable range, fraction of cells
-/// outside.
+/// A table with one line per metric: name, minimum, mean, maximum, acceptable
+/// range, fraction of cells outside.
 std::string to_table(std::span<const MetricSummary> summaries);
 
 } // namespace lacuna::quality

@@ -52,8 +52,7 @@ public:
 
     /// The running process that holds the model; null if it has ended.
     [[nodiscard]] std::shared_ptr<Worker> worker() const;
-    /// The handle of the model in `worker`, which reads the files first if it does not hold them. @throw as
-    /// ask()
+    /// The handle of the model in `worker`, which reads the files first if needed. @throw as ask()
     std::uint64_t handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }
