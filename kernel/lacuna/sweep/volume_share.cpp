@@ -4,6 +4,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/core/edge_key.h>
 #include <lacuna/surface/rim_breaks.h>
+#include <lacuna/surface/shape_size.h>
 #include <lacuna/surface/wall_columns.h>
 #include <lacuna/topology/use_places.h>
 
@@ -38,6 +39,8 @@ constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
 constexpr double kLonger = 1.35;
 /// Ends that are steeper in the mean, as parts of a ball seen from its side, are not laid out in one plane.
 constexpr double kSteepest = 2;
+/// Rims may have fewer sides than a size asks for, by this factor, so that a grid closes: 16 for 24.
+constexpr double kFewer = 1.5;
 /// Sizes are tried in such steps.
 constexpr double kSmaller = 0.9;
 /// Layers for the bends of the sweep, at most: as many as a spiral of five turns needs.
@@ -306,23 +309,38 @@ public:
     }
 
     /// Sides that lose six tenths of the share allowed, where those asked for lose too much: the rest is for
-    /// the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
+    /// the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area. More where that is
+    /// not enough, as long as each step clearly helps.
     VolumePlan by_numbers()
     {
-        constexpr double kOfShare = 0.6;
-        const int asked = options_.curvature;
+        constexpr double kOfShare = 0.6, kHelps = 0.75;
+        const double share = options_.volume_share;
+        const double turn2 = 2 * std::numbers::pi * std::numbers::pi;
+        const auto wanted = static_cast<int>(std::ceil(std::sqrt(turn2 / (3 * kOfShare * share))));
         follow({});
-        const double wanted = std::sqrt(2 * std::numbers::pi * std::numbers::pi /
-                                        (3 * kOfShare * options_.volume_share));
-        const bool enough = std::abs(rims_->off({asked}, 0)) <= options_.volume_share;
-        const int sides = enough ? asked
-                                 : std::max(asked + asked / 4 + 1, static_cast<int>(std::ceil(wanted)));
+        int sides = options_.curvature;
+        for (double lost = lost_by_numbers(sides); lost > share;) {
+            const int more = std::max(sides + sides / 4 + 1, wanted);
+            const double left = lost_by_numbers(more);
+            if (more > kMostPerTurn || left > kHelps * lost) break;
+            sides = more;
+            lost = left;
+        }
         const bool counted = options_.layers.count > 0 || !options_.layers.heights.empty();
         if (counted) return {.per_turn = sides};
-        return {sides, 1, layers({sides}, options_.volume_share)};
+        return {sides, 1, layers({sides}, share)};
     }
 
 private:
+    /// Share lost on the rims and ends with sizes that somebody asked for, which ends follow as they bend.
+    double lost_by_numbers(int per_turn)
+    {
+        const double on_rims = rims_->off({per_turn, kFewer}, 0);
+        if (lost_on_ends(volume_, options_, size_, {}) == 0) return std::abs(on_rims);
+        const surface::SizeField at = surface::shape_size(volume_, size_, {per_turn, 0}).at;
+        return std::max(std::abs(on_rims), lost_on_ends(volume_, options_, at, {}));
+    }
+
     /// Model the walls of a mesh with nodes at breaks.
     void follow(const surface::RimBreaks& breaks)
     {
