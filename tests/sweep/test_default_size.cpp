@@ -143,6 +143,60 @@ TEST_CASE("more than 50 million cells are refused unless both the size and the l
     }
 }
 
+TEST_CASE("sides for a turn count among the cells to be expected, and counts of any size are readable")
+{
+    const auto volume = test::sealed({.sides = 0, .cuts = 6});
+    double before = 0;
+    for (const int curvature : {12, 100, 10000, 1000000}) {
+        sweep::KnownLinks links(volume);
+        SweepOptions options;
+        options.curvature = curvature;
+        const double now = sweep::source_size(volume, options, links, {}).expected.all;
+        CHECK(now > before);
+        before = now;
+    }
+    CHECK(before > 50e6);
+    std::string line;
+    RunContext context;
+    context.log = [&](std::string_view text) { line = text; };
+    sweep::check_cells({6.4e19, 0}, context);
+    CHECK(line == "estimate: about 6.4e+19 cells");
+}
+
+TEST_CASE("with given numbers a loss above 2 % is a note, and the numbers that it names keep the volume")
+{
+    int notes = 0;
+    for (const int sides : {0, 4}) {
+        for (const double belly : {0.6, 1.5, 2.0}) {
+            for (const int layers : {2, 4, 30}) {
+                CAPTURE(sides);
+                CAPTURE(belly);
+                CAPTURE(layers);
+                const auto volume = test::sealed({.sides = sides, .cuts = 6, .levels = 24, .belly = belly});
+                SweepOptions options;
+                options.size = [](const Vec3&) { return 0.4; };
+                options.layers.count = layers;
+                options.max_deviation = 10;
+                const auto off = [](const Swept& swept) {
+                    return std::abs(swept.fidelity.volume / swept.fidelity.sealed_volume - 1);
+                };
+                const Swept swept = sweep::sweep(volume, options);
+                const auto note = std::ranges::find_if(swept.defaults, [](const std::string& text) {
+                    return text.starts_with("note: the mesh has ");
+                });
+                REQUIRE((note != swept.defaults.end()) == (off(swept) > 0.02));
+                if (note == swept.defaults.end()) continue;
+                ++notes;
+                const double size = std::stod(note->substr(note->find("size = ") + 7));
+                options.size = [size](const Vec3&) { return size; };
+                options.layers.count = std::stoi(note->substr(note->find("layers = ") + 9));
+                CHECK(off(sweep::sweep(volume, options)) <= 0.01);
+            }
+        }
+    }
+    CHECK(notes > 3);
+}
+
 TEST_CASE("coarse facets ask for what they are, with some quads across and some layers at least")
 {
     const auto volume = test::sealed({.sides = 4, .cuts = 1});

@@ -62,8 +62,8 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
-/// Quads that sides by the turns of the rims ask for beyond those by the size. Sides that grow by 0.3 for each
-/// length off the rim, as the paver grades, are as many as the integral of their inverse square.
+/// Quads that sides by the turns of the rims ask for beyond those by the size. Where sides grow by 0.3 for
+/// each length off the rim, as the paver grades, they are as many as the integral of their inverse square.
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
