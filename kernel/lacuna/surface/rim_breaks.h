@@ -62,7 +62,6 @@ private:
     [[nodiscard]] std::vector<Index> crease_from(Index rim) const;
     [[nodiscard]] bool has_nodes_at(const LinkingSurface& link,
                                     std::span<const std::pair<double, double>> creases) const;
-    [[nodiscard]] bool bends_between(std::span<const Crease> creases) const;
     [[nodiscard]] std::vector<Vertex> kept(const Chain& chain, int per_turn, const SizeField& size) const;
     [[nodiscard]] std::vector<Vertex> on_creases(std::vector<Vertex> vertices);
 

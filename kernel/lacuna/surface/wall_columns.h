@@ -2,14 +2,11 @@
 #pragma once
 
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/walls.h>
 
 #include <vector>
 
 namespace lacuna::surface {
-
-/// Walls longer than the straight way by a smaller share count as straight: less than a layer of ten; and
-/// where the volume of a bulge counts, with the length of an arc whose sag is a seventieth of it.
-inline constexpr double kHardlyLonger = 0.05, kAnyLonger = 5e-4;
 
 /// Columns up a linking surface from source to target, each as steps + 1 points at even shares of the way:
 /// its side lines, on the exact curves. Without them, ways up the walls by their harmonic map from eight
@@ -17,10 +14,16 @@ inline constexpr double kHardlyLonger = 0.05, kAnyLonger = 5e-4;
 /// @throw Cancelled
 /// @cost  near linear in the walls' facets where the map is needed.
 std::vector<std::vector<Vec3>> wall_columns(const topology::OpenVolume& volume, const LinkingSurface& link,
-                                            int steps, const RunContext& context = {},
-                                            double hardly_longer = kHardlyLonger);
+                                            int steps, const RunContext& context = {});
 
-/// Whether the walls, by their length in the mean, bend on the way at all.
-bool walls_bend(const topology::OpenVolume& volume, const LinkingSurface& link);
+/// Rows of points from the source's rim to the target's, steps + 1 of them: on the rims, and between these on
+/// the walls by their harmonic map.
+/// @throw Cancelled
+std::vector<std::vector<Vec3>> wall_rows(const topology::OpenVolume& volume, const LinkingSurface& link,
+                                         const LinkingNodes& nodes, int steps, const RunContext& context);
+
+/// How far the rim turns along each segment [radian], on the source's or on the target's side, where it turns
+/// more; not between vertices of facets that it follows.
+std::vector<double> turning_of_segments(const topology::Model& model, const LinkingSurface& link);
 
 } // namespace lacuna::surface

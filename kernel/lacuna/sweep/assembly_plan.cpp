@@ -215,9 +215,11 @@ private:
         const OpenVolume& volume = *members_[m].volume;
         const SweepOptions& options = members_[m].options;
         const surface::SizeField size_at = [this, m](const Vec3& p) { return size(m, p); };
-        per_turn_[m] = planned_sides(volume, links, options, size_at);
+        const VolumePlan plan = plan_volume(volume, links, options, size_at, context_);
+        per_turn_[m] = plan.per_turn;
+        if (plan.layers) layers_[m] = plan.layers(1);
         if (!sizes_by_default(options)) return;
-        layers_[m] = planned_layers(volume, links, 1, options, context_);
+        spacing_[m] *= plan.part;
         surface::RimFacets facets(volume, links);
         for (const auto& [edge, at] : facets.breaks(per_turn_[m], size_at).edges) {
             std::vector<double> ends{0};

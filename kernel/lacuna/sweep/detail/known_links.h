@@ -3,15 +3,18 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/sweep/detail/size_words.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// The linking surfaces of one volume, found once: whoever plans its layers asks for the same ones as each
-/// try of its sweep.
+/// The linking surfaces of one volume, the numbers that keep its volume and the sizes of its quads, found
+/// once: whoever plans its layers asks for the same ones as each try of its sweep.
 class KnownLinks {
 public:
     /// @param volume  outlives this and stays where and as it is: linking surfaces refer to its model.
@@ -29,8 +32,17 @@ public:
         return *links_;
     }
 
+    VolumePlan plan; ///< by default nothing
+
+    /// Where the sizes for so many sides for a turn are kept; null: not of another volume.
+    std::optional<SourceSize>* sizes(const topology::OpenVolume& volume, int per_turn)
+    {
+        return &volume == &volume_ ? &sizes_[per_turn] : nullptr;
+    }
+
 private:
     const topology::OpenVolume& volume_;
+    std::map<int, std::optional<SourceSize>> sizes_;
     std::optional<std::vector<surface::LinkingSurface>> links_;
 };
 

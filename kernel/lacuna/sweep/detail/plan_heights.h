@@ -3,6 +3,7 @@
 
 #include <lacuna/surface/boundary_layers.h>
 #include <lacuna/surface/linking_surface.h>
+#include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <vector>
@@ -23,7 +24,7 @@ struct PlannedHeights {
 /// heights divide the sides it asks for evenly, in the mean over the columns. Boundary layers of the ends
 /// come first and last, and the rest shares what they leave.
 /// @param asked  what `LayerSpec` makes of a count or of heights, from the source; empty: none are asked for.
-/// @param size   of the source's quads.
+/// @param sizes  of the source's quads, and layers for the walls' bends.
 /// @param least  layers that the walls need.
 /// @throw InvalidInput  more layers than can be numbered; boundary layers of ends together with heights, or
 ///                      with fewer layers than they have.
@@ -31,7 +32,7 @@ struct PlannedHeights {
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least,
+                            const SourceSize& sizes, const SweepOptions& options, int least,
                             const RunContext& context);
 
 } // namespace lacuna::sweep

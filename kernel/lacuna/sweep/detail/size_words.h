@@ -6,6 +6,7 @@
 #include <lacuna/surface/shape_size.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ struct SourceSize {
     /// A place too narrow for `kDefaultGap` quads across, which nobody asked for: they would be too many in
     /// all.
     std::optional<surface::SizeCause> too_narrow;
-    bool narrow = false; ///< quads are to be across places that are, or may be, narrow
+    std::function<int(int least)> layers{}; ///< of `VolumePlan`
+    bool narrow = false;                    ///< quads are to be across places that are, or may be, narrow
     ExpectedCells expected{};
 };
 

@@ -21,8 +21,12 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// The same for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// The size asked for, or the default; smaller where the shape needs it, and all over where the ends would
-/// lose too much of the volume by their bends.
+/// A field that refuses what is no length before anything is divided by it.
+/// @throw InvalidInput  by the field, names the option.
+surface::SizeField checked_size(const surface::SizeField& field, const std::string& option);
+
+/// The size asked for, or the default; smaller where the shape needs it, and all over where the plan for the
+/// volume says so.
 /// @throw InvalidInput  a size that is no positive length; too many cells to number. @throw Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);
