@@ -24,27 +24,20 @@ struct LayeredFile {
     std::vector<quality::Metric> quality{}; ///< fields of cells; decks have none
     std::string material{};                 ///< of decks
     io::PartitionOptions partition{};       ///< of .msh and .pvtu
-    bool all_groups = false;                ///< of .msh: as `io::MshOptions::all_groups`
+    bool all_groups = false;                ///< of .msh: as `io::MeshFileOptions::all_groups`
 };
-
-/// Whether files of an ending (".msh") are written a layer at a time.
-bool is_layered(const std::string& ending);
 
 /// Write a mesh whose nodes are made as they are written, in the format that the path's ending says: with a
 /// crew, where there is one.
 /// @param plan  what the layers are placed by.
-/// @pre  is_layered() of the ending
-/// @throw  as `io::write_msh()`; TeamFailed
+/// @pre  the format is streamed
+/// @throw  as `io::write_mesh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
 
-/// Whether the mesh of an assembly, whose parts may not hold their nodes, is written so in files of an
-/// ending.
-bool is_layered_of_parts(const std::string& ending);
-
 /// Write the mesh of an assembly with the bytes of `io::write_deck()` of its deck: with a crew, where there
 /// is one and no part holds its nodes.
-/// @pre  is_layered_of_parts() of the ending; `file` has no parts, fields or material
+/// @pre  parts of the format are streamed; `file` has no parts, fields or material
 /// @throw  as `write_layered()`
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
                  const Crew* crew, const RunContext& context);
