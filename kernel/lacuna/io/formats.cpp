@@ -11,6 +11,9 @@
 
 namespace lacuna::io {
 
+/// OpenFOAM's folder. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells with middle nodes.
+void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
+
 namespace {
 
 constexpr std::string_view kDeckOptions = "with without renumber first_node first_cell interfaces";
@@ -87,6 +90,11 @@ std::vector<FormatRow> make_table()
         row.has_hex27 = true, row.streamed_parts = false;
         table.push_back(row);
     }
+    row = mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh);
+    row.is_folder = true, row.is_read = row.has_hex20 = row.has_node_sets = false;
+    row.options = "with without renumber interfaces", row.view_folder = write_poly_mesh;
+    row.unwritten_sets = "sets of nodes or sides are not written: a polyMesh has patches of faces";
+    table.push_back(row);
     row = mesh_format(".mesh", "a Medit file", "Medit", medit);
     row.read = read_medit, row.is_written = false, row.numbers_regions = true;
     table.push_back(row);
