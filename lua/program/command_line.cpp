@@ -3,6 +3,8 @@
 
 #include "bindings/options.h"
 
+#include <lacuna/io/formats.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -75,7 +77,7 @@ other file as faces, which can be selected and copied as roles.
 )"},
     {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
      R"(
-Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh.
+Reads the hexahedra and wedges of a mesh: %MESHES.
 Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
 Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is invalid.
 
@@ -83,8 +85,8 @@ Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is in
 )"},
     {"convert", "IN OUT", 2, nullptr, "convert a mesh or deck to another format",
      R"(
-Reads a mesh (.msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj) and writes it in the format
-given by the ending of OUT: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their numbers,
+Reads a mesh, %READ, and writes it in the
+format given by the ending of OUT: %WRITTEN. Nodes, elements, their numbers,
 regions and sets are kept. Data that the format cannot store is listed on standard error.
 )"},
 };
@@ -318,12 +320,28 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
 
 } // namespace
 
+namespace {
+
+/// The endings of formats in the place of their words.
+std::string with_endings(std::string text)
+{
+    const std::pair<std::string_view, std::string> words[] = {
+        {"%MESHES", io::endings_of([](const io::Format& of) { return of.is_read && of.is_mesh; })},
+        {"%READ", io::endings_of([](const io::Format& of) { return of.is_read; })},
+        {"%WRITTEN", io::endings_of([](const io::Format& of) { return of.has_option("with"); })}};
+    for (const auto& [word, endings] : words)
+        if (const std::size_t at = text.find(word); at != text.npos) text.replace(at, word.size(), endings);
+    return text;
+}
+
+} // namespace
+
 std::string help_text(const std::string& name)
 {
     if (const Command* command = find_command(name))
         return std::string("usage: lacuna ") + command->name +
                (command->option ? std::string(" [") + command->option + "] " : " ") + command->files + "\n" +
-               command->help;
+               with_endings(command->help);
     std::string text = kHelp;
     for (const Command& command : kCommands) {
         std::string left = std::string("  ") + command.name + " " + command.files;

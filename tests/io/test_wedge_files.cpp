@@ -92,10 +92,9 @@ TEST_CASE("hexahedra and wedges come back from every format, the skin's triangle
         check_deck(io::read_deck(folder.file("a.vtu")), mesh, true);
         for (const std::string name : {"a.inp", "a.bdf", "a.unv"}) {
             CAPTURE(name);
-            io::DeckFormat format{};
-            REQUIRE(io::find_deck_format(io::ending_of(name), format));
-            io::write_deck(io::deck_of(mesh, {.format = format}), format, folder.file(name));
-            check_deck(io::read_deck(folder.file(name)), mesh, format == io::DeckFormat::unv);
+            const io::Format& format = io::needed_mesh_format("write", name);
+            io::write_mesh(format, mesh, folder.file(name));
+            check_deck(io::read_deck(folder.file(name)), mesh, format.deck == io::DeckFormat::unv);
         }
     }
 }

@@ -8,7 +8,7 @@
 #include <lacuna/core/large_pages.h>
 #include <lacuna/healing/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_entities.h>
+#include <lacuna/io/detail/deck_view.h>
 
 #include <algorithm>
 #include <map>

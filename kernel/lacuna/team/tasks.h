@@ -24,27 +24,20 @@ struct LayeredFile {
     std::vector<quality::Metric> quality{}; ///< written as cell fields; not for decks
     std::string material{};                 ///< material name, for decks
     io::PartitionOptions partition{};       ///< for .msh and .pvtu
-    bool all_groups = false;                ///< for .msh, as `io::MshOptions::all_groups`
+    bool all_groups = false;                ///< for .msh, as `io::MeshFileOptions::all_groups`
 };
-
-/// Whether files with this ending (such as ".msh") can be written layer by layer.
-bool is_layered(const std::string& ending);
 
 /// Write a mesh whose nodes are computed while they are written, in the format given by the ending of the
 /// path. A process group, if there is one, shares the work.
 /// @param plan  computes the nodes of each layer.
-/// @pre  is_layered() of the ending
-/// @throw  as `io::write_msh()`; TeamFailed
+/// @pre  the format is streamed
+/// @throw  as `io::write_mesh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
 
-/// Whether files with this ending can be written layer by layer for the mesh of an assembly, whose parts may
-/// not store their nodes.
-bool is_layered_of_parts(const std::string& ending);
-
 /// Write the mesh of an assembly, byte for byte as `io::write_deck()` does for its deck. A process group, if
 /// there is one, shares the work unless a part stores its nodes.
-/// @pre  is_layered_of_parts() of the ending; `file` has no parts, fields or material
+/// @pre  parts of the format are streamed; `file` has no parts, fields or material
 /// @throw  as `write_layered()`
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
                  const Crew* crew, const RunContext& context);
