@@ -8,7 +8,7 @@
 
 namespace lacuna::test {
 
-/// What `quality::prove()` proves of a swept mesh, found from the cells alone: for hexahedra and wedges of any
+/// What `quality::prove()` proves of a swept mesh, found from the cells alone: hexahedra and wedges of any
 /// origin.
 /// @param skin  where not empty, quads and triangles that must be exactly the skin, in any order and
 ///              direction.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/straight_counts.h>
 
+#include <lacuna/quads/detail/count_trial.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
@@ -14,6 +15,15 @@
 
 namespace lacuna::quads {
 namespace {
+
+/// Where there are fewer quads than this, a grid is made with several numbers and the best are taken. For the
+/// time.
+constexpr double kFewForTrial = 200;
+
+bool may_be_tried(const CountTask& task, const StraightOptions& options)
+{
+    return !options.is_part && quads_asked(task) < kFewForTrial;
+}
 
 /// The loops of a region with headings in a straight grid.
 struct HeadedLoops {
@@ -245,11 +255,13 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             if (!has_place) counts.cost += kOff;
             if (!options.few || has_place) {
                 least = std::min(least, counts.cost);
+                all.push_back(counts);
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
-                    counts.sides = counts_of(task, closed->loops);
+                    all.back().sides = counts_of(task, closed->loops);
+                    // Which of both is better is tried.
+                    if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
-                all.push_back(std::move(counts));
             }
             if (!options.is_part && fits && has_place) return all;
         }
@@ -259,6 +271,28 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
 
 bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
 
+/// Of several counts those that a grid fills best by measure, the cheapest first, until one is good.
+/// Nothing where none is filled, or there is no choice.
+std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
+{
+    // A score of quads as they should be, and grids made at most: for the time. Choices.
+    constexpr double kGood = 3.1;
+    constexpr std::size_t kMost = 4;
+    std::stable_sort(all.begin(), all.end(), is_cheaper);
+    const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
+    all.erase(std::unique(all.begin(), all.end(), alike), all.end());
+    if (all.size() < 2) return std::nullopt;
+    std::optional<Counts> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
+        const auto score = score_of_counts(task.region, task.segment, all[i].sides, quads_asked(task));
+        if (!score || *score <= most) continue;
+        most = *score;
+        best = all[i];
+    }
+    return best;
+}
+
 } // namespace
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
@@ -266,14 +300,19 @@ std::optional<Counts> straight_counts(const CountTask& task, const StraightOptio
     // What soft ends are worth; chosen as what quads are.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
+    const auto add = [&](TurnStyle style) {
+        for (Counts& counts : counts_looked_at(task, options, style)) all.push_back(std::move(counts));
+    };
+    if (may_be_tried(task, options) && has_doubtful_turns(task.region)) add(TurnStyle::few_soft);
     for (Counts& counts : all) counts.cost /= kSoft;
-    if (has_half_ends(task.region)) {
-        for (Counts& counts : counts_looked_at(task, options, TurnStyle::hard_ends))
-            all.push_back(std::move(counts));
-    }
+    if (has_half_ends(task.region)) add(TurnStyle::hard_ends);
     const auto least = std::min_element(all.begin(), all.end(), is_cheaper);
     if (least == all.end()) return std::nullopt;
-    return std::move(*least);
+    Counts best = *least;
+    if (may_be_tried(task, options)) {
+        if (auto filled = best_filled(task, std::move(all))) return filled;
+    }
+    return best;
 }
 
 } // namespace lacuna::quads

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/quads/detail/central_block.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/pave_attempt.h>
 #include <lacuna/quads/measure_plane.h>
@@ -60,6 +61,11 @@ private:
     /// Keep quads of a coarser region, each cut in four, where they are good.
     /// @return whether nothing else need be tried.
     bool try_coarse();
+    /// Keep images of a part about a block in the middle, where they are good and score no less than what is
+    /// kept already. @return whether they were kept
+    bool try_blocks();
+    /// Those about one block, smoothed with it.
+    [[nodiscard]] Attempt fill_about(const CentralBlock& block) const;
     /// The part between mirror axes, where there are any, with nodes on them.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
     /// Keep images of a part where they are good, else add them to the grids.

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/central_block.h>
+
+#include <lacuna/quads/detail/corner_sine.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lacuna::quads {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// A block's first and last quads turn by this from the line between its corners, so that these have 132°:
+/// with the 114° on either side nearly what three quads there share. A choice, not a measurement.
+constexpr double kBulge = 21 * kPi / 180;
+/// How far the block's corners and the middles of its sides may reach to the boundary. Choices, not
+/// measurements.
+constexpr double kCornerReach = 0.5, kSideReach = 0.5;
+
+/// How far from the centre the boundary is in a direction or beside it, within an eighth of a turn.
+double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec2& p : region.points) {
+        const Vec2 d = p - centre;
+        double off = std::remainder(std::atan2(d.y(), d.x()) - angle, kPi / 2);
+        off = std::abs(off);
+        if (off < kPi / 8) least = std::min(least, d.norm());
+    }
+    return least;
+}
+
+/// An angle of one of four axes at 45°, or nothing where there are no such axes.
+std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
+{
+    constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two axes
+    for (const Symmetry& first : symmetries) {
+        if (!first.map.mirrors) continue;
+        const double angle = first.map.angle() / 2;
+        int found = 0;
+        for (const Symmetry& other : symmetries) {
+            if (other.map.mirrors && std::abs(std::remainder(other.map.angle() / 2 - angle, kPi / 4)) < kSame)
+                ++found;
+        }
+        if (found == 4) return angle;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<CentralBlock> central_block(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
+                                          const std::function<double(const Vec2&)>& size, int choice)
+{
+    const std::optional<double> axis = eighths(symmetries);
+    if (!axis) return std::nullopt;
+    const Vec2 centre = symmetries.front().map.centre;
+    std::array<double, 2> free{free_way(region, centre, *axis), free_way(region, centre, *axis + kPi / 4)};
+    double angle = *axis;
+    if ((free[1] > free[0]) != (choice == 1)) {
+        angle += kPi / 4;
+        std::swap(free[0], free[1]);
+    }
+    // A side's middle is that far out, for corners one away.
+    const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
+    const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
+    if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;
+    const double arc = 2 * half * reach * kBulge / std::sin(kBulge);
+    const int sides = 2 * std::max(1, static_cast<int>(std::lround(arc / size(centre) / 2)));
+
+    CentralBlock block{region, {}, {}};
+    const auto first = static_cast<Index>(region.points.size());
+    // The sides bulge: arcs about points beyond the centre, of which a quad's side is a chord.
+    const double bulge = kBulge * sides / (sides - 1);
+    const double radius = half * reach / std::sin(bulge);
+    std::vector<Vec2> rim; // counter-clockwise
+    for (int k = 0; k < 4; ++k) {
+        const double out = angle + (k + 0.5) * kPi / 2;
+        const Vec2 along(std::cos(out), std::sin(out));
+        const Vec2 about = centre + (half * reach - radius * std::cos(bulge)) * along;
+        for (int i = 0; i < sides; ++i) {
+            const double turn = out + bulge * (2.0 * i / sides - 1);
+            rim.push_back(about + radius * Vec2(std::cos(turn), std::sin(turn)));
+        }
+    }
+    // A hole runs clockwise: its nodes are numbered like the rim and gone through backwards.
+    std::vector<Index> hole;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        block.around.points.push_back(rim[i]);
+        hole.push_back(first + static_cast<Index>((rim.size() - i) % rim.size()));
+    }
+    block.around.loops.push_back(std::move(hole));
+
+    const auto at = [&](int x, int y) { // on the rim: the place along it, else -1
+        if (y == 0) return x;
+        if (x == sides) return sides + y;
+        if (y == sides) return 3 * sides - x;
+        return x == 0 ? 4 * sides - y : -1;
+    };
+    std::vector<Index> node(static_cast<std::size_t>((sides + 1) * (sides + 1)));
+    const auto slot = [&](int x, int y) { return static_cast<std::size_t>(y * (sides + 1) + x); };
+    const auto rim_at = [&](int x, int y) -> const Vec2& { return rim[static_cast<std::size_t>(at(x, y))]; };
+    for (int y = 0; y <= sides; ++y) {
+        for (int x = 0; x <= sides; ++x) {
+            if (at(x, y) >= 0) {
+                node[slot(x, y)] = first + static_cast<Index>(at(x, y));
+                continue;
+            }
+            const double u = static_cast<double>(x) / sides, v = static_cast<double>(y) / sides;
+            const Vec2 between = (1 - v) * rim_at(x, 0) + v * rim_at(x, sides) + (1 - u) * rim_at(0, y) +
+                                 u * rim_at(sides, y);
+            const Vec2 corners = (1 - u) * ((1 - v) * rim_at(0, 0) + v * rim_at(0, sides)) +
+                                 u * ((1 - v) * rim_at(sides, 0) + v * rim_at(sides, sides));
+            node[slot(x, y)] = first + static_cast<Index>(rim.size() + block.inner.size());
+            block.inner.push_back(between - corners);
+        }
+    }
+    for (int y = 0; y < sides; ++y) {
+        for (int x = 0; x < sides; ++x)
+            block.quads.push_back(
+                {node[slot(x, y)], node[slot(x + 1, y)], node[slot(x + 1, y + 1)], node[slot(x, y + 1)]});
+    }
+    return block;
+}
+
+PlanarQuads with_block(const CentralBlock& block, PlanarQuads around)
+{
+    const std::size_t own = block.around.points.size();
+    const auto more = static_cast<Index>(around.points.size() - own);
+    const auto inner = static_cast<Index>(own);
+    around.points.insert(around.points.end(), block.inner.begin(), block.inner.end());
+    for (Quad quad : block.quads) {
+        for (Index& p : quad) p += p >= inner ? more : 0;
+        around.quads.push_back(quad);
+    }
+    return around;
+}
+
+} // namespace lacuna::quads

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/count_trial.h>
+
+#include <lacuna/quads/detail/pave_choice.h>
+#include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/face_pattern.h>
+#include <lacuna/quads/measure_plane.h>
+
+#include <algorithm>
+
+namespace lacuna::quads {
+namespace {
+
+/// The region with as many sides on every segment as it is to have.
+PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, std::span<const int> counts)
+{
+    PlanarRegion made;
+    made.size = region.size;
+    made.row_height = region.row_height;
+    for (const std::vector<Index>& loop : region.loops) {
+        const std::size_t n = loop.size();
+        const auto own = [&](std::size_t i) { return segment[static_cast<std::size_t>(loop[i % n])]; };
+        const auto at = [&](std::size_t i) -> const Vec2& {
+            return region.points[static_cast<std::size_t>(loop[i % n])];
+        };
+        // From where a segment starts; a loop that is one segment has its first node there.
+        std::size_t start = 0;
+        while (start < n && own(start) == own(start + n - 1)) ++start;
+        if (start == n) start = 0;
+        made.loops.emplace_back();
+        for (std::size_t from = start, to = start; from < start + n; from = to) {
+            while (to < start + n && own(to) == own(from)) ++to;
+            const int sides = counts[static_cast<std::size_t>(own(from))];
+            for (int k = 0; k < sides; ++k) {
+                const double place = static_cast<double>(k) / sides * static_cast<double>(to - from);
+                const auto whole = static_cast<std::size_t>(place);
+                const double part = place - static_cast<double>(whole);
+                made.loops.back().push_back(static_cast<Index>(made.points.size()));
+                made.points.push_back((1 - part) * at(from + whole) + part * at(from + whole + 1));
+            }
+        }
+    }
+    return made;
+}
+
+} // namespace
+
+std::optional<double> score_of_counts(const PlanarRegion& region, std::span<const int> segment,
+                                      std::span<const int> counts, double asked)
+{
+    // A quarter more quads or less than asked is worth so much of a score, and the square of that beyond it:
+    // more than a mean scaled Jacobian hardly ever differs by. A choice, not a measurement.
+    constexpr double kQuarter = 0.25, kWorth = 0.2;
+    PlanarRegion made = divided(region, segment, counts);
+    const std::vector<PlanarQuads> meshes = fill_patterns(made);
+    made.size = paving::sizes_with_boundary(made).ring;
+    std::optional<double> best;
+    for (const PlanarQuads& mesh : meshes) {
+        const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuarter;
+        best = std::max(best.value_or(-1), paving::score_of(measure_plane(mesh, made)) - kWorth * off * off);
+    }
+    return best;
+}
+
+} // namespace lacuna::quads
