@@ -319,6 +319,9 @@ public:
         const auto wanted = static_cast<int>(std::ceil(std::sqrt(turn2 / (3 * kOfShare * share))));
         follow({});
         int sides = options_.curvature;
+        if (lost_on_ends(volume_, options_, size_, {}) > share)
+            on_ends_ = lost_on_ends(volume_, options_, surface::shape_size(volume_, size_, {sides, 0}).at,
+                                    {});
         for (double lost = lost_by_numbers(sides); lost > share;) {
             const int more = std::max(sides + sides / 4 + 1, wanted);
             const double left = lost_by_numbers(more);
@@ -332,13 +335,11 @@ public:
     }
 
 private:
-    /// Share lost on the rims and ends with sizes that somebody asked for, which ends follow as they bend.
+    /// Share lost on the rims, or on ends whose quads follow the sides of their rims.
     double lost_by_numbers(int per_turn)
     {
-        const double on_rims = rims_->off({per_turn, kFewer}, 0);
-        if (lost_on_ends(volume_, options_, size_, {}) == 0) return std::abs(on_rims);
-        const surface::SizeField at = surface::shape_size(volume_, size_, {per_turn, 0}).at;
-        return std::max(std::abs(on_rims), lost_on_ends(volume_, options_, at, {}));
+        const double fewer = static_cast<double>(options_.curvature) / per_turn;
+        return std::max(std::abs(rims_->off({per_turn, kFewer}, 0)), on_ends_ * fewer * fewer);
     }
 
     /// Model the walls of a mesh with nodes at breaks.
