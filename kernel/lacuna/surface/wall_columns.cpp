@@ -14,10 +14,10 @@ using namespace topology;
 
 namespace {
 
-/// Columns looked at where there are no side lines: a choice, not a measurement.
+/// Number of sampled columns if there are no side lines. Heuristic.
 constexpr int kPlaces = 8;
 
-/// Length of the walls in the mean: their area over that of their rims.
+/// Mean length of the walls: their area over the mean length of their rims.
 double mean_length(const Model& model, const LinkingSurface& link)
 {
     double area = 0;
@@ -25,8 +25,8 @@ double mean_length(const Model& model, const LinkingSurface& link)
     return 2 * area / (link.source.length() + link.target.length());
 }
 
-/// Whether walls are as long as a straight way of so many columns: longer ones bend or bulge, and walls that
-/// are narrower between their rims than there have less area.
+/// Whether the walls are as long as the straight line in so many columns. Longer walls bend or bulge; walls
+/// with a waist have less area.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns,
                   double hardly_longer)
 {

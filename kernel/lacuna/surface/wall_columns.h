@@ -7,20 +7,21 @@
 
 namespace lacuna::surface {
 
-/// Walls longer than the straight way by a smaller share count as straight: less than a layer of ten; and
-/// where the volume of a bulge counts, with the length of an arc whose sag is a seventieth of it.
+/// Walls longer than the straight line by a smaller share count as straight: this is less than one of ten
+/// layers. Where the volume of a bulge matters, the bound is the length of an arc whose sag is a seventieth
+/// of it.
 inline constexpr double kHardlyLonger = 0.05, kAnyLonger = 5e-4;
 
-/// Columns up a linking surface from source to target, each as steps + 1 points at even shares of the way:
-/// its side lines, on the exact curves. Without them, ways up the walls by their harmonic map from eight
-/// places of the source's rim; straight ones where the walls are hardly longer than those.
+/// Columns up a linking surface from source to target, each with steps + 1 points at even steps of its
+/// length: its side lines, on the exact curves. Without side lines, columns of the walls' harmonic map from
+/// eight points of the source's rim, or straight lines if the walls are hardly longer than those.
 /// @throw Cancelled
 /// @cost  near linear in the walls' facets where the map is needed.
 std::vector<std::vector<Vec3>> wall_columns(const topology::OpenVolume& volume, const LinkingSurface& link,
                                             int steps, const RunContext& context = {},
                                             double hardly_longer = kHardlyLonger);
 
-/// Whether the walls, by their length in the mean, bend on the way at all.
+/// Whether the walls bend at all, by their mean length.
 bool walls_bend(const topology::OpenVolume& volume, const LinkingSurface& link);
 
 } // namespace lacuna::surface
