@@ -84,7 +84,7 @@ for sides = 3, 7 do
     if rings > 2 then
       rows.walls = "wall_2_1"
       check.fails(function() volume():sweep { layers = 6, size = 0.5, boundary_layers = rows } end,
-          "stands on neither end", 'walls = "walls"', "surface.layers_unreached")
+          "touches neither source nor target", 'walls = "walls"', "surface.layers_unreached")
     end
   end
 end

@@ -463,7 +463,8 @@ for row in (picks[1] .. "|"):gmatch("(.-)|") do
 end
 check.equal(shown, #told.faces)
 local bore = told.cavities[2]
-check.that(picks[2]:find("|bore, faces " .. table.concat(bore.faces, ", ") .. "  likely class V, volume", 1, true),
+check.that(
+    picks[2]:find("|bore, faces " .. table.concat(bore.faces, ", ") .. "  likely class V, volume", 1, true),
     picks[2])
 check.equal(picks[3],
     ("local void = model:open_volume {|  faces = { %s },|}"):format(table.concat(bore.faces, ", ")),

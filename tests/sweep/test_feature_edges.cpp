@@ -609,7 +609,7 @@ TEST_CASE("edges of the walls that no layer and no column can follow are refused
             CAPTURE(std::string(error.what()));
             CHECK(error.code() == "surface.wall_edge");
             CHECK(std::string(error.what()).find("edge ") == 0);
-            CHECK(std::string(error.what()).find("round or slanted") != std::string::npos);
+            CHECK(std::string(error.what()).find("crosses the layers") != std::string::npos);
         }
     }
     options.layers.count = 2;

@@ -17,9 +17,9 @@ using namespace topology;
 
 namespace {
 
-/// Nodes a face's edges are compared by: an arc and its chord differ in the middle. A choice.
+/// Sample points of an edge for comparing edges of a face: enough to tell an arc from its chord. Heuristic.
 constexpr std::size_t kPerEdge = 4;
-/// Faces of more edges are left alone, for the time: comparing takes the square of that. A choice.
+/// Faces with more edges are not compared, because the cost is quadratic in the number of edges. Heuristic.
 constexpr std::size_t kMostEdges = 512;
 
 } // namespace
@@ -47,7 +47,7 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
             edges.push_back(use.edge);
         }
     }
-    // A seam has the face on both sides, and no mirror image of one.
+    // A seam has the face on both sides, so it has no mirror image.
     if (region.loops.empty() || std::set<EdgeId>(edges.begin(), edges.end()).size() < edges.size()) return {};
     sort_outer_first(region.points, region.loops);
     const std::vector<std::size_t> least = quads::segments_alike(region, segment);
@@ -63,7 +63,7 @@ namespace {
 
 void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
 {
-    constexpr double kSame = 0.01; // share by which those may differ; a choice, not a measurement
+    constexpr double kSame = 0.01; // relative tolerance of the number of sides; heuristic
     for (std::vector<EdgeId>& set : alike_edges(model, face)) {
         double sum = 0;
         bool same = true;
@@ -77,7 +77,7 @@ void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
         for (const EdgeId edge : set)
             same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kSame * mean;
         if (!same) continue;
-        // What is not the same by rounding alone must not round to different numbers.
+        // Counts that differ by rounding alone must round to the same integer.
         int most = 1, least = 1;
         for (const EdgeId edge : set) {
             most = std::max(most, seeds.pieces.at(edge).front().count);

@@ -16,17 +16,17 @@ using namespace topology;
 
 namespace {
 
-/// Vertices this far apart round the rim are not swept to each other where no side line says so [share of the
-/// rim]. A choice, not a measurement.
+/// Vertices without a side line are paired only if their positions along the rims differ by less than this
+/// [share of the rim]. Heuristic.
 constexpr double kFarRound = 0.125;
 
-/// Loops inside a face go together where their vertices are no further apart than this [radii of the loop]. A
-/// choice, not a measurement.
+/// Inner loops of two faces are matched if their vertices lie within this distance [radii of the loop].
+/// Heuristic.
 constexpr double kNearInside = 0.5;
 
-/// A part of a face's loop: an inner edge, or a run of rim edges between inner ones.
+/// An item of a face's loop: an inner edge, or a run of rim edges between two inner edges.
 struct Item {
-    EdgeUse use; ///< of a rim: its first
+    EdgeUse use; ///< of a rim item: its first edge use
     bool rim = false;
     VertexId from;
 };
@@ -81,7 +81,7 @@ private:
         double at; ///< share of the source rim
     };
 
-    /// Side lines passed before a place of the source's rim.
+    /// Number of side lines before a position on the source's rim.
     static std::size_t lines_before(const LinkingSurface& link, double at)
     {
         std::size_t count = 0;
@@ -91,7 +91,7 @@ private:
         return count;
     }
 
-    /// Pair the ends of inner edges on a loop's rims, in order.
+    /// Pair the end vertices of the inner edges on both rims, in order.
     bool pair(const LinkingSurface& link)
     {
         std::vector<End> low, high;
@@ -147,7 +147,7 @@ private:
                     else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
                         walk.push_back({use, true, use_from(model_, use)});
                 }
-                // A run over the loop's start is one.
+                // A run that continues across the start of the loop is one item.
                 if (walk.size() > 1 && walk.front().rim && walk.back().rim &&
                     !ends_.contains(walk.front().from)) {
                     walk.front() = walk.back();
@@ -160,7 +160,7 @@ private:
                     }
                     if (!place_.try_emplace({walk[i].from, face}, std::pair(walks_.size(), i)).second &&
                         ends_.contains(walk[i].from))
-                        return false; // a face that meets itself
+                        return false; // a face that touches itself
                 }
                 walks_.push_back(std::move(walk));
                 face_.push_back(face);
@@ -169,14 +169,15 @@ private:
         return true;
     }
 
-    /// The rim that leaves a pair's vertices: the source's runs on, the target's back.
+    /// The rim use that leaves a pair's vertices: forward on the source, backward on the target.
     bool match_at(const RimPair& pair)
     {
         for (const auto& [key, low] : place_) {
             if (key.first != pair.source || !walks_[low.first][low.second].rim) continue;
             for (const auto& [other, high] : place_) {
                 if (other.first != pair.target) continue;
-                // The source's walk leaves the vertex by the rim; the target's comes to it so.
+                // The source loop leaves the vertex along the rim; the target loop, reversed, arrives along
+                // it.
                 const Walk& walk = walks_[high.first];
                 const std::size_t before = (high.second + walk.size() - 1) % walk.size();
                 if (walk[before].rim && !match(low, {high.first, before})) return false;
@@ -190,7 +191,7 @@ private:
         return match(at_use_.at(low), at_use_.at(high));
     }
 
-    /// Rims that no inner edge ends on say which faces go together.
+    /// Rims without inner edges match the faces on either side of them.
     bool match_rims(const LinkingSurface& link)
     {
         const auto low = at_rim_.find(link.source.uses().front().edge);
@@ -200,8 +201,8 @@ private:
         return !whole || match({low->second, 0}, {high->second, 0});
     }
 
-    /// Match the loops inside of faces that are matched already: each goes to the one that lies where the
-    /// rims' affine fit puts it. @return whether there were any; nothing where they do not fit.
+    /// Match the inner loops of faces that are already matched, by position after the affine fit of the rims.
+    /// @return whether there were any; nothing if they do not fit.
     std::optional<bool> match_inside()
     {
         const std::map<FaceId, FaceId> faces = result_.faces;
@@ -227,8 +228,8 @@ private:
         return false;
     }
 
-    /// How far the vertices of two loops are apart where item `j` of the target's is that over the source's
-    /// first, in radii of the loop.
+    /// Distance between the vertices of two loops, in radii of the loop, if item `j` of the target
+    /// corresponds to the first item of the source.
     double offset(const Walk& a, const Walk& b, std::size_t j)
     {
         if (!fit_) fit_rims();
@@ -249,7 +250,7 @@ private:
         return radius > 0 ? far / radius : kNearInside;
     }
 
-    /// The affine map from the source's rims to the target's, and the direction across the target.
+    /// The affine map from the source's rims to the target's, and the normal of the target.
     void fit_rims()
     {
         std::vector<Vec3> low, high;
@@ -273,7 +274,7 @@ private:
         up_ = high_area.stableNormalized();
     }
 
-    /// Match two loops item by item, the target's backwards.
+    /// Match two loops item by item; the target's runs backwards.
     bool match(std::pair<std::size_t, std::size_t> low, std::pair<std::size_t, std::size_t> high)
     {
         const Walk &a = walks_[low.first], &b = walks_[high.first];
@@ -305,7 +306,7 @@ private:
     std::vector<FaceId> face_; ///< of each walk
     std::map<EdgeUse, std::pair<std::size_t, std::size_t>> at_use_;
     std::map<std::pair<VertexId, FaceId>, std::pair<std::size_t, std::size_t>> place_;
-    std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim that no inner edge ends on
+    std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim without inner edges
     std::vector<std::pair<EdgeUse, EdgeUse>> front_;
     std::size_t next_ = 0;       ///< in front_
     std::set<std::size_t> done_; ///< walks that are matched

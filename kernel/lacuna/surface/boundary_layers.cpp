@@ -28,7 +28,7 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
     return face.name == name || std::find(face.groups.begin(), face.groups.end(), name) != face.groups.end();
 }
 
-/// The part of [from, to) on an edge as it runs, of a segment of the rim that uses it.
+/// The part of the edge's parameter range [from, to) that a segment of the rim covers.
 RimRows::Part part_of(const LinkingSurface& link, const RimSegment& segment)
 {
     const EdgeUse use = link.source.uses()[segment.use];
@@ -72,7 +72,7 @@ public:
                 rows_.parts[low.edge].push_back(part);
             }
         }
-        // Where all walls have the same rows, those in the middle of a stack have them from the walls below.
+        // If all walls share one table, stacked walls take their rows from the wall below.
         const std::vector<FaceId> walls = volume_.faces(Role::wall);
         for (const auto& [wall, table] : tables_.of) {
             const auto has_table = [&, table = table](FaceId other) { return tables_.at(other) == table; };
@@ -81,8 +81,8 @@ public:
                 continue;
             throw NotSweepable("surface.layers_unreached",
                                name_of(model_, wall) +
-                                   " is to have boundary layers and stands on neither end; name the wall "
-                                   "below or above it, or all walls: walls = \"walls\"");
+                                   " has boundary layers but touches neither source nor target; add the "
+                                   "wall below or above it, or all walls: walls = \"walls\"");
         }
         for (const FaceId face : volume_.faces(Role::source)) find_ends(face);
         return std::move(rows_);
@@ -97,7 +97,7 @@ private:
         return {};
     }
 
-    /// The part of an edge at the start or the end of a use of it.
+    /// The part that touches the start or the end of an edge use.
     [[nodiscard]] const RimRows::Part* part_at(EdgeUse use, bool last) const
     {
         return rows_.part_at(use.edge, (use.reversed ? !last : last) ? 1.0 : 0.0);
@@ -117,7 +117,7 @@ private:
         }
     }
 
-    /// Rows along `with` end on `on`: behind it, or before it.
+    /// Record that the rows along `with` end on `on`, which follows it (`behind`) or precedes it.
     void add_end(FaceId face, EdgeUse with, EdgeUse on, bool behind)
     {
         const RimRows::Part* part = part_at(with, behind);
@@ -136,9 +136,9 @@ private:
         if (fresh || found->second.table == end.table) return;
         throw NotSweepable("surface.layers_meet",
                            "boundary layers of " + name_of(model_, found->second.wall) + " and of " +
-                               name_of(model_, end.wall) + " are unlike and both end on " +
+                               name_of(model_, end.wall) + " differ and both end on " +
                                name_of(model_, on.edge) + " at " + name_of(model_, end.corner) +
-                               "; give both walls one table");
+                               "; give both walls the same table");
     }
 
     [[nodiscard]] Vec3 normal_at(FaceId face, Index point) const
@@ -158,9 +158,9 @@ private:
     RimRows rows_;
 };
 
-constexpr int kMostRows = 1000; // a choice, not a measurement: rows are fitted to each other one by one
+constexpr int kMostRows = 1000; // heuristic: the cost of fitting rows to each other is quadratic
 
-/// @throw NotSweepable "surface.layers_room"  rows that no volume of this width holds, or that are too thin.
+/// @throw NotSweepable "surface.layers_room"  rows thicker than the volume, or thinner than the tolerance.
 /// @throw InvalidInput "sweep.too_many"
 void check_room(const Model& model, const BoundaryLayer& layer)
 {
@@ -178,11 +178,11 @@ void check_room(const Model& model, const BoundaryLayer& layer)
     const double height = row_heights(layer).back();
     if (!(height <= model.diagonal))
         refuse("they are " + with_digits(height, 3) + " high, and the volume is " +
-               with_digits(model.diagonal, 3) + " across; ask for fewer or thinner ones");
+               with_digits(model.diagonal, 3) + " across; use fewer or thinner rows");
     const double thinnest = std::min(layer.first, layer.first * std::pow(layer.growth, layer.count - 1));
     if (!(thinnest > model.tolerance))
         refuse("the thinnest is " + with_digits(thinnest, 3) + ", within the model's tolerance of " +
-               with_digits(model.tolerance, 3) + "; ask for fewer or thicker ones");
+               with_digits(model.tolerance, 3) + "; use fewer or thicker rows");
 }
 
 } // namespace
@@ -259,7 +259,7 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
     for (const Part& part : found->second) {
         if (fraction >= part.from && fraction <= part.to) return &part;
     }
-    // Parts meet but for rounding.
+    // Parts meet up to rounding: take the nearest.
     return &*std::min_element(found->second.begin(), found->second.end(), [&](const Part& a, const Part& b) {
         const auto off = [&](const Part& p) { return std::max(p.from - fraction, fraction - p.to); };
         return off(a) < off(b);

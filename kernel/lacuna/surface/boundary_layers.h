@@ -22,11 +22,11 @@ std::vector<double> row_heights(const BoundaryLayer& layer);
 std::vector<FaceId> faces_named(const topology::OpenVolume& volume, const FaceNames& names,
                                 const std::string& option);
 
-/// Whether a face of the volume has a tag, or a name as in `FaceNames`.
+/// Whether a face of the volume has a tag, or one of the names of `FaceNames`.
 bool has_face(const topology::OpenVolume& volume, int tag);
 bool has_face(const topology::OpenVolume& volume, const std::string& name);
 
-/// Boundary layers as they lie on the faces of one volume.
+/// The boundary layers on the faces of one volume.
 struct LayerTables {
     std::vector<std::vector<double>> heights; ///< of each table
     std::map<FaceId, int> of;                 ///< table of each face that has one
@@ -41,7 +41,7 @@ struct LayerTables {
 /// @throw InvalidInput "surface.two_layers"  a face in two tables; names it.
 LayerTables layer_tables(const topology::OpenVolume& volume, std::span<const BoundaryLayer> layers);
 
-/// Rows along the rims of the source: those of the walls that stand on them.
+/// Rows along the rims of the source: those of the adjacent walls.
 struct RimRows {
     std::vector<std::vector<double>> heights; ///< of each table [model length]
     /// Of each edge of the source's rim: parts of its length, as it runs, and their tables.
@@ -51,12 +51,12 @@ struct RimRows {
         FaceId wall; ///< whose table it is
     };
     std::map<EdgeId, std::vector<Part>> parts;
-    /// Of a face's loop: what an edge's end is at, for rows on the edge beyond it.
+    /// The end of an edge in a face's loop, for rows along the next edge of the loop.
     struct End {
         int table = -1;
         FaceId wall;
         EdgeId along; ///< the edge that the rows run along
-        Vec3 inward;  ///< square to it, in the face
+        Vec3 inward;  ///< perpendicular to it, in the face
         VertexId corner;
     };
     /// Rows that end on an edge: at its start, and at its end.
@@ -70,17 +70,17 @@ struct RimRows {
 /// Inner angle in degrees below which rows end on the side beyond, and above which on a side of their own.
 inline constexpr double kRowsEnd = 135, kRowsBreak = 225;
 
-/// Read off the linking surfaces which parts of the source's rim get rows, and where those end.
+/// Find the parts of the source's rim with rows from the linking surfaces, and where the rows end.
 ///
-/// A wall that stands on the target's rim alone counts by what of the source's rim is swept there.
-/// @throw NotSweepable "surface.layers_unreached"  a wall with a table that stands on neither end.
+/// A wall that touches only the target's rim applies to the part of the source's rim that is swept there.
+/// @throw NotSweepable "surface.layers_unreached"  a wall with a table that touches neither end.
 ///        "surface.layers_meet"  an edge on which rows of two tables end at one corner.
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
-/// Where rows that end on an edge cut it: fractions of its length as it runs, rising; fewer than there are
-/// heights where it is too short for them.
-/// @param at_end   the rows end at its end, else at its start.
+/// Positions of rows on the edge where they end: fractions of its length in its direction, increasing; fewer
+/// than heights if the edge is too short.
+/// @param at_end   the rows end at its end, otherwise at its start.
 /// @param heights  of the rows, over the edge they run along, rising [model length].
 std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
                                const RimRows::End& end, std::span<const double> heights);

@@ -40,7 +40,7 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
     for (const EdgeId id : edges) {
         const Edge& edge = model[id];
         if (edge.from != edge.to || ends[edge.from] != 2) continue;
-        constexpr double kSmooth = 0.7; ///< cosine of 45°; a choice, not a measurement
+        constexpr double kSmooth = 0.7; ///< cosine of 45°; heuristic
         const Vec3 out = model.at(edge.points[1]) - model.at(edge.points[0]);
         const Vec3 in = model.at(edge.points.back()) - model.at(edge.points[edge.points.size() - 2]);
         if (out.dot(in) < kSmooth * out.norm() * in.norm()) continue;
@@ -59,15 +59,15 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
     return found;
 }
 
-/// How unlike what two closed edges enclose is: their distance and the difference of their radii, over
-/// the larger radius.
+/// Dissimilarity of two closed edges: the larger of centre distance and radius difference, over the larger
+/// radius.
 double unlike(const Circle& a, const Circle& b)
 {
     return ((a.centre - b.centre).norm() + std::abs(a.radius() - b.radius())) /
            std::max(a.radius(), b.radius());
 }
 
-/// Directions from its centre at even steps along a closed edge [radian].
+/// Directions from the centre to points at even steps along a closed edge [radian].
 std::vector<double> directions(const Circle& circle, std::size_t steps)
 {
     std::vector<double> result;
@@ -81,10 +81,10 @@ std::vector<double> directions(const Circle& circle, std::size_t steps)
     return result;
 }
 
-/// The share of the target's edge over the source edge's start, by which they are turned least.
+/// The share of the target's edge that corresponds to the start of the source's edge with the least rotation.
 ClosedPair turned(const Circle& low, const Circle& high)
 {
-    constexpr std::size_t kSteps = 360; ///< a degree is near enough for where an edge starts
+    constexpr std::size_t kSteps = 360; ///< one degree is accurate enough for the start of an edge
     const std::vector<double> a = directions(low, kSteps), b = directions(high, kSteps);
     const bool back = (low.area > 0) != (high.area > 0);
     std::size_t best = 0;
@@ -106,8 +106,8 @@ ClosedPair turned(const Circle& low, const Circle& high)
 std::vector<ClosedPair> alike_closed_edges(const Model& model, const EndsMap& map,
                                            std::span<const EdgeId> source, std::span<const EdgeId> target)
 {
-    // Circles half of whose larger radius apart still overlap by more than half. A choice, not a
-    // measurement.
+    // Circles whose centres are less than half the larger radius apart still overlap by more than half.
+    // Heuristic.
     constexpr double kAlike = 0.5;
     const std::vector<Circle> low = circles(model, map, false, source);
     const std::vector<Circle> high = circles(model, map, true, target);

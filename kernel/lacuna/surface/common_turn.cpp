@@ -15,7 +15,7 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Points of source and target that belong together, with the length of rim they stand for.
+/// Corresponding points of source and target, with the rim length that each represents.
 struct RimPair {
     Vec3 source, target;
     double weight;
@@ -40,8 +40,8 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
     return pairs;
 }
 
-/// The rotation that takes the pairs' sources to their targets: area vectors onto each other, then the best
-/// turn about them.
+/// The rotation that maps the pairs' source points to their target points: area vectors onto each other
+/// first, then the best rotation about them.
 std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
@@ -66,8 +66,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // Loops about one centre say nothing of a turn; a thousandth of the section is as good as one
-    // centre.
+    // Concentric loops do not determine a rotation; centres within a thousandth of the section count as one.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
@@ -88,7 +87,7 @@ double best_start(const LinkingSurface& link, const Eigen::Matrix3d& turn)
     return best_shift(round_points(link.source), round_points(link.target), turn) * link.target.length();
 }
 
-/// Follows the common turn up the walls, row by row.
+/// Integrates the common rotation along the walls, row by row.
 class TurnTracker {
 public:
     TurnTracker(const topology::OpenVolume& volume, std::span<const LinkingSurface> links)
@@ -101,7 +100,7 @@ public:
         }
     }
 
-    /// For each linking surface the s, counted from its column, of the target end of its shortest way up.
+    /// For each linking surface, the s of the target end of its shortest path, relative to its start column.
     std::vector<double> branches()
     {
         std::vector<double> shift(links_.size(), 0.0);
@@ -121,7 +120,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kRows = 32; ///< a full turn is followed in steps of 11 degrees
+    static constexpr std::size_t kRows = 32; ///< a full turn is resolved in steps of 11 degrees
 
     static std::vector<Vec3> ring(const topology::Model& model, const LinkingMap& map, double height)
     {
@@ -135,8 +134,8 @@ private:
         return points;
     }
 
-    /// The rotation from a row to the next: of the rings' centres, and of the rings themselves where side
-    /// lines tell their points.
+    /// The rotation from one row to the next: of the rings' centres, and of the rings' points if side lines
+    /// relate them.
     [[nodiscard]] Eigen::Matrix3d step(std::size_t row) const
     {
         std::vector<RimPair> pairs;

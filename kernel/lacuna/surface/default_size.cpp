@@ -14,8 +14,8 @@ using namespace topology;
 
 namespace {
 
-/// Facets of a shape ask for no more sides than this along the diagonal of the rims' box. A choice, not a
-/// measurement: a square gets 14 sides along an edge, a circle 44.
+/// The default size is at least the diagonal of the rims' box over this, whatever the facets. Heuristic: a
+/// square gets 14 sides per edge, a circle 44.
 constexpr double kMostAlong = 20;
 
 } // namespace
@@ -50,12 +50,12 @@ DefaultSize default_size(const OpenVolume& volume)
             ++edges;
         }
     }
-    std::string why = std::string("the mean side of the ") + (given == edges ? "mesh given" : "facets") +
+    std::string why = std::string("the mean side of the ") + (given == edges ? "given mesh" : "facets") +
                       " on the source's rims";
     if (finer == edges)
-        why = "a twentieth of the box of the source's rims, whose facets are finer";
+        why = "a twentieth of the diagonal of the source rims' box (their facets are finer)";
     else if (finer > 0)
-        why += ", no edge finer than a twentieth of their box";
+        why += ", at least a twentieth of the diagonal of their box on each edge";
     return {length / sides, why};
 }
 

@@ -7,15 +7,15 @@
 
 namespace lacuna::surface {
 
-/// The size where none is asked for.
+/// The size used if none is given.
 struct DefaultSize {
     double length = 0; ///< [model length]
-    std::string why;   ///< what it was taken from, in words
+    std::string why;   ///< its origin, in words
 };
 
-/// Mean length of the facets' sides on the source's rims. On edges that keep no nodes facets tell how exact a
-/// shape is, not how fine a mesh is wanted: such an edge counts with sides of a twentieth of the diagonal of
-/// the rims' box where its own are shorter.
+/// Mean length of the facets' sides on the source's rims. On edges without kept nodes, facets show the
+/// accuracy of the shape, not the wanted mesh size: sides shorter than a twentieth of the diagonal of the
+/// rims' box are replaced by sides of that length.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
 

@@ -11,8 +11,8 @@ using namespace topology;
 
 namespace {
 
-/// A position this close to a point of the polyline, as a share of its side, is that point, bit for bit:
-/// given nodes stay. Rounding is a million times less.
+/// A position within this share of a side from a polyline point returns that point bit for bit, so that given
+/// nodes stay. Rounding is a million times smaller.
 constexpr double kOnPoint = 1e-9;
 
 } // namespace

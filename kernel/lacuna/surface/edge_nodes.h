@@ -11,14 +11,14 @@ namespace lacuna::surface {
 /// The polyline of an edge.
 std::vector<Vec3> edge_line(const topology::Model& model, EdgeId edge);
 
-/// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve where there is
-/// one. The ends are the vertices' own points, bit for bit.
+/// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve if there is one.
+/// The ends are the vertices' own points, bit for bit.
 std::vector<Vec3> edge_points(const topology::Model& model, EdgeId edge, std::span<const double> fractions);
 
 /// A point of a chain.
 struct ChainPosition {
     std::size_t use = 0; ///< number of the edge's use in the chain
-    double fraction = 0; ///< of the edge's length, as the edge runs, not the use
+    double fraction = 0; ///< of the edge's length, in the direction of the edge, not the use
 };
 
 /// A chain of edge uses as one curve over its arc length.
@@ -31,7 +31,7 @@ public:
     /// Running length at the start of use i; one more for the end.
     [[nodiscard]] double start(std::size_t i) const { return start_[i]; }
 
-    /// Where a running length lies.
+    /// Edge and fraction at a running length.
     [[nodiscard]] ChainPosition position(double s) const;
     /// Points at running lengths, exact.
     [[nodiscard]] std::vector<Vec3> points(std::span<const double> lengths) const;

@@ -15,10 +15,10 @@ using namespace topology;
 
 namespace {
 
-/// A sharper bend inside an edge is a corner: a hexagon of facets still stands for a circle, a square does
-/// not. A choice, not a measurement.
+/// A sharper bend inside an edge is a corner: a hexagon still approximates a circle, a square does not.
+/// Heuristic.
 constexpr double kCorner = 75 * std::numbers::pi / 180;
-/// Sides in which an exact curve is looked at: enough to see where along it it bends; a choice.
+/// Samples of an exact curve, enough to locate its bends. Heuristic.
 constexpr std::size_t kCurveSides = 64;
 
 std::vector<Vec3> line_of(const Model& model, EdgeId edge)
@@ -50,11 +50,11 @@ void EdgeTurning::append(const Model& model, EdgeUse use)
     std::vector<Vec3> line = line_of(model, use.edge);
     if (use.reversed) std::reverse(line.begin(), line.end());
     const std::vector<double> arc = geometry::arc_lengths(line);
-    // The polyline of the model measures running lengths; that of an exact curve is a little longer.
+    // Running lengths refer to the model's polyline; the exact curve is slightly longer.
     const double scale = arc.back() > 0 ? edge_length(model, use.edge) / arc.back() : 1;
     const std::size_t sides = line.size() - 1;
     const auto middle = [&](std::size_t side) { return (arc[side] + arc[side + 1]) / 2; };
-    std::vector<double> turn(sides + 1, 0.0); // between the middles of the sides before and after each point
+    std::vector<double> turn(sides + 1, 0.0); // angle from one side to the next, at each point
     for (std::size_t i = 1; i < sides; ++i) turn[i] = bend(line[i - 1], line[i], line[i + 1]);
     const bool closed = model[use.edge].from == model[use.edge].to;
     if (closed && sides > 1) {
@@ -62,7 +62,7 @@ void EdgeTurning::append(const Model& model, EdgeUse use)
         const double first = arc[1], last = arc[sides] - arc[sides - 1];
         turn[0] = first + last > 0 ? seam * first / (first + last) : 0;
         turn[sides] = seam - turn[0];
-    } else if (sides > 1) { // The half sides at the ends bend as their neighbours do.
+    } else if (sides > 1) { // The half sides at both ends bend like their neighbours.
         const double low = middle(1) - middle(0), high = middle(sides - 1) - middle(sides - 2);
         turn[0] = low > 0 ? turn[1] * middle(0) / low : 0;
         turn[sides] = high > 0 ? turn[sides - 1] * (arc[sides] - middle(sides - 1)) / high : 0;

@@ -24,14 +24,14 @@ bool odd(const Model& model, const Seeds& seeds, FaceId face)
     return sides_of(model, seeds, face) % 2 != 0;
 }
 
-/// An edge by which a face gets rid of an odd side, and the edges that get one more for it.
+/// The edge on which a face with an odd number of sides starts, and the edges that each get one more side.
 struct WayOut {
     EdgeId edge;
     FaceId into;
     std::vector<EdgeId> raised;
 };
 
-/// The edges of a mapped face's side opposite to one of its edges.
+/// The edges opposite to an edge of a mapped face.
 std::vector<EdgeId> opposite_to(const FaceGrids& grids, FaceId face, EdgeId edge)
 {
     for (const SidePair& sides : grids.opposite.at(face)) {
@@ -42,8 +42,8 @@ std::vector<EdgeId> opposite_to(const FaceGrids& grids, FaceId face, EdgeId edge
     return {};
 }
 
-/// One more side on an edge that a face's symmetries leave where it is: that of the longest sides, of no
-/// other face. @return false where there is none
+/// Add a side to the edge with the longest sides that belongs to no other face and that the face's symmetries
+/// map onto itself. @return false if there is none
 bool raise_alike(const SeedTask& task, const AlikeEdges& alike, FaceId face, Seeds& seeds)
 {
     const auto sets = alike.find(face);
@@ -61,8 +61,8 @@ bool raise_alike(const SeedTask& task, const AlikeEdges& alike, FaceId face, See
     return best && raise(seeds, {*best}, 1);
 }
 
-/// No quads fill a rim with an odd number of sides. Where all are given, the longest of the rim's that no
-/// kept quads of the source stand on is divided, and that is said.
+/// Quads cannot fill a rim with an odd number of sides. If all are given, divide the longest side on the rim
+/// without kept quads, and add a note.
 std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids, Seeds& seeds)
 {
     std::set<FaceId> triangles;
@@ -83,15 +83,15 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
         if (task.wedges) {
             seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
                                   std::to_string(sides_of(task.model, seeds, face)) +
-                                  " sides, an odd number: one of its cells is a triangle");
+                                  " sides, an odd number: one cell of the face is a triangle");
             triangles.insert(face);
             continue;
         }
         seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
                               std::to_string(sides_of(task.model, seeds, face)) +
-                              " sides, an odd number, which no quads fill: a side on " +
+                              " sides, an odd number, which quads cannot fill: a side on " +
                               name_of(task.model, at) +
-                              ", with what stands on it, is divided in two; wedges = true keeps it");
+                              " and the wall column above it are split in two; wedges = true keeps them");
         longest->kept.push_back((longest->from + longest->to) / 2);
         longest->count = 2;
     }
@@ -114,14 +114,13 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
         }
         if (!counts.empty()) {
             refuse_sides("the loops of " + name_of(task.model, face) +
-                         " have an odd number of sides in all, which no quads fill, and no edge is free "
-                         "to take one more; asked for: " +
-                         counts + ". Change one of them by one");
+                         " have an odd total of sides, which quads cannot fill, and no edge can take "
+                         "another side; requested: " +
+                         counts + ". Change one of these counts by one");
         }
-        throw NotSweepable(
-            "surface.odd_loop",
-            "the loops of " + name_of(task.model, face) +
-                " have an odd number of sides in all, and no edge of it is free to take one more");
+        throw NotSweepable("surface.odd_loop",
+                           "the loops of " + name_of(task.model, face) +
+                               " have an odd total of sides, and no edge of the face can take another side");
     }
 }
 
@@ -179,7 +178,8 @@ void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& a
         }
     };
     spread();
-    // Faces that no way leads to from the rim hand their odd sides to one of them, where two cancel.
+    // Free faces with an odd count that cannot reach the rim pass their odd sides to one of them, where two
+    // cancel.
     for (const FaceId face : task.faces) {
         if (!is_free(grids, seeds, face)) continue;
         settle(face, {});

@@ -14,17 +14,18 @@ using namespace topology;
 
 namespace {
 
-/// Faces whose grid would have a mean scaled Jacobian or a share of even sides below these are given to the
-/// planar mesher. Grids bear more than the source alone shows: of the bent pipe's flat rings they have a mean
-/// of 0.80 and what is paved instead 0.95, but swept the grids' hexahedra have 0.94 and those of the others
-/// 0.88, the worst 0.67 and 0.58. So this is for grids that no sweep makes good; a choice.
+/// Minimum mean scaled Jacobian and share of even sides of a face's grid; below these the face is paved. The
+/// bounds are low because a grid sweeps better than its source quality suggests: on the flat rings of a bent
+/// pipe paving is better on the source (mean 0.95 against 0.80), but the grid's hexahedra are better (0.94
+/// against 0.88, worst 0.67 against 0.58). Heuristic.
 constexpr double kFairMean = 0.7, kFairEven = 0.6;
 
-/// Whether the size asks for about as many sides of quads on either side of the face. Where it does not, one
-/// side would get as many as the other needs.
+/// Whether the size asks for similar counts on opposite sides of the face. Otherwise one side would get as
+/// many as the other needs.
 bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
-    // As `alike()` for lengths, in counts; up to four sides any ratio will do. A choice, not a measurement.
+    // Same rule as `alike()`, for counts instead of lengths; up to four sides any ratio is accepted.
+    // Heuristic.
     constexpr int kUnlike = 3, kFew = 4;
     return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
@@ -32,7 +33,8 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     });
 }
 
-/// Whether a grid over a face is nearly as good as what the planar mesher makes, or cannot be had otherwise.
+/// Whether a face's grid is nearly as good as paving, or the face must have one: by the style, for counts
+/// across narrow places, or because it cannot be laid on a plane.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
@@ -45,7 +47,7 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
     if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
     const auto corners = four_corners(task.model, face);
-    // How many columns of a submapped face pass a neck is what other sides leave over.
+    // The number of columns through a neck of a submapped face follows from the other sides.
     if (!corners && task.sizing.gap > 0 && !task.sizing.counts_across && task.style == QuadStyle::automatic)
         return;
     const std::vector<SidePair> opposite = corners ? side_pairs(task.model, face, *corners)
@@ -54,8 +56,8 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
         throw NotSweepable(
             "surface.not_four_sided",
             name_of(task.model, face) +
-                " is to be mapped and has neither four corners (vertices with an inner angle below 135°) "
-                "on one loop nor loops of right angles alone; use quads = \"auto\"");
+                " cannot be mapped: it needs one loop with four corners (inner angles below 135°), or "
+                "loops with right angles only; use quads = \"auto\"");
     }
     if (opposite.empty() || (task.style == QuadStyle::automatic &&
                              !(alike(task.model, opposite) && counts_alike(seeds, opposite))))
@@ -77,7 +79,7 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
     }
 }
 
-/// "5 (edge 1) and 7 (edge 3)" of sides whose counts differ.
+/// Words such as "5 (edge 1) and 7 (edge 3)" for sides whose counts differ.
 std::string unlike_counts(const Model& model, const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
     std::string words;
@@ -111,7 +113,7 @@ bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face)
 
 bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
 {
-    constexpr double kSteepest = 0.5; // cosine of 60°; a choice, not a measurement
+    constexpr double kSteepest = 0.5; // cosine of 60°; heuristic
     const std::vector<Triangle>& facets = model[face].triangles;
     return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
         const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
@@ -136,10 +138,10 @@ void balance(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
             if (stuck && task.style == QuadStyle::mapped) {
                 throw NotSweepable("surface.kept_side",
                                    name_of(task.model, it->first) +
-                                       " is to be mapped, and sides opposite to each other have " +
+                                       " cannot be mapped: opposite sides have fixed counts of " +
                                        unlike_counts(task.model, seeds, it->second) +
-                                       ", given or asked for; use quads = \"auto\", or give both as "
-                                       "many");
+                                       "; use quads = \"auto\", or give both sides the same "
+                                       "count");
             }
             if (stuck || (raised && round > most)) {
                 seeds.corners.erase(it->first);

@@ -13,7 +13,7 @@ using namespace topology;
 
 namespace {
 
-/// How far the sides of the face's edges are off the exact edges.
+/// Distance from the sides of the face's edges to the exact edges.
 double sag_of_edges(const Model& model, FaceId face)
 {
     double most = 0;
@@ -60,7 +60,7 @@ double FaceShape::volume_integral(const Vec3& origin) const
                    c = points[index(t[2])] - origin;
         sum += a.dot(b.cross(c)) / 6;
         if (bulge.empty()) continue;
-        // Over a facet each side's hump has a third of it as its mean.
+        // The mean of each side's quadratic bulge over a facet is a third of its height.
         const Vec3 mean = (bulge[i][0] + bulge[i][1] + bulge[i][2]) / 3;
         sum += mean.dot((b - a).cross(c - a)) / 2;
     }

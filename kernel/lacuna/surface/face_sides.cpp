@@ -14,12 +14,12 @@ using namespace topology;
 
 namespace {
 
-/// Below this inner angle a vertex is a corner of a mapped face, above its opposite it is a reversal
-/// [degrees]. Half way from a right angle to a straight one, and as far beyond.
+/// A vertex with a smaller inner angle is a corner of a mapped face; above 360° minus this it is a reversal
+/// [degrees]. The bound lies halfway between a right angle and a straight one.
 constexpr double kCorner = 135;
 constexpr double kReversal = 225;
-/// A face with opposite sides more unlike than this is not mapped unless asked to: its quads would be as
-/// unlike. A choice, not a measurement.
+/// A face whose opposite sides differ by a larger ratio is mapped only on request, because its quads would
+/// differ as much. Heuristic.
 constexpr double kUnlike = 3;
 
 std::vector<EdgeId> side_edges(const Loop& loop, const std::vector<std::size_t>& corners, std::size_t side)
@@ -41,8 +41,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
     for (const Triangle& t : model[face].triangles) {
-        // Facets on the two sides that meet here: the corner's own, also where the face comes by twice (a
-        // seam).
+        // The angle is that of the facets at this corner alone, also if the face passes the vertex twice (at
+        // a seam).
         const bool touches = std::find(t.begin(), t.end(), at) != t.end();
         const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
                              std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();

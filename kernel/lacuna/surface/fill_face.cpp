@@ -32,13 +32,13 @@ quads::PlanarRegion region_of(std::vector<Vec2> points, Loops loops, std::functi
     return {std::move(points), std::move(loops), std::move(size), std::move(row_height)};
 }
 
-/// The points a filling has added.
+/// The points that the mesher added inside.
 std::span<const Vec2> inside_of(const quads::PlanarQuads& filling, std::size_t rim)
 {
     return std::span(filling.points).subspan(rim);
 }
 
-/// The region filled, with rows where they are asked for.
+/// Fill the region, with boundary rows if any are requested.
 quads::RowsFilling filled(const quads::PlanarRegion& region, const quads::PlanarQuadMesher& mesher,
                           const quads::BoundaryRows* rows, const RunContext& context)
 {
@@ -62,7 +62,7 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
 {
     std::vector<Vec2> flat;
     for (const RimNode& node : rim) flat.push_back(geometry::to_plane(plane, node.point));
-    // Nodes may stray before they are smoothed; a size is known on the face alone.
+    // The mesher's nodes may lie outside the face before smoothing, where the size is undefined: clamp them.
     Vec2 low = flat.front(), high = flat.front();
     for (const Vec2& p : flat) {
         low = low.cwiseMin(p);
@@ -83,36 +83,36 @@ FaceQuads fill_plane(const geometry::Plane& plane, std::span<const RimNode> rim,
     return lifted(std::move(filling), rim, inside);
 }
 
-/// Relative fall of the energy at which the flat image of a face is good enough, for sizes are corrected for
-/// the stretch that is left. With 1e-6 two faces with holes and few quads took 150 ms, with 1e-4 100 and with
-/// this 50, and of four curved sources at four sizes the least scaled Jacobian changed by .02 in one and by
-/// less than .005 in the others.
+/// Relative decrease of the energy at which flattening stops. The size is corrected for the remaining
+/// stretch, so a coarse solution is enough: two faces with holes took 150 ms with 1e-6, 100 ms with 1e-4 and
+/// 50 ms with this, and the minimum scaled Jacobian of four curved sources at four sizes changed by 0.02 at
+/// most.
 constexpr double kSettled = 1e-3;
 
 std::string no_flat_words(const Model& model, FaceId face, const std::string& why)
 {
     const bool open = model[face].origin == Origin::made_void;
-    return name_of(model, face) + " cannot be laid flat for its quads: " + why +
-           (open ? "; give the face that is missing there, or name source and target so that the void is "
-                   "swept another way"
+    return name_of(model, face) + " cannot be flattened for paving: " + why +
+           (open ? "; add the missing face there, or choose source and target so that the sweep has another "
+                   "direction"
                  : "; split it into simpler faces");
 }
 
-/// The facets of a face in the plane.
+/// The facets of a face, flattened.
 geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets& fine)
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
-} catch (const InvalidInput& error) { // which knows facets and no face
+} catch (const InvalidInput& error) { // it knows facets but not the face
     throw InvalidInput("surface.not_flat", no_flat_words(model, face, error.what()));
 }
 
-/// A curved face, laid flat.
+/// A curved face and its flat image.
 class FlatFace {
 public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
         : model_(model), fine_(fine_facets(model, face, size)), flat_(laid_flat(model, face, fine_))
     {
-        if (flat_.folded) { // fewer facets have fewer ways to fold
+        if (flat_.folded) { // retry with the original facets: fewer can fold
             fine_ = fine_facets(model, face, size, {.rounds = 0});
             flat_ = laid_flat(model, face, fine_);
         }
@@ -135,7 +135,7 @@ public:
         return places;
     }
 
-    /// The size asked for on the face, as long as it is in the plane.
+    /// The size on the face, scaled to the plane.
     [[nodiscard]] double size_at(const Vec2& p, const SizeField& size) const
     {
         const auto at = locator_.locate(p);
@@ -151,7 +151,7 @@ public:
         return size(on_face) * by;
     }
 
-    /// Where the tips of the face lie in the plane.
+    /// Positions of the face's tips in the plane.
     [[nodiscard]] std::vector<Vec2> tips() const
     {
         std::vector<Vec2> tips;
@@ -170,7 +170,7 @@ public:
     }
 
 private:
-    /// The place of a side of an edge's own polyline and share of it.
+    /// The position in the plane of a point on an edge, by side of the polyline and share of it.
     [[nodiscard]] Vec2 place_on(EdgeId edge, double at) const
     {
         const std::vector<FineFacets::OnEdge>& chain = fine_.edges.at(edge);
@@ -188,8 +188,7 @@ private:
         return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
     }
 
-    /// Lengths in the plane over those on the face, at each point used: the square root of the areas round
-    /// it.
+    /// Local scale between plane and face at each point: the square root of the ratio of the areas around it.
     void measure_stretch()
     {
         std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);
@@ -214,7 +213,7 @@ private:
     std::vector<double> stretch_;
 };
 
-/// The least sine of a corner of the quads at a node, by their longer sides [-1, 1].
+/// Minimum sine of the quads' corners at a node, scaled by their longer sides [-1, 1].
 double least_corner_at(const quads::PlanarQuads& filling, const std::vector<std::size_t>& around)
 {
     double least = 1;
@@ -231,11 +230,11 @@ double least_corner_at(const quads::PlanarQuads& filling, const std::vector<std:
     return least;
 }
 
-/// Put the node nearest to each tip of the face on it, so that no quad cuts it off; where that would spoil
-/// the quads there the tip stays inside one.
+/// Move the nearest node onto each tip of the face, so that no quad cuts it off. If the quads there would
+/// become poor, the tip stays inside a quad.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
-    constexpr double kSpoiled = 0.2; // least sine of a corner; a choice, not a measurement
+    constexpr double kSpoiled = 0.2; // minimum sine of a corner; heuristic
     for (const Vec2& tip : tips) {
         std::size_t nearest = rim;
         for (std::size_t i = rim; i < filling.points.size(); ++i) {

@@ -17,23 +17,22 @@ namespace lacuna::surface {
 struct RimNode {
     Vec3 point;          ///< on the exact edge
     EdgeId edge;         ///< of the face
-    double fraction = 0; ///< of the edge's length, as the edge runs
+    double fraction = 0; ///< of the edge's length, in the direction of the edge
 };
 
 /// Quads over a face.
 struct FaceQuads {
     std::vector<Vec3> points; ///< the rim's nodes first, then those inside, on the exact surface
-    std::vector<Quad> quads;  ///< counter-clockwise as the face is seen
-    std::string how{};        ///< by what they were made, as the planar mesher says
-    std::optional<quads::RowsFinding>
-        finding{}; ///< why rows asked for cannot be laid; then there are no quads
+    std::vector<Quad> quads;  ///< counter-clockwise seen from outside
+    std::string how{};        ///< method, as reported by the planar mesher
+    std::optional<quads::RowsFinding> finding{}; ///< why requested rows do not fit; then there are no quads
 };
 
 /// Fill a face with quads inside given boundary nodes.
 ///
-/// A face in a plane is filled in that plane. Another is laid flat by facets that are fine enough for the
-/// size (`fine_facets()`), the nodes of its rim with its edges; the size is corrected for the stretch at each
-/// place, the plane is filled, and the new nodes go back by the facets they lie on to the exact surface.
+/// A planar face is filled in its plane. Any other face is flattened with facets fine enough for the size
+/// (`fine_facets()`), rim nodes included; the size is corrected for the local stretch, the plane is filled,
+/// and the new nodes are lifted through their facets to the exact surface.
 /// @param rim    nodes of the boundary; they stay, in this order.
 /// @param loops  cycles of places in `rim`, the face on the left.
 /// @param rows   along sides of the rim, at heights on the face; null: none.

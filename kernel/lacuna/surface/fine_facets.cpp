@@ -13,7 +13,7 @@ using namespace topology;
 
 namespace {
 
-/// The face as it is.
+/// The face with its original facets.
 FineFacets copy_of(const Model& model, FaceId face)
 {
     FineFacets fine;
@@ -42,17 +42,17 @@ FineFacets copy_of(const Model& model, FaceId face)
     return fine;
 }
 
-/// A side of facets and its middle on the exact face.
+/// A side of facets and its midpoint on the exact face.
 struct FacetSide {
     Index a, b;
     Vec3 middle;
-    Vec2 uv = Vec2::Zero(); ///< to start the projection from
+    Vec2 uv = Vec2::Zero(); ///< initial guess for the projection
     bool on_edge = false;
     bool halved = false;
-    Index point = -1; ///< the middle, once made
+    Index point = -1; ///< index of the midpoint once it is added
 };
 
-/// What becomes of a facet: corners are 0, 1 and 2, the middle of the side that starts at each 3, 4 and 5.
+/// How a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of the sides from each corner.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
     const auto count = std::count(halved.begin(), halved.end(), true);
@@ -62,7 +62,7 @@ std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
     return {{k, 3 + k, (k + 2) % 3}, {3 + k, (k + 1) % 3, (k + 2) % 3}};
 }
 
-/// Halves sides, a round at a time.
+/// Bisects sides, one round at a time.
 class Halving {
 public:
     Halving(const Model& model, FineFacets& fine, const SizeField& size, double off)
@@ -70,7 +70,7 @@ public:
     {
     }
 
-    /// @return false when no side needs it, or facets would turn over: then all is as it was.
+    /// @return false if no side needs bisection or a facet would fold; nothing is changed then.
     bool round()
     {
         collect();
@@ -92,7 +92,7 @@ public:
         return false;
     }
 
-    /// How far the middle of each side of each facet is from the exact face.
+    /// Distance from the midpoint of each side of each facet to the exact face.
     std::vector<std::array<Vec3, 3>> bulges()
     {
         collect();
@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    /// From corner k of a facet to the next.
+    /// The side from corner k of a facet to the next.
     [[nodiscard]] FacetSide& side(std::size_t facet, std::size_t k) { return sides_[side_of_[facet][k]]; }
 
     void collect()
@@ -131,7 +131,7 @@ private:
         }
     }
 
-    /// On the exact edges and the exact surface, all at once. Those found before are not asked for again.
+    /// Project all midpoints onto the exact edges and surface in one call; earlier results are reused.
     void find_middles()
     {
         for (const auto& [edge, chain] : fine_.edges) {
@@ -186,7 +186,7 @@ private:
         return (1 - share) * edge.params[segment] + share * edge.params[segment + 1];
     }
 
-    /// A facet with two sides to be halved has the third halved too, so that facets keep their shapes.
+    /// If two sides of a facet are bisected, bisect the third as well to keep the facet's shape.
     void spread()
     {
         for (bool again = true; again;) {
@@ -221,7 +221,7 @@ private:
         }
     }
 
-    /// @return false where a facet turns over.
+    /// @return false if a facet folds.
     bool cut()
     {
         std::vector<Triangle> triangles;
@@ -261,7 +261,7 @@ private:
     std::vector<FacetSide> sides_;
     std::vector<std::array<std::size_t, 3>> side_of_;       ///< of each facet, by the corner it runs from
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
-    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< middles of the sides found straight enough
+    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of accurate sides
 };
 
 } // namespace

@@ -25,7 +25,7 @@ std::vector<FaceId> most_loops_first(const SeedTask& task)
     return faces;
 }
 
-/// Whether other faces need the number of sides an edge has.
+/// Whether other faces constrain the number of sides of an edge.
 bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled, EdgeId edge)
 {
     const std::set<FaceId>& users = task.users.at(edge);
@@ -33,7 +33,7 @@ bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<Edg
                                                  [&](FaceId user) { return grids.opposite.contains(user); });
 }
 
-/// Give one face numbers of sides, and add its edges to those settled.
+/// Assign numbers of sides to one face and mark its edges as settled.
 void fit_grid(const SeedTask& task, const FaceGrids& grids, FaceId face, std::set<EdgeId>& settled,
               Seeds& seeds, const RunContext& context)
 {

@@ -38,7 +38,7 @@ private:
         return flat_.place.size() - 1;
     }
 
-    /// The inner edges of both ends with nodes at their vertices.
+    /// The inner edges of both ends, with nodes at their vertices.
     void collect()
     {
         const Model& base = base_.model;
@@ -95,7 +95,7 @@ private:
         }
     }
 
-    /// Put a node in another's place.
+    /// Replace a node by another one.
     void unite(std::size_t node, std::size_t with)
     {
         for (FlatEdge& edge : flat_.target) {
@@ -109,7 +109,7 @@ private:
                            [&](const FlatEdge::Cut& cut) { return cut.node == node; });
     }
 
-    /// The edge of a list closest to a node that is none of its own.
+    /// The edge closest to a node, among those that do not end in it.
     std::optional<Closest> closest_edge(std::vector<FlatEdge>& edges, std::size_t node, FlatEdge** which)
     {
         std::optional<Closest> best;
@@ -124,7 +124,7 @@ private:
         return best;
     }
 
-    /// Whether a node is there only because a closed edge needs a vertex.
+    /// Whether a node exists only because a closed edge needs a vertex.
     static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
     {
         std::size_t ends = 0;
@@ -136,8 +136,8 @@ private:
         return closed && ends == 2;
     }
 
-    /// Vertices of the target go to vertices or edges of the source that are near, and those of the source
-    /// to edges of the target.
+    /// Snap vertices of the target to nearby vertices or edges of the source, and vertices of the source to
+    /// edges of the target.
     void snap()
     {
         std::set<std::size_t> taken;
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    /// Nodes where inner edges of both ends cross.
+    /// Add nodes where inner edges of the two ends cross.
     void cross()
     {
         const std::vector<FlatPiece> low = pieces_of(flat_.source, flat_.place),
@@ -206,7 +206,7 @@ private:
     const Reach& reach_;
     FlatEnds flat_;
     std::map<VertexId, std::size_t> node_of_;
-    std::vector<std::size_t> loose_source_, loose_target_; ///< nodes off the rim
+    std::vector<std::size_t> loose_source_, loose_target_; ///< nodes that are not on the rim
 };
 
 } // namespace

@@ -11,9 +11,9 @@ using namespace topology;
 
 namespace {
 
-/// The rows of the walls that are there, as a section each.
+/// The known rows of the walls; each is a section of the volume.
 struct Rows {
-    std::vector<std::vector<Vec3>> points; ///< of each row, those of all known columns
+    std::vector<std::vector<Vec3>> points; ///< of each row, the points of all known columns
     std::vector<Vec3> areas;               ///< Newell vectors of each row's linking surfaces
 };
 

@@ -37,7 +37,7 @@ std::string place_of(const Model& model, const Quad& quad)
                        wall + " came with " + std::to_string(rows) +
                            " rows of quads between source and target, and " + other + " with " +
                            std::to_string(other_rows) +
-                           "; a sweep has as many layers everywhere: mesh them alike, or load with "
+                           "; all walls of a sweep need the same number of rows: remesh one, or load with "
                            "keep_mesh = false");
 }
 
@@ -48,11 +48,11 @@ std::string place_of(const Model& model, const Quad& quad)
                        stub + " came with " + std::to_string(rows) +
                            " rows of quads that end before the opposite end, and " + whole + " with " +
                            std::to_string(whole_rows) +
-                           " from source to target, which leaves none for the rest of the way: mesh them "
-                           "alike, or load with keep_mesh = false");
+                           " from source to target, which leaves no row for the gap; remesh one of them, "
+                           "or load with keep_mesh = false");
 }
 
-/// The quads of a linking surface's walls, walked from rim to rim.
+/// The quads of a linking surface's walls, traversed from rim to rim.
 class ColumnWalker {
 public:
     ColumnWalker(const OpenVolume& volume, const LinkingSurface& link) : model_(volume.model), link_(link)
@@ -86,7 +86,7 @@ public:
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         const Ring low = joined(stubs, source.size());
         check_stubs(stubs, columns_at, source.size());
-        // What leads all the way down has been walked.
+        // Columns that reach the source's rim have been walked already.
         std::vector<Strip> hanging = strips_from(target);
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         check_stubs(hanging, {}, target.size());
@@ -143,7 +143,7 @@ private:
         }
     }
 
-    /// The strips of quads that start at the sides of a rim and that none has walked.
+    /// The strips of quads that start on a side of a rim and are not walked yet.
     std::vector<Strip> strips_from(const std::vector<ChainNode>& rim)
     {
         std::vector<Strip> strips;
@@ -156,7 +156,8 @@ private:
         return strips;
     }
 
-    /// Over opposite sides from a side of a rim, as far as quads go; nothing where the first was walked.
+    /// Cross opposite sides from a side of a rim to the last quad; empty if the first quad was walked
+    /// already.
     Strip walk(Index a, Index b)
     {
         Strip strip{{a}, {b}, {}, {}, false, 0};
@@ -195,7 +196,8 @@ private:
         return static_cast<std::size_t>(std::find(quad.begin(), quad.end(), point) - quad.begin());
     }
 
-    /// The columns between strips. Beside each other they have the same points as far as both go.
+    /// The columns between strips. Neighbouring strips must agree on their common column as far as both
+    /// reach.
     Ring joined(const std::vector<Strip>& strips, std::size_t rim) const
     {
         Ring ring;
@@ -216,14 +218,14 @@ private:
         const std::size_t both = std::min(there.size(), points.size());
         if (!std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(both), there.begin())) {
             throw NotSweepable("surface.wall_not_rows", "the quads that " + walls() +
-                                                            " came with are no rows: beside the node at " +
-                                                            place(points.front()) + " their columns part");
+                                                            " came with are not in rows: at the node at " +
+                                                            place(points.front()) + " two columns diverge");
         }
         if (points.size() > there.size()) there = points;
     }
 
-    /// As many rows in all strips. Within one wall another number means that its quads are no rows; from wall
-    /// to wall, that they were meshed unlike.
+    /// All strips must have the same number of rows. Different numbers within a wall mean that its quads are
+    /// not in rows; different numbers between walls mean that they were meshed separately.
     void check_rows(const std::vector<Strip>& strips)
     {
         std::map<FaceId, std::size_t> rows_of;
@@ -234,9 +236,9 @@ private:
             if (first == rows) continue;
             throw NotSweepable("surface.wall_not_rows",
                                "the quads that " + name_of(model_, wall) +
-                                   " came with are no rows: " + std::to_string(first) +
-                                   " of them lead from the source's rim to the target's in one column, and " +
-                                   std::to_string(rows) + " in the one that starts with the quad at " +
+                                   " came with are not in rows: " + std::to_string(first) +
+                                   " of them lead from the source's rim to the target's in one column, but " +
+                                   std::to_string(rows) + " in the column that starts with the quad at " +
                                    place_of(model_, quads_[strip.quads.front()].corners) +
                                    "; mesh the wall in rows, or load with keep_mesh = false");
         }
@@ -249,7 +251,8 @@ private:
         rows_ = strips.empty() ? 0 : static_cast<int>(strips.front().faces.size());
     }
 
-    /// A stub ends inside the walls, below the opposite rim, and runs along the columns beside it.
+    /// A stub must end inside the walls, below the opposite rim, and share its nodes with the columns beside
+    /// it.
     void check_stubs(const std::vector<Strip>& stubs, const Ring& columns, std::size_t rim) const
     {
         for (const Strip& stub : stubs) {
@@ -277,8 +280,8 @@ private:
     {
         throw NotSweepable("surface.wall_not_rows",
                            "the quads that " + name_of(model_, quad.wall) +
-                               " came with are no rows from source to target: the first that is in none "
-                               "is the one at " +
+                               " came with are not in rows from source to target: the first quad outside "
+                               "all rows is at " +
                                place_of(model_, quad.corners) +
                                "; mesh the wall in rows, or load with keep_mesh = false");
     }
@@ -298,11 +301,11 @@ private:
     const Model& model_;
     const LinkingSurface& link_;
     std::vector<WallQuad> quads_;
-    std::unordered_map<std::uint64_t, std::vector<std::size_t>> beside_; ///< quads at each side
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> beside_; ///< quads on each side
     std::unordered_map<Index, double> target_at_;
     std::set<std::uint64_t> target_sides_;
     std::set<std::uint64_t> no_end_;     ///< sides where no stub may end: the source's rim and side lines
-    std::optional<std::size_t> crossed_; ///< a quad that two strips go through
+    std::optional<std::size_t> crossed_; ///< a quad that two strips cross
     int rows_ = 0;
 };
 
@@ -314,7 +317,7 @@ FaceId first_wall(const GivenColumns& columns)
     return {};
 }
 
-/// Sides of a side line that is all edges of kept faces; 0 for others.
+/// Number of sides of a side line whose edges are all kept; 0 for others.
 int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -325,7 +328,7 @@ int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId
     return rows;
 }
 
-/// The number of sides that all kept side lines have; 0 where they differ or there are none.
+/// The number of sides of all kept side lines; 0 if they differ or there are none.
 int common_line_rows(const Model& model, std::span<const LinkingSurface> links, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -347,7 +350,7 @@ bool has_column(const GivenColumns& columns, const LinkingSurface& link, double 
                        [&](double at) { return std::abs(at - source_at) <= slack; });
 }
 
-/// Make a side line a column of its own.
+/// Make a side line a column.
 void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
 {
     const std::vector<Index> points = use_points(model, line.line.uses);
@@ -360,7 +363,7 @@ void add_column(const Model& model, const LinkingLine& line, GivenColumns& colum
     columns.faces.insert(columns.faces.begin() + at, std::vector<FaceId>{});
 }
 
-/// The stub that starts at a running length of its chain, if one does.
+/// The stub that starts at a running length of its chain, if any.
 const GivenStub* stub_at(const GivenColumns& columns, bool from_target, double at, double length)
 {
     for (const GivenStub& stub : columns.stubs) {
@@ -380,12 +383,12 @@ int tallest_stub(std::span<const GivenColumns> columns)
     return static_cast<int>(rows);
 }
 
-/// Stubs of one column, and what they leave open.
+/// The stubs in one column, from either rim, and the gap between them.
 struct StubColumn {
-    const GivenStub *low, *high; ///< either may be missing
+    const GivenStub *low, *high; ///< either may be null
     Vec3 open_from, open_to;
-    std::size_t shared = 0; ///< rows that both have: walls that stand side by side
-    bool is_open = true;    ///< they do not meet
+    std::size_t shared = 0; ///< rows that both contain, if the stubs belong to walls side by side
+    bool is_open = true;    ///< there is a gap between the stubs
 
     [[nodiscard]] std::size_t rows() const
     {
@@ -394,7 +397,7 @@ struct StubColumn {
     }
 };
 
-/// Whether and how far the nodes of both stubs are the same.
+/// Whether the two stubs share nodes, and how many.
 void meet(StubColumn& column)
 {
     if (column.low == nullptr || column.high == nullptr) return;
@@ -408,7 +411,7 @@ void meet(StubColumn& column)
     column.is_open = false;
 }
 
-/// Running length of the target's chain above a place of the source's, or the other way round.
+/// The running length on the target's chain that corresponds to one on the source's, or the reverse.
 double opposite(const LinkingSurface& link, double at, bool from_target)
 {
     const double end = from_target ? link.target.length() : link.source.length();
@@ -438,7 +441,7 @@ std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& l
         const double above = opposite(link, stub.at, stub.from_target);
         const Chain& other = stub.from_target ? link.source : link.target;
         const GivenStub* facing = stub_at(columns, !stub.from_target, above, other.length());
-        if (stub.from_target && facing != nullptr) continue; // counted from below
+        if (stub.from_target && facing != nullptr) continue; // counted with the stub from the source
         const std::array<double, 1> place{above};
         const Vec3 end = facing != nullptr ? model.at(facing->points.back()) : other.points(place).front();
         StubColumn column{&stub, facing, model.at(stub.points.back()), end};
@@ -452,7 +455,7 @@ std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& l
     return result;
 }
 
-/// Shares of the way up of a column's nodes.
+/// Relative heights of a column's nodes.
 std::vector<double> heights_of(const Model& model, const StubColumn& column, std::size_t layers)
 {
     const auto step = [&](const GivenStub& stub, std::size_t k) {
@@ -484,9 +487,9 @@ void check_stub(const Model& model, const StubColumn& column, std::size_t layers
     }
     throw NotSweepable("surface.stub_rows",
                        "walls came with rows of quads that end between source and target, " + text +
-                           ", and there are " + std::to_string(layers) + " layers: these take " +
-                           std::to_string(least) + (column.is_open ? " or more" : "") +
-                           "; ask for so many, or load with keep_mesh = false");
+                           ", but there are " + std::to_string(layers) +
+                           " layers; use layers = " + std::to_string(least) +
+                           (column.is_open ? " or more" : "") + ", or load with keep_mesh = false");
 }
 
 } // namespace
@@ -514,7 +517,7 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
     const int rows = first != nullptr ? first->rows : common_line_rows(volume.model, links, kept);
-    if (rows <= tallest_stub(columns)) return columns; // side lines alone give way to quads
+    if (rows <= tallest_stub(columns)) return columns; // quads take precedence over side lines
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (const LinkingLine& line : links[b].lines) {
             const int own = line_rows(volume.model, line, kept);
@@ -523,8 +526,8 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
                 add_column(volume.model, line, columns[b], rows);
             } else {
                 notes.push_back(name_of(volume.model, line.line.uses.front().edge) + " came with " +
-                                std::to_string(own) + " sides from source to target, of which " +
-                                std::to_string(layers > 0 ? layers : rows) + " layers keep the ends alone");
+                                std::to_string(own) + " sides from source to target, but there are " +
+                                std::to_string(layers > 0 ? layers : rows) + " layers: only the ends stay");
             }
         }
     }
@@ -562,7 +565,7 @@ std::vector<double> stub_heights(const Model& model, std::span<const LinkingSurf
         const double steps = std::round(open / size((column.open_from + column.open_to) / 2));
         if (!(steps < std::numeric_limits<Index>::max() / 16.0)) {
             throw InvalidInput("sweep.too_many",
-                               "more layers would be needed at the size than can be numbered; give 'layers'");
+                               "the size requires more layers than node numbers allow; give 'layers'");
         }
         count = std::max(count, column.rows() +
                                     static_cast<std::size_t>(column.is_open ? std::max(steps, 1.0) : 0.0));

@@ -15,16 +15,16 @@ using namespace topology;
 
 namespace {
 
-/// Two rims with other numbers of nodes are compared node by node up to this many pairs: 32 MB and 0.1 s.
+/// Rims with different node counts are compared node by node up to this many pairs: 32 MB and 0.1 s.
 constexpr std::size_t kMostPairs = 4'000'000;
 
-/// A break of the segments: a place on both rims that belongs together.
+/// A break between segments: corresponding positions on both rims.
 struct Break {
-    double source = 0, target = 0; ///< running lengths; the target's may run past its length
-    bool given = false;            ///< what lies between it and the next break is one side of a quad
+    double source = 0, target = 0; ///< running lengths; the target's may exceed its length
+    bool given = false;            ///< the interval up to the next break is one side of a quad
 };
 
-/// The segments of one linking surface, with given nodes for breaks.
+/// The segments of one linking surface, with given nodes as breaks.
 class BreakKeeper {
 public:
     BreakKeeper(const OpenVolume& volume, const std::set<EdgeId>& kept, const GivenColumns& columns,
@@ -68,9 +68,9 @@ public:
             link_.segments.push_back(segment);
         }
         if (lost_ > 0) {
-            notes.push_back(std::to_string(lost_) + " given nodes of the target's rim from " +
+            notes.push_back(std::to_string(lost_) + " given nodes of the target's rim, starting at " +
                             name_of(model_, lost_edge_) +
-                            " on are not kept: the source's rim has another number of them");
+                            ", are not kept: the source's rim has a different number of nodes");
         }
     }
 
@@ -112,8 +112,8 @@ private:
         for (Break& b : breaks) b.target -= turns * length;
     }
 
-    /// Where the target's end of the start lies, by the columns on both sides of it: node for node where both
-    /// rims have as many there.
+    /// Position on the target of the ring's start, from the columns on either side: node by node if both rims
+    /// have equally many nodes there.
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
@@ -133,7 +133,7 @@ private:
         return before.target + share * (after.target - before.target);
     }
 
-    /// A running length of the target chain, whole turns added, that lies past `from`.
+    /// A running length of the target chain, with whole turns added until it exceeds `from`.
     [[nodiscard]] double past(double at, double from) const
     {
         const double length = link_.target.length();
@@ -141,7 +141,7 @@ private:
         return at;
     }
 
-    /// Breaks at every column, and no other where quads lead from rim to rim.
+    /// Breaks at every column, and no others where quads lead from rim to rim.
     [[nodiscard]] std::vector<Break> with_columns(const std::vector<Break>& breaks) const
     {
         if (columns_.rows == 0) return breaks;
@@ -166,13 +166,13 @@ private:
         return merged;
     }
 
-    /// Whether a break lies inside a side that a quad of a stub stands on, or hangs from.
+    /// Whether a break lies inside a side that belongs to a quad of a stub.
     [[nodiscard]] bool is_in_stub(const Break& at) const
     {
         for (std::size_t i = 0; i < columns_.stubs.size(); ++i) {
             const GivenStub& stub = columns_.stubs[i];
             if (stub.faces.empty()) continue;
-            // The next one of the same rim is the side's other end.
+            // The next stub on the same rim is the other end of the side.
             std::size_t next = i + 1;
             while (next < columns_.stubs.size() && columns_.stubs[next].from_target != stub.from_target)
                 ++next;
@@ -191,7 +191,7 @@ private:
         return false;
     }
 
-    /// Where as many nodes are given on both ends between two side lines (or all round), they are paired in
+    /// If both ends have equally many given nodes between two side lines (or around the ring), pair them in
     /// order.
     [[nodiscard]] std::vector<Break> with_pairs_between_lines(const std::vector<Break>& breaks) const
     {
@@ -218,8 +218,7 @@ private:
         return result;
     }
 
-    /// Nodes of both ends from `from` to below `to`, in order; empty where their numbers differ or not all
-    /// edges are kept.
+    /// Nodes of both ends in [from, to), in order; empty if their numbers differ or not all edges are kept.
     [[nodiscard]] std::vector<Break> pairs(const Break& from, const Break& to) const
     {
         if (!covered(link_.source, from.source, to.source) || !covered(link_.target, from.target, to.target))
@@ -232,7 +231,7 @@ private:
         return result;
     }
 
-    /// Whether a chain is on kept edges alone from a running length to another.
+    /// Whether a chain consists of kept edges only between two running lengths.
     [[nodiscard]] bool covered(const Chain& chain, double from, double to) const
     {
         std::set<EdgeId> others;
@@ -242,7 +241,7 @@ private:
         return others.empty() || !meets(chain, from, to, others);
     }
 
-    /// Whether a chain is partly on one of some edges between two running lengths.
+    /// Whether a chain contains any of some edges between two running lengths.
     [[nodiscard]] static bool meets(const Chain& chain, double from, double to, const std::set<EdgeId>& edges)
     {
         const double length = chain.length(), slack = kSamePlace * length;
@@ -257,7 +256,7 @@ private:
         return false;
     }
 
-    /// Running lengths of given nodes strictly between two places.
+    /// Running lengths of the given nodes strictly between two positions.
     static std::vector<double> inside(const std::vector<ChainNode>& nodes, const Chain& chain, double from,
                                       double to)
     {
@@ -291,7 +290,7 @@ private:
         if (!source_kept) s.clear();
         if (!target_kept) t.clear();
         if (s.empty() && t.empty()) return;
-        // Quads that stay can have no node more on their rim; triangles' rims can.
+        // Kept quads allow no additional node on their rim; kept triangles do.
         std::vector<double>* left_out = nullptr;
         if (source_kept && meets(link_.source, from.source, to.source, of_quads_)) left_out = &t;
         if (left_out == nullptr && target_kept && meets(link_.target, from.target, to.target, of_quads_))
@@ -323,10 +322,10 @@ private:
 
     const Model& model_;
     const std::set<EdgeId>& kept_;
-    std::set<EdgeId> of_quads_; ///< edges of faces whose quads stay
+    std::set<EdgeId> of_quads_; ///< edges of faces whose quads are kept
     const GivenColumns& columns_;
     LinkingSurface& link_;
-    std::vector<ChainNode> source_, target_; ///< given nodes
+    std::vector<ChainNode> source_, target_; ///< given nodes of either chain
     std::size_t lost_ = 0;
     EdgeId lost_edge_;
 };

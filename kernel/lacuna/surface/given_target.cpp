@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Quads by their sides; a side has two at most.
+/// Quads by their sides; a side has at most two.
 class QuadsBySide {
 public:
     explicit QuadsBySide(std::span<const Quad> quads) : quads_(quads)
@@ -31,7 +31,7 @@ public:
         }
     }
 
-    /// The quad at a side that is not `other`; -1 where there is none.
+    /// The quad on a side that is not `other`; -1 if there is none.
     [[nodiscard]] Index beside(Index a, Index b, Index other) const
     {
         const auto found = beside_.find(edge_key(a, b));
@@ -39,7 +39,7 @@ public:
         return found->second[0] == other ? found->second[1] : found->second[0];
     }
 
-    /// The corners of a quad or triangle from `a` over `b` on.
+    /// The corners of a quad or triangle, starting with the side from `a` to `b`.
     [[nodiscard]] Quad from(Index quad, Index a, Index b) const
     {
         const Quad& q = quads_[index(quad)];
@@ -80,11 +80,11 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
     }
     if (target.quads.empty()) return std::nullopt;
     if (without.empty()) return target;
-    why = without + " is not all quads";
+    why = without + " has cells other than quads";
     return std::nullopt;
 }
 
-/// Model point of the target at a running length of its chain; -1 where there is none.
+/// Model point of the target at a running length of its chain; -1 if there is none.
 class TargetPoints {
 public:
     TargetPoints(const Model& model, const Chain& chain)
@@ -106,9 +106,9 @@ private:
     double slack_, length_;
 };
 
-/// Pair the quads of two meshes as graphs, over their sides, from some on.
-/// @param image  of nodes of `from`, those of the sides at least; out: of all.
-/// @return  the twin of each quad; nothing where they are laid out otherwise, or not all are reached.
+/// Match the quads of two meshes as graphs, by traversal from some sides.
+/// @param image  of nodes of `from`: on input of those on the sides, on output of all.
+/// @return  the counterpart of each quad; nothing if the graphs differ or some quads are not reached.
 std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
                                                std::vector<Index>& image, std::span<const Segment> sides)
 {
@@ -116,7 +116,7 @@ std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, s
     std::vector<Index> twin(all_from.size(), -1);
     std::vector<char> taken(all_to.size(), 0);
     struct Step {
-        Index a, b, source, target; ///< a side, and the quads it is left from
+        Index a, b, source, target; ///< a side, and the quads from which it is crossed
     };
     std::vector<Step> steps;
     for (const Segment& side : sides) steps.push_back({side[0], side[1], -1, -1});
@@ -148,8 +148,8 @@ std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, s
     return twin;
 }
 
-/// Numbers of nodes on both chains of which one is above the other: at a column, or at a side line; -1 where
-/// none is.
+/// Node numbers on both chains that correspond to each other, at a column or a side line; -1 if there are
+/// none.
 std::pair<Index, Index> first_pair(const Model& model, const LinkingSurface& link,
                                    const GivenColumns& columns)
 {
@@ -195,7 +195,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
             Index& point = image[index(source.first[b]) + i];
             point = points.at(at[i]);
             if (point < 0 || points.count() != at.size()) {
-                why = "its rim has other nodes than the source's rim leads to";
+                why = "its rim nodes do not match the source's";
                 return std::nullopt;
             }
         }
@@ -204,7 +204,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
     }
     const std::optional<std::vector<Index>> twin = paired_quads(quads, target->quads, image, sides);
     if (!twin) {
-        why = "its quads are laid out otherwise than the source's";
+        why = "its quads are connected differently from the source's";
         return std::nullopt;
     }
     GivenTarget result;
@@ -216,7 +216,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
 void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
                       std::vector<LinkingSurface>& links, bool wedges)
 {
-    // Columns and side lines say how a loop turns; round loops without are to turn as the others do.
+    // Columns and side lines fix the rotation of a loop; round loops without them rotate like the others.
     std::vector<std::size_t> unsure;
     const LinkingSurface* sure = nullptr;
     for (std::size_t b = 0; b < links.size(); ++b) {

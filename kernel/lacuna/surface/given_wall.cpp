@@ -39,7 +39,7 @@ private:
         const std::vector<FaceId>* faces;
     };
 
-    /// Take the nodes of columns and stubs as they are.
+    /// Take over the nodes of columns and stubs unchanged.
     void take_columns(const GivenColumns& columns)
     {
         std::vector<GivenWay> up, from_source, from_target;
@@ -52,7 +52,8 @@ private:
             const bool beside = !ways.empty() && !ways.back().faces->empty();
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
-            // An odd rim has one node more on a side. Others are the opposite end's.
+            // A rim with an odd count has an additional node on one side; other extra nodes belong to the
+            // opposite end.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);
@@ -60,7 +61,7 @@ private:
         take_ways(from_target, true);
     }
 
-    /// @return  false where the rim has no node there.
+    /// @return  false if the rim has no node there.
     bool add_way(double at, bool from_target, const std::vector<Index>& points,
                  const std::vector<FaceId>& faces, std::vector<GivenWay>& ways) const
     {
@@ -68,7 +69,7 @@ private:
         const std::vector<double>& nodes = from_target ? nodes_.target_at : nodes_.source_at;
         const double slack = kSamePlace * length;
         const auto off = [&](double node) { return std::abs(std::remainder(node - at, length)); };
-        // Nodes rise from the first; the target's may run past its end.
+        // Positions increase from the first node; on the target they may exceed the length.
         const double start = nodes.front(), from = at + (at < start - slack ? length : 0);
         auto found = std::lower_bound(nodes.begin(), nodes.end(), from - slack);
         if (found == nodes.end()) found = nodes.begin();
@@ -82,8 +83,8 @@ private:
         const std::string rim = stub.from_target ? "target" : "source";
         throw NotSweepable("surface.wall_rows",
                            name_of(model_, stub.wall) + " came with quads on the " + rim +
-                               "'s rim, and the other rim came with other nodes between the same corners; "
-                               "mesh both alike, or load one with keep_mesh = false");
+                               "'s rim, but the opposite rim has different nodes between the same corners; "
+                               "mesh both rims alike, or load one with keep_mesh = false");
     }
 
     void take_ways(const std::vector<GivenWay>& ways, bool from_target)
@@ -97,7 +98,7 @@ private:
             }
             const std::size_t end = next.node > way.node ? next.node : next.node + count_;
             for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
-                // Nodes between divide the quads: an odd rim was given one more.
+                // Nodes in between split the quads: an odd rim got an additional node.
                 const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
                 for (std::size_t k = 0; k < way.faces->size(); ++k) {
                     const std::size_t low = std::min(layer(k), layer(k + 1));

@@ -14,7 +14,7 @@ GradedPoints::GradedPoints(std::vector<PointSize> points, double grading)
 
 std::size_t GradedPoints::build(std::size_t begin, std::size_t end)
 {
-    constexpr std::size_t kLeaf = 8; // points a leaf; a choice, not a measurement
+    constexpr std::size_t kLeaf = 8; // points per leaf; heuristic
     const std::size_t number = nodes_.size();
     Node node;
     node.begin = begin;

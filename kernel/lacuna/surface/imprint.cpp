@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// imprint_target(): rims are paired first, so that every edge of the target that ends on the rim has a vertex
-// to start from on the source. Then both ends are laid in one plane, their inner edges cut against each
-// other, and the source faces made anew from the regions between them.
+// imprint_target() first pairs the rims, so that every inner edge of the target that ends on the rim has a
+// vertex on the source's rim. Then it flattens both ends into one plane, intersects their inner edges, and
+// rebuilds the source faces from the regions in between.
 #include <lacuna/surface/imprint.h>
 
 #include <lacuna/core/error.h>
@@ -29,14 +29,14 @@ using namespace topology;
 
 namespace {
 
-/// Edges that are laid more than so many times smaller on the other end are not imprinted: quads would have
-/// to narrow by as much within one end. A tube of three radii's depth inside an end is laid out so; one of
-/// 16, on a turned cutter, asked for a ring of 49,000 sides. A choice.
+/// Edges that shrink by more than this factor on the other end are not imprinted, because the quads would
+/// have to narrow as much within one end. A tube three radii deep inside an end stays below it; one of 16
+/// radii would need a ring of 49,000 sides. Heuristic.
 constexpr double kMostShrunk = 20;
 
-/// A chain of the plane with what it is on either end.
+/// A chain in the plane, with its edges on both ends.
 struct Border {
-    EdgeId source; ///< in the new model
+    EdgeId source; ///< of the new model
     std::optional<EdgeImage> image;
 };
 
@@ -60,7 +60,7 @@ public:
         map_.emplace(base_, result_.links, std::span<const ClosedPair>{}, known_);
         if (!map_->one_to_one()) {
             refuse_imprint(model(), inner_.front(),
-                           "source and target cannot be laid on each other one to one");
+                           "source and target cannot be mapped onto each other one to one");
         }
         pair_closed();
         flat_ = lay_flat(base_, *map_, pairs_, closed_, inner_, reach_);
@@ -75,7 +75,7 @@ public:
 private:
     Model& model() { return result_.volume->model; }
 
-    /// Both ends split alike need no map: edge goes to edge.
+    /// If both ends are split the same way, edges map to edges and no map is needed.
     bool match_alike()
     {
         std::optional<AlikeEnds> alike = alike_ends(*result_.volume, given_links_);
@@ -92,7 +92,7 @@ private:
         return true;
     }
 
-    /// An end that goes on far inside its rim, up a long tube, is laid on the other at a vanishing size.
+    /// An end with a long tube inside its rim becomes vanishingly small on the other end.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -100,15 +100,14 @@ private:
             const double swept = std::abs(image.to - image.from) * edge_length(model, image.target);
             const double shrunk = swept / edge_length(model, edge);
             if (shrunk <= kMostShrunk) continue;
-            refuse_imprint(
-                model, image.target,
-                "it would be laid there " + with_digits(shrunk, 2) +
-                    " times smaller than it is, as that end goes on far inside its rim; name other faces "
-                    "as source and target");
+            refuse_imprint(model, image.target,
+                           "there it would be " + with_digits(shrunk, 2) +
+                               " times smaller, because that end is deep inside its rim; choose other faces "
+                               "as source and target");
         }
     }
 
-    /// A face whose own quads are its mesh cannot be split.
+    /// A face whose given quads are kept cannot be split.
     void check_not_kept()
     {
         for (const FaceId face : result_.volume->faces(Role::source)) {
@@ -116,11 +115,11 @@ private:
             refuse_imprint(
                 model(), inner_.front(),
                 name_of(model(), face) +
-                    " came with quads; load with keep_mesh = false, or name one face as the target");
+                    " came with quads; load with keep_mesh = false, or choose one face as the target");
         }
     }
 
-    /// Closed edges that enclose about the same are one, and the plane is laid anew with them on each other.
+    /// Pair closed edges that enclose about the same region, and flatten again with the pairs coincident.
     void pair_closed()
     {
         const std::vector<EdgeId> low = inner_edges(base_, Role::source);
@@ -142,7 +141,7 @@ private:
         place_[index(point)] = place;
     }
 
-    /// Split the source's inner edges at their nodes; those that stand for the target's are noted.
+    /// Split the source's inner edges at their nodes, and record the pieces that coincide with target edges.
     void cut_source()
     {
         for (std::size_t p = 0; p < base_.model.points.size(); ++p)
@@ -154,7 +153,7 @@ private:
             const EdgeId edge = flat_.source[piece.edge].edge;
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
-            // The edge still runs from its start to this piece's end.
+            // The edge still runs from its start to the end of this piece.
             try {
                 const EdgeSplit made = split_edge(model(), edge, piece.from_at / piece.to_at);
                 part[k] = made.behind;
@@ -190,7 +189,7 @@ private:
         }
     }
 
-    /// The target's edges that the source has not: new edges on its faces.
+    /// Create edges on the source for the target's edges that it lacks.
     void add_target()
     {
         for (const FlatPiece& piece : pieces_) {
@@ -231,8 +230,7 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// The parameters of a place on the same side of a seam as those of a place nearby: over a seam they jump
-    /// by all that the face has of them.
+    /// Shift parameters across a seam, where they jump by a period, to the side of those of a nearby place.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
         const Vec2 range = seam_jump(face);
@@ -242,7 +240,7 @@ private:
         return uv;
     }
 
-    /// How far parameters jump over a face's seam; zero where it has none.
+    /// The jump of the parameters across a face's seam; zero without a seam.
     Vec2 seam_jump(FaceId face)
     {
         const auto [found, fresh] = seam_jump_.try_emplace(face, Vec2::Zero());
@@ -264,7 +262,7 @@ private:
         return found->second = high - low;
     }
 
-    /// A length that facets of a face have, in the plane.
+    /// A typical facet length of a face, in the plane.
     double facet_side(FaceId face) const
     {
         return std::sqrt(face_area(base_.model, face) /
@@ -273,7 +271,7 @@ private:
 
     Edge new_edge(const FlatPiece& piece, EdgeId target, FaceId face)
     {
-        // Parameters at an end are those a little way in: on a seam it has others on either side.
+        // Take an end's parameters from a point slightly inside the edge: on a seam the end has two sets.
         constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
@@ -306,7 +304,7 @@ private:
         return edge;
     }
 
-    /// Chains of the plane: the inner edges, and the rim, beyond which there is nothing.
+    /// Chains of the plane: the inner edges, and the rim, which bounds the plane.
     void set_borders()
     {
         std::map<EdgeUse, FaceId> left;
@@ -343,7 +341,7 @@ private:
         }
     }
 
-    /// The target face beside the rim above a place of the source's.
+    /// The target face beside the rim at a position of the source's rim.
     FaceId target_over(const LinkingSurface& link, double source_at)
     {
         for (const RimSegment& segment : link.segments) {
@@ -357,7 +355,7 @@ private:
         return {};
     }
 
-    /// The target face over what lies on the left of a border; none for a border of the source alone.
+    /// The target face to the left of a border; invalid for a border that only the source has.
     FaceId target_on_left(const PlaneUse& use)
     {
         const Border& border = borders_[use.chain];
@@ -365,7 +363,7 @@ private:
         if (rim != rim_target_.end()) return rim->second;
         if (!border.image) return {};
         const bool along = border.image->from < border.image->to;
-        // The target faces the other way: what is on the left here is on its edge's right.
+        // The target faces the other way, so left and right of an edge are exchanged.
         return target_left_.at({border.image->target, along != use.reversed});
     }
 
@@ -391,7 +389,7 @@ private:
                 }
             }
         }
-        // Regions between edges of the source alone are swept where their neighbours are.
+        // Regions bounded by source edges only belong to the target face of their neighbours.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -411,12 +409,11 @@ private:
         for (std::size_t r = 0; r < regions.size(); ++r) {
             if (!target[r].valid() || !source[r].valid())
                 refuse_imprint(model(), inner_.front(),
-                               "a part of the other end lies under no face of this one");
+                               "a part of the other end has no counterpart on this one");
             FaceId face = source[r];
             if (!begun.insert(face).second) {
-                if (!split_.contains(face)) // its loops are those of one region, or the plane is torn
-                    refuse_imprint(model(), inner_.front(),
-                                   "the edges of both ends cross each other in disorder");
+                if (!split_.contains(face)) // its loops bound one region, or the plane map is torn
+                    refuse_imprint(model(), inner_.front(), "the edges of both ends cross inconsistently");
                 face = FaceId(model().faces.size());
                 model().faces.push_back(base_.model[source[r]]);
                 result_.volume->role.push_back(Role::source);
@@ -434,12 +431,12 @@ private:
         if (known.valid() && known != found) {
             const Border& border = borders_[use.chain];
             refuse_imprint(model(), border.image ? border.image->target : inner_.front(),
-                           "there it crosses other edges in disorder");
+                           "there it crosses other edges inconsistently");
         }
         known = found;
     }
 
-    /// The facets of a region of source face `of`, as face `face`.
+    /// Triangulate a region of source face `of` as face `face`.
     void make_facets(const PlaneRegion& region, FaceId of, FaceId face)
     {
         std::vector<std::vector<Index>> loops;
@@ -471,8 +468,8 @@ private:
         } catch (const InvalidInput& error) {
             const Border& border = borders_[region.loops.front().front().chain];
             refuse_imprint(model(), border.image ? border.image->target : inner_.front(),
-                           "what it cuts off on " + name_of(base_.model, of) +
-                               " has no outline of its own (" + error.what() + ")");
+                           "the part it cuts off on " + name_of(base_.model, of) + " has no valid outline (" +
+                               error.what() + ")");
         }
         for (std::size_t p = places.size(); p < made.points.size(); ++p)
             points.push_back(add_point(of, made.points[p]));
@@ -503,13 +500,13 @@ private:
     std::vector<EdgeId> inner_;
     std::vector<RimPair> pairs_;
     Imprint result_;
-    OpenVolume base_; ///< with the rims split, the faces whole
+    OpenVolume base_; ///< with split rims and whole faces
     std::optional<EndsMap> map_;
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
-    std::vector<FlatPiece> pieces_;   ///< of the target alone
+    std::vector<FlatPiece> pieces_;   ///< pieces that only the target has
     std::vector<Vec2> place_;         ///< of each model point
-    std::vector<Border> borders_;     ///< the source's pieces, the target's, the rim
+    std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
     std::vector<PlaneChain> chains_;  ///< of each border
     std::map<EdgeId, FaceId> new_on_; ///< source face each new edge lies on
     std::map<FaceId, Vec2> seam_jump_;
@@ -522,10 +519,9 @@ private:
 
 void refuse_imprint(const Model& model, EdgeId edge, const std::string& why)
 {
-    throw NotSweepable(
-        "surface.not_imprinted",
-        name_of(model, edge) +
-            " lies inside the end that is swept to and cannot be imprinted on the other: " + why);
+    throw NotSweepable("surface.not_imprinted",
+                       name_of(model, edge) +
+                           " lies inside one end and cannot be imprinted on the other: " + why);
 }
 
 std::vector<EdgeId> inner_edges(const OpenVolume& volume, Role role)

@@ -26,7 +26,7 @@ std::vector<double> running_lengths(const Model& model, const std::vector<Index>
     return geometry::arc_lengths(line);
 }
 
-/// Points of a closed chain, the first not repeated, and their running lengths, with the whole at the end.
+/// Points of a closed chain (the first not repeated) and their running lengths, followed by the total length.
 struct Rim {
     std::vector<Index> points;
     std::vector<double> at;
@@ -133,11 +133,11 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     const Eigen::MatrixXd places = geometry::solve_harmonic(problem);
     target_.reserve(model.points.size());
     for (Eigen::Index i = 0; i < places.rows(); ++i) target_.emplace_back(places(i, 0), places(i, 1));
-    // Facets of no area in space have none in the plane and turn nothing over.
+    // Facets without area in space have none in the plane and cannot be inverted.
     double extent = 0;
     for (const auto& [point, place] : fixed)
         extent = std::max(extent, (place - fixed.begin()->second).squaredNorm());
-    constexpr double kNoArea = 1e-12; ///< of the extent squared: rounding
+    constexpr double kNoArea = 1e-12; ///< of the squared extent: rounding
     for (const Triangle& t : triangles) {
         if (signed_area(target(t[0]), target(t[1]), target(t[2])) > kNoArea * extent) one_to_one_ = false;
     }

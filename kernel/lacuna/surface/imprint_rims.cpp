@@ -20,7 +20,7 @@ using namespace topology;
 
 namespace {
 
-/// Whether a vertex of the source's rim is swept to a corner or a side line's end of the target's.
+/// Whether a vertex of the source's rim is swept to a corner or to the end of a side line of the target's.
 bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
 {
     const double slack = 1e-9 * link.source.length();
@@ -39,7 +39,7 @@ bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
     return false;
 }
 
-/// The inner edge of the target that ends in a vertex.
+/// The inner edge of the target that ends at a vertex.
 EdgeId inner_at(const Model& model, std::span<const EdgeId> inner, VertexId vertex)
 {
     for (const EdgeId edge : inner) {
@@ -103,7 +103,7 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
     for (auto& [edge, list] : splits) {
         std::sort(list.begin(), list.end(),
                   [](const Split& a, const Split& b) { return a.fraction > b.fraction; });
-        double end = 1; // the share of the whole that the edge still is
+        double end = 1; // the part of the original edge that is left
         for (const Split& split : list) {
             pairs.push_back(
                 {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)),
@@ -128,7 +128,7 @@ std::vector<LinkingSurface> link_anew(const OpenVolume& volume, std::span<const 
             });
         });
         if (paired) continue;
-        link.segments = given.segments; // as they were turned
+        link.segments = given.segments; // keep the given rotation
         link.branch = given.branch;
     }
     return links;

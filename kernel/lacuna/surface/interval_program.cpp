@@ -18,30 +18,31 @@ namespace lacuna::surface {
 
 namespace {
 
-/// What a side too few under a floor costs: more than any wish. A choice, not a measurement.
+/// Cost of violating a floor by one side: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Up to this many free variables vectors are tried by twos as well: a board of 32 × 32 faces has as many. A
-/// choice, not a measurement.
+/// Up to this many free variables, pairs of vectors are tried too: a board of 32 × 32 faces has as many.
+/// Heuristic.
 constexpr std::size_t kByTwos = 64;
-/// What sides of another size cost for each side wanted and each time they are off by that again. A choice.
+/// Additional cost of sides outside the accepted length range, per wanted side and relative excess.
+/// Heuristic.
 constexpr double kOutOfSize = 2;
-/// Coefficients beyond this are no interval assignment; it keeps products within range.
+/// Larger coefficients do not occur in interval assignment; the bound keeps products within range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
-/// Larger sets are left alone: these take a tenth of a second. A choice.
+/// Larger sets are not solved: these take 0.1 s. Heuristic.
 constexpr double kMostWork = 1e8;
-/// A gain smaller than this share of the cost is rounding.
+/// A gain below this share of the cost is rounding.
 constexpr double kRounding = 1e-12;
 
 double wish_cost(double n, double wanted, double weight)
 {
     n = std::max(n, 0.5);
-    const double longer = wanted / n; // than asked for
+    const double longer = wanted / n; // length over wanted length
     const double out = std::max(
         {0.0, quads::kShortestOfSize / longer - 1, longer / quads::kLongestOfSize - 1});
     return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * wanted * out);
 }
 
-/// Equations that share variables, in numbers of their own.
+/// Equations with common variables, renumbered.
 class IntervalSet {
 public:
     IntervalSet(const IntervalProgram& program, std::vector<std::size_t> own,
@@ -72,7 +73,7 @@ public:
     }
 
 private:
-    /// Down from numbers of the free variables. @return nothing where that ends below a floor
+    /// Descend from values of the free variables. @return nothing if the result violates a floor
     std::optional<std::vector<int>> solve_from(const std::vector<std::int64_t>& start)
     {
         if (!start_from(start)) return std::nullopt;
@@ -92,7 +93,7 @@ private:
 
     using Row = std::vector<std::int64_t>; ///< coefficients of the set's variables, then the right-hand side
 
-    /// A wish, or with no weight a floor.
+    /// A term of the objective, or a floor if its weight is zero.
     struct Term {
         std::vector<std::pair<std::size_t, int>> variables;
         std::int64_t given = 0; ///< sum over fixed variables
@@ -135,14 +136,14 @@ private:
         terms_.push_back(std::move(term));
     }
 
-    /// Gauss and Jordan in whole numbers. @return false where equations contradict each other
+    /// Gauss-Jordan elimination in integers. @return false if equations contradict each other
     bool reduce()
     {
         const std::size_t n = own_.size();
         std::size_t done = 0;
         std::vector<char> is_pivot(n, 0);
         while (done < rows_.size()) {
-            // A coefficient of one keeps the others whole; of those the first.
+            // A pivot of one keeps the other coefficients integral; take the first of them.
             std::size_t best_row = done, best = n;
             for (std::size_t r = done; r < rows_.size(); ++r) {
                 for (std::size_t v = 0; v < n; ++v) {
@@ -152,7 +153,7 @@ private:
                     best = v;
                 }
             }
-            if (best == n) break; // the rest has no variables left
+            if (best == n) break; // the remaining rows have no variables
             std::swap(rows_[done], rows_[best_row]);
             if (rows_[done][best] < 0) negate(rows_[done]);
             for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -207,12 +208,12 @@ private:
         return counts;
     }
 
-    /// The free variables of least Σ weight (n − wanted)² / wanted in real numbers, rounded: a start that
-    /// knows what others need.
+    /// Starting point that accounts for coupled variables: the real minimizer of Σ weight (n − wanted)² /
+    /// wanted over the free variables, rounded.
     [[nodiscard]] std::vector<std::int64_t> relaxed() const
     {
         const auto free = static_cast<Eigen::Index>(free_.size());
-        // How each variable follows from the free ones; last what it is without them.
+        // Each variable as a combination of the free ones; the last column is its constant.
         Eigen::MatrixXd of = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(own_.size()), free + 1);
         for (std::size_t k = 0; k < free_.size(); ++k)
             of(static_cast<Eigen::Index>(free_[k]), static_cast<Eigen::Index>(k)) = 1;
@@ -223,7 +224,7 @@ private:
                 of(p, static_cast<Eigen::Index>(k)) = -static_cast<double>(rows_[r][free_[k]]) / by;
             of(p, free) = static_cast<double>(rows_[r].back()) / by;
         }
-        constexpr double kNoWish = 1e-9; // of variables that no wish is for
+        constexpr double kNoWish = 1e-9; // regularizes variables without a term of their own
         Eigen::MatrixXd normal = kNoWish * Eigen::MatrixXd::Identity(free, free);
         Eigen::VectorXd right = Eigen::VectorXd::Constant(free, kNoWish);
         for (const Term& term : terms_) {
@@ -242,7 +243,7 @@ private:
         return counts;
     }
 
-    /// These numbers for the free variables, and what follows.
+    /// Set the free variables to these values and compute the dependent ones.
     bool start_from(const std::vector<std::int64_t>& free)
     {
         count_.assign(own_.size(), 0);
@@ -262,7 +263,7 @@ private:
         return cost;
     }
 
-    /// The vectors to go along.
+    /// The search vectors.
     bool find_vectors()
     {
         for (const std::size_t v : free_) {
@@ -283,8 +284,8 @@ private:
         return true;
     }
 
-    /// Set a row's pivot; where that is no whole number, a free variable of the row that no other row has
-    /// takes the rest.
+    /// Solve a row for its pivot. If that is not an integer, a free variable that occurs in no other row
+    /// absorbs the remainder.
     bool make_whole(std::size_t r)
     {
         const std::int64_t p = rows_[r][pivot_[r]];
@@ -314,7 +315,7 @@ private:
             std::count_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row[v] != 0; }));
     }
 
-    /// Vectors that share a variable, added and taken from each other.
+    /// Sums and differences of vectors that share a variable.
     void add_pairs()
     {
         const std::size_t alone = vectors_.size();
@@ -350,7 +351,7 @@ private:
         return kBelowFloor * static_cast<double>(std::max<std::int64_t>(0, variable(v).least - count));
     }
 
-    /// What a step along a vector costs more.
+    /// Change of the objective along a vector.
     double change(const std::vector<std::pair<std::size_t, std::int64_t>>& vector, std::int64_t times)
     {
         touched_.clear();
@@ -369,7 +370,7 @@ private:
         return cost;
     }
 
-    /// Take the step that gains most. @return false where none gains
+    /// Take the step with the largest gain. @return false if no step gains
     bool step()
     {
         constexpr int kMostStep = 1 << 16;
@@ -401,7 +402,7 @@ private:
     }
 
     const IntervalProgram& program_;
-    std::vector<std::size_t> own_; ///< the program's variables
+    std::vector<std::size_t> own_; ///< numbers of the variables in the program
     std::map<std::size_t, std::size_t> local_;
     std::vector<Row> rows_;
     std::vector<Term> terms_;
@@ -431,7 +432,7 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
     const std::size_t n = program.variables.size();
     geometry::UnionFind sets(n);
     constexpr auto kNone = std::numeric_limits<std::size_t>::max();
-    // Fixed variables join nothing.
+    // Fixed variables do not connect equations.
     const auto first_of = [&](const std::vector<std::size_t>& variables, std::size_t first) {
         for (const std::size_t v : variables) {
             if (program.variables[v].fixed) continue;

@@ -80,9 +80,8 @@ private:
         }
         if (found.size() == 1) return on_edge(found.front(), interval, reversed);
         refuse("names the edge between vertices " + std::to_string(tag[0]) + " and " +
-               std::to_string(tag[1]) + ", and " +
-               (found.empty() ? "none joins them"
-                              : names_of(model_, found) + " do; name one of them by its tag") +
+               std::to_string(tag[1]) + ", but " +
+               (found.empty() ? "no edge joins them" : names_of(model_, found) + " do; name one by its tag") +
                "; volume:tree() lists edges with their vertices");
     }
 
@@ -114,21 +113,21 @@ private:
                 if (use == uses.end()) continue;
                 if (uses.size() > 1)
                     refuse("names " + name_of(model_, edge) +
-                           ", one of several between source and target there; give the heights of layers: "
-                           "layers = { … }");
+                           ", one of several edges between source and target there; give layer heights "
+                           "instead: layers = { … }");
                 ask_layers(interval.count, use->reversed ? 1 / asked.bias : asked.bias, asked.name);
                 return;
             }
         }
         if (!on_target(edge, asked)) {
             refuse("names " + name_of(model_, edge) +
-                   ", which lies within the target or a wall; name an edge of the source, of the target's "
+                   ", which lies inside the target or a wall; name an edge of the source, of the target's "
                    "rim, or one from source to target");
         }
         demands_.sides.push_back(std::move(asked));
     }
 
-    /// What of the source's rim is swept to an edge of the target's, as that runs.
+    /// The part of the source's rim that is swept to an edge of the target's rim, along that edge.
     bool on_target(EdgeId edge, SidesAsked& asked) const
     {
         for (const LinkingSurface& link : links_) {
@@ -154,7 +153,7 @@ private:
         for (SidesAsked::Part& part : asked.parts) part.reversed = !part.reversed;
     }
 
-    /// The segments of a rim that are meant, in walking order from the first after a gap.
+    /// The selected segments of a rim in walking order, starting after a gap.
     template <class IsMeant>
     static void add_segments(const LinkingSurface& link, SidesAsked& asked, const IsMeant& is_meant)
     {
@@ -199,7 +198,7 @@ private:
             asked.name += (asked.name.empty() ? "" : ", ") + name_of(model_, wall);
             if (volume_.role[wall.index()] != Role::wall)
                 refuse("names " + name_of(model_, wall) +
-                       ", which is no wall; sides of an end are asked of its edges");
+                       ", which is not a wall; for source and target name their edges");
         }
         for (const LinkingSurface& link : links_) {
             add_segments(link, asked, [&](const RimSegment& segment) {
@@ -211,7 +210,8 @@ private:
             });
         }
         if (asked.parts.empty())
-            refuse("names " + asked.name + ", which stands on neither end; name the wall below or above it");
+            refuse("names " + asked.name +
+                   ", which touches neither source nor target; name the wall below or above it");
         demands_.sides.push_back(std::move(asked));
     }
 
@@ -223,7 +223,7 @@ private:
                                    std::to_string(demands_.layers->count) + " layers and " + name + " for " +
                                    std::to_string(count) +
                                    (count == demands_.layers->count ? " with another bias" : "") +
-                                   "; all columns have as many");
+                                   "; all columns need the same layers");
         }
         demands_.layers = {count, bias, name, of_sweep};
     }

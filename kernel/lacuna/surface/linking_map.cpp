@@ -29,7 +29,7 @@ using namespace topology;
 
 namespace {
 
-/// The linking surface's facets, all faces together.
+/// The facets of a linking surface, all faces together.
 struct LinkingFacets {
     std::vector<Triangle> triangles;
     std::vector<FaceId> face;
@@ -54,8 +54,8 @@ LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
     return facets;
 }
 
-/// Shortest way along facet sides from the source chain's start to the target rim, off the rims between its
-/// ends.
+/// Shortest path along facet sides from the source chain's start to the target rim, touching the rims only at
+/// its ends.
 std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link, const RunContext& context)
 {
@@ -67,11 +67,11 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
                                                     context);
     if (!way.empty()) return way;
     throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, link.walls.front()) +
-                                                  " do not lead from the source's rim to the target's");
+                                                  " do not connect the source's rim to the target's");
 }
 
-/// s of the linking surface with the target rim left free: how the walls themselves lead up. A row a model
-/// point.
+/// s of the linking surface with natural conditions on the target rim, which shows how the walls themselves
+/// run. One row per model point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
                                    const RunContext& context)
@@ -91,9 +91,10 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& face
     return geometry::solve_harmonic(problem, context);
 }
 
-/// Straight walls are even but for rounding; left alone, their rows stay affine images of the rims.
+/// Columns that differ less are straight up to rounding; unchanged, their rows stay affine images of the
+/// rims.
 constexpr double kEvenAlready = 1e-3;
-/// Columns looked at for where they lie in a section: one every degree.
+/// Columns at which sections are sampled: one per degree.
 constexpr std::size_t kColumnsRound = 360;
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
@@ -102,7 +103,7 @@ Vec3 on_facets(const Model& model, const WallPosition& place)
     return points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front();
 }
 
-/// A value at a place of [0, 1] between values at even steps.
+/// Linear interpolation in [0, 1] between values at even steps.
 double value_at(const std::vector<double>& values, double at)
 {
     const double x = at * static_cast<double>(values.size() - 1);
@@ -110,7 +111,7 @@ double value_at(const std::vector<double>& values, double at)
     return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-/// Whether an edge was made, between faces that were made.
+/// Whether an edge was created by closing, between two void faces.
 bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside)
 {
     return model[edge].origin == Origin::made_void && std::ranges::all_of(beside, [&](const FaceUse& user) {
@@ -127,8 +128,7 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const LinkingFacets facets = facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
-    // The mean difference, on the circle, between the lead-up coordinate and the share of the target's
-    // length.
+    // The mean difference, on the circle, between the free coordinate s and the share of the target's length.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
@@ -206,8 +206,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     strip_ = geometry::solve_harmonic(problem, context);
     check_cancelled(context);
 
-    // The strip's own proportions, so that the closest facet to a place off the strip by rounding is the
-    // right one.
+    // Scale the strip to its proportions in space, so that the closest facet to a position just off the strip
+    // is correct.
     width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
@@ -224,7 +224,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
-        // As many copies as reach into [0, 1].
+        // As many copies as overlap [0, 1].
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
             const auto base = static_cast<Index>(flat.size());
             for (const Vec2& c : corners[t]) flat.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
@@ -245,7 +245,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
 
 void LinkingMap::measure_heights(const Model& model)
 {
-    // Columns up the walls and steps along each: a choice, not a measurement.
+    // Columns up the walls and steps along each; heuristic.
     constexpr std::size_t kColumns = 16, kSteps = 64;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {
@@ -275,10 +275,11 @@ double LinkingMap::from_even(double height) const
 
 void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)
 {
-    // Sections are a quarter of the radius apart: frames moved over bends in several planes are within 2°.
+    // Sections lie a quarter of the radius apart: frames transported over bends in several planes are within
+    // 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
-    constexpr double kLeads = 0.2; // of a section's radius, by which middles say a way. A choice
-    constexpr double kBends = std::numbers::pi / 180; // less is taken for straight. A choice
+    constexpr double kLeads = 0.2;                    // least length of the axis, in section radii; heuristic
+    constexpr double kBends = std::numbers::pi / 180; // smaller bends count as straight; heuristic
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
@@ -294,15 +295,16 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / (2 * std::numbers::pi));
     }
-    // Sections within each other, as of a flat ring, lead nowhere: their planes say how they are turned.
+    // Nested sections, as of a flat ring, define no direction; their planes define the rotation instead.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
     std::vector<std::vector<double>> round; // share of each section's length at even steps of the harmonic s
     std::vector<Vec3> first;
-    std::vector<double> turned; // the frame against the harmonic s, in turns
+    std::vector<double> turned; // the frame against the harmonic s [turns]
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
-        // Seen along the way: sections of coarse facets, and those between rims aslant, lean.
+        // Project along the direction of the sweep: sections of coarse facets and between oblique rims are
+        // tilted.
         for (Vec3& p : rings[k]) p -= ways[k].dot(p - middles[k]) * ways[k];
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
@@ -317,7 +319,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         most_turned_ = std::max(most_turned_, std::abs(turn_));
         bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kBends;
     }
-    std::vector<double> knots{0}; // side lines stay upright, each column between two keeps its share
+    std::vector<double> knots{0}; // side lines stay upright; columns between two side lines keep their share
     for (const LinkingLine& line : link.lines)
         if (line.source_at > 0) knots.push_back(line.source_at / link.source.length());
     knots.push_back(1);
@@ -357,7 +359,7 @@ double LinkingMap::harmonic(double s, double t) const
 Vec2 LinkingMap::upright(const Vec2& place) const
 {
     if (columns_.empty()) return place;
-    double low = place.x() - 2, high = place.x() + 2; // a column strays by less from its harmonic s
+    double low = place.x() - 2, high = place.x() + 2; // a column deviates by less from its harmonic s
     while (high - low > 1e-12) {
         const double middle = (low + high) / 2;
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
@@ -367,7 +369,7 @@ Vec2 LinkingMap::upright(const Vec2& place) const
 
 bool runs_straight(const Model& model, const LinkingSurface& link)
 {
-    constexpr double kAcross = 0.01; // cosine of 0.6° off a right angle: facets of single precision
+    constexpr double kAcross = 0.01; // cosine of 0.6° off a right angle, for facets in single precision
     const Vec3 way = (geometry::mean_point(round_points(link.target)) -
                       geometry::mean_point(round_points(link.source)))
                          .stableNormalized();
@@ -427,7 +429,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     along += std::abs(b.x() - a.x()) * width_;
                     up += b.y() - a.y();
                 }
-                // Quads that stay have nodes of the mesh all along their edges.
+                // Kept quads have mesh nodes along their edges.
                 const bool stays = std::ranges::any_of(beside, [&](const FaceUse& user) {
                     return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
                 });
@@ -443,7 +445,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
             }
         }
     }
-    // Pieces that meet in a vertex are one ring.
+    // Pieces that meet at a vertex form one ring.
     std::vector<bool> used(pieces.size(), false);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (used[i]) continue;
@@ -478,7 +480,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // A column on the end of a piece still crosses it.
+    // A column through the end of a piece still crosses it.
     constexpr double kSlack = 1e-9; ///< of a turn: rounding
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {

@@ -28,7 +28,7 @@ std::vector<EdgeUse> against(const std::vector<EdgeUse>& uses)
     return result;
 }
 
-/// Start a closed walk at its use number `first`.
+/// Rotate a closed walk so that it starts at use number `first`.
 std::vector<EdgeUse> rotated(std::vector<EdgeUse> uses, std::size_t first)
 {
     std::rotate(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(first), uses.end());
@@ -43,7 +43,7 @@ std::optional<std::size_t> use_leaving(const Model& model, const std::vector<Edg
     return std::nullopt;
 }
 
-/// A seam that leaves the columns beside it by less is one of them [turns]: 1°. A choice.
+/// A seam that deviates less from the columns beside it is one of them [turns]: 1°. Heuristic.
 constexpr double kSeamTurns = 1.0 / 360;
 
 struct RimOf {
@@ -61,7 +61,7 @@ RimOf rims_of(const OpenVolume& volume, Role role)
     return result;
 }
 
-/// The only rim that a wall part touches.
+/// The only rim that a connected part of the walls touches.
 std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of,
                      const std::string& end)
 {
@@ -77,18 +77,19 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
     if (touched.empty()) {
         throw NotSweepable("surface.belt_loops",
                            "the walls " + names_of(model, part) + " do not touch the " + end +
-                               "; a sweep has one ring of walls between one source loop and one target loop");
+                               "; a sweep needs one ring of walls between one source loop and one target "
+                               "loop");
     }
     if (touched.size() != 1) {
         throw NotSweepable("surface.belt_loops", "the walls " + names_of(model, part) + " touch " +
                                                      std::to_string(touched.size()) + " loops of the " + end +
-                                                     "; a sweep has one ring of walls between one source "
+                                                     "; a sweep needs one ring of walls between one source "
                                                      "loop and one target loop");
     }
     return *touched.begin();
 }
 
-/// Side lines must meet both rims in the same cyclic order: keep the first and all that follow it in order.
+/// Side lines must meet both rims in the same cyclic order: keep the first and all that follow in order.
 std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
     std::vector<LinkingLine> kept;
@@ -115,7 +116,7 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    // Without side lines the walls lead corners to where they belong, beside each other or not.
+    // Without side lines the walls determine which corners correspond: pair only those that lie close.
     const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
@@ -135,16 +136,16 @@ void add_segments(const Model& model, LinkingSurface& link, double s0, double s1
     }
 }
 
-/// Where two vertices that go together lie on the chains.
+/// Positions of two corresponding vertices on the chains.
 struct PairedPlaces {
     double source_at, target_at;
 };
 
-/// Segments from one place of both chains to another, by way of the pairs between them.
+/// Segments between two positions of both chains, split at the pairs in between.
 void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
                          double s1, double t0, double t1)
 {
-    const double slack = model.tolerance; // no segment is shorter
+    const double slack = model.tolerance; // lower bound of a segment's length
     for (PairedPlaces& pair : pairs) {
         if (pair.target_at < t0) pair.target_at += link.target.length();
     }
@@ -159,7 +160,7 @@ void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<P
     add_segments(model, link, s0, s1, t0, t1);
 }
 
-/// The pairs whose vertices both chains have, as they come on the source's.
+/// The pairs whose vertices lie on both chains, in the source's order.
 std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& link,
                                     std::span<const RimPair> pairs)
 {
@@ -174,8 +175,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
-/// Turn the target of walls that bend and have no side lines as a frame that is moved with the least
-/// rotation.
+/// Rotate the target of bent walls without side lines by rotation-minimizing transport of a frame.
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
     if (runs_straight(volume.model, link)) return;
@@ -189,8 +189,8 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is a seam, where faces that close round were cut open, and no guide: it turns
-/// about the walls, or they bend and are several faces, whose rows it would draw aslant.
+/// Whether the only side line is the seam of a periodic face and should not guide the sweep: it winds around
+/// the walls, or the walls bend and consist of several faces, whose rows it would shear.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
@@ -219,7 +219,7 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
         target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
     }
-    bool started = false; // Without side lines a pair says where the walk starts on both rims.
+    bool started = false; // Without side lines a pair defines the start of the walk on both rims.
     for (const RimPair& pair : pairs) {
         const auto s = use_leaving(model, source, pair.source), t = use_leaving(model, target, pair.target);
         if (!mine.empty() || started || !s || !t) continue;
@@ -254,8 +254,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// The walls of a loop are a ring. With a tunnel through them (a bore from one wall to another) no strip
-/// covers them.
+/// The walls of a loop form a ring. With a tunnel through them (a bore from one wall to another) they cannot
+/// be mapped onto a strip.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;
@@ -265,10 +265,9 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
     }
     throw NotSweepable(
         "surface.wall_pierced",
-        "the walls " + names_of(model, part) + " do not form a plain ring between source and target" +
-            (pierced.empty()
-                 ? std::string()
-                 : ": " + names_of(model, pierced) + " have openings that other walls lead through"));
+        "the walls " + names_of(model, part) + " do not form a simple ring between source and target" +
+            (pierced.empty() ? std::string()
+                             : ": " + names_of(model, pierced) + " have openings for other walls"));
 }
 
 } // namespace
@@ -282,7 +281,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     if (source.rims.size() != target.rims.size()) {
         throw NotSweepable("surface.loop_counts",
                            "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
-                               std::to_string(target.rims.size()) + "; a sweep needs as many on both ends");
+                               std::to_string(target.rims.size()) + "; a sweep needs equal numbers");
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume, context);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());
@@ -295,7 +294,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
             throw NotSweepable(
                 "surface.belt_twice",
                 "the walls " + names_of(model, part) + " and " + names_of(model, by_rim[s]->walls) +
-                    " stand on the same source loop without touching; the loop's walls must join");
+                    " touch the same source loop but not each other; the walls of a loop must be connected");
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
         if (!is_idle_seam(volume, *by_rim[s], context)) continue;

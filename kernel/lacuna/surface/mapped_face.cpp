@@ -20,12 +20,12 @@ using namespace topology;
 
 namespace {
 
-/// Sides of the grid that is looked at, each way: enough to see a full turn bend. A choice.
+/// Sides of the sample grid in either direction: enough to resolve a full turn. Heuristic.
 constexpr std::size_t kSamples = 24;
-/// Lines between two sides on which sizes are asked for. A choice, not a measurement.
+/// Lines between two sides on which the size is sampled. Heuristic.
 constexpr std::size_t kLines = 3;
 
-/// Points of a side of the face, evenly spread by running length.
+/// Points of a side of the face at even steps of running length.
 std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
 {
     std::vector<EdgeUse> side;
@@ -44,7 +44,7 @@ MappedFace::MappedFace(const Model& model, FaceId face, const std::vector<std::s
     std::reverse(side[3].begin(), side[3].end());
     points_ = geometry::transfinite(side[0], side[1], side[2], side[3]);
     if (model[face].kind == "plane" || plane_of(model, face)) return;
-    // Facets are near enough for sizes and angles.
+    // Facets are accurate enough for sizes and angles.
     const geometry::FacetTree tree(model.points, model[face].triangles);
     for (std::size_t j = 1; j < kSamples; ++j) {
         for (std::size_t i = 1; i < kSamples; ++i) {
@@ -80,7 +80,7 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
 {
     Shape shape;
     double jacobians = 0;
-    std::array<std::vector<double>, 2> sides; // by the size asked for, along either way
+    std::array<std::vector<double>, 2> sides; // number of sides by the size, in either direction
     for (std::size_t j = 0; j < kSamples; ++j) {
         for (std::size_t i = 0; i < kSamples; ++i) {
             const std::array<Vec3, 4> quad{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};

@@ -9,7 +9,7 @@ namespace lacuna::surface {
 
 namespace {
 
-/// @param alone  what one break alone costs, as a share of the length.
+/// @param alone  cost of an unpaired break, as a share of the length.
 std::vector<std::pair<double, double>> paired(const std::vector<double>& a, const std::vector<double>& b,
                                               double alone, bool in_order)
 {
@@ -21,7 +21,7 @@ std::vector<std::pair<double, double>> paired(const std::vector<double>& a, cons
             double best = std::numeric_limits<double>::infinity();
             if (i > 0) best = std::min(best, cost[i - 1][j] + alone);
             if (j > 0) best = std::min(best, cost[i][j - 1] + alone);
-            // As many breaks on both sides go together whatever their place.
+            // With `in_order` the distance of a pair costs nothing.
             const double apart = i > 0 && j > 0 ? (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
             if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
             cost[i][j] = best;
@@ -47,7 +47,7 @@ std::vector<std::pair<double, double>> paired(const std::vector<double>& a, cons
 std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
                                                      const std::vector<double>& b, Pairing pairing)
 {
-    // Two breaks alone cost as much as a pair this far apart, as a share of the length; choices.
+    // Two unpaired breaks cost as much as a pair this far apart, as a share of the length. Heuristic.
     const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
 }

@@ -44,7 +44,7 @@ bool inside(const std::vector<Vec2>& polygon, const Vec2& p)
     return in;
 }
 
-/// A half-edge that leaves a node.
+/// An outgoing half-edge of a node.
 struct Spoke {
     double angle;
     PlaneUse use;
@@ -75,7 +75,7 @@ std::vector<Walk> traced_loops(std::span<const PlaneChain> chains)
     const auto bounds = [&](const PlaneUse& use) {
         return use.reversed ? chains[use.chain].right : chains[use.chain].left;
     };
-    // The half-edge after one that comes in: the first clockwise from its own way back.
+    // The successor of an incoming half-edge: the first one clockwise from its twin.
     const auto next = [&](const PlaneUse& use) {
         const std::vector<Spoke>& around = spokes.at(use.reversed ? chains[use.chain].from
                                                                   : chains[use.chain].to);

@@ -65,11 +65,11 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         hit.triangle = facet;
         return hit;
     };
-    // So near, but for rounding, a point is on a facet: inside it, no other facet need be asked.
+    // A point this close lies on the facet up to rounding. If it is inside, no other facet needs a query.
     constexpr double kInside = 1e-6;
     const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
-        // The facet nearest to one point is near the next: none that is further need be looked at.
+        // Points in sequence are close together: the last facet bounds the search for the next one.
         for (std::size_t i = begin; i < end; ++i) {
             if (i > begin) {
                 hits[i] = hit_on(hits[i - 1].triangle, points[i]);
@@ -77,7 +77,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
                 if (inside && hits[i].distance2 <= rounding * rounding) continue;
                 hits[i] = tree_.closest(points[i], hits[i].distance2);
             }
-            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // or that distance was rounded
+            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // the bound was rounded
         }
     });
     std::map<FaceId, std::vector<std::size_t>> on_face;
@@ -87,7 +87,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         faces[i] = face_of_[hit];
         on_face[faces[i]].push_back(i);
     }
-    // One call a face: exact surfaces work in bulk.
+    // One call per face, because exact surfaces project in bulk.
     for (const auto& [face, members] : on_face) {
         const Face& f = (*model_)[face];
         if (f.surface == nullptr) {

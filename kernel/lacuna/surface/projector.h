@@ -11,29 +11,29 @@
 
 namespace lacuna::surface {
 
-/// A place on the facets of a face.
+/// A position on the facets of a face.
 struct FacetPosition {
     Index triangle = -1;             ///< of the face
     Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
 
-/// Facets and the surface they were cut from.
+/// Facets and the surface from which they were cut.
 struct FacetView {
     std::span<const Vec3> points;
     std::span<const Triangle> triangles;
     std::span<const std::array<Vec2, 3>> uv;         ///< surface parameters at the corners
-    const geometry::ExactSurface* surface = nullptr; ///< null where the facets are all there is
+    const geometry::ExactSurface* surface = nullptr; ///< null: the facets are the shape
 };
 
-/// Places on facets, as points of the exact surface; on the facets themselves where there is none.
+/// Points of the exact surface at positions on facets; on the facets themselves if there is none.
 std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places);
-/// Places on one face's facets, as points of its exact surface; on the facets themselves where there is none.
+/// The same for one face.
 std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
 
 class Trimming;
 
-/// Closest points on a set of faces: the facets say which face and where, the exact surface says the point,
-/// and the face's border that the point stays on the face.
+/// Closest points on a set of faces: the facets determine face and position, the exact surface the point, and
+/// the face's border keeps the point on the face.
 class Projector {
 public:
     Projector(const topology::Model& model, std::vector<FaceId> faces);
@@ -41,8 +41,8 @@ public:
     Projector& operator=(Projector&&) noexcept;
     ~Projector();
 
-    /// Move points to the closest place; what the exact surface would have beyond the face's border goes to
-    /// the nearest point of that border's curves. @return the face of each.
+    /// Move points to the closest position; points of the exact surface beyond the face's border move to the
+    /// nearest point of the border curves. @return the face of each.
     std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
 
 private:

@@ -15,9 +15,9 @@ using namespace topology;
 
 namespace {
 
-/// Sizes on a facet or a side that differ by this factor at most are one. A choice, not a measurement.
+/// Sizes on a facet or side count as uniform if their ratio is at most this. Heuristic.
 constexpr double kOneSize = 1.5;
-/// What is no longer than so many sizes is not halved.
+/// Facets and sides shorter than this many sizes are not subdivided.
 constexpr double kFewSides = 2;
 
 using Facet = std::array<Vec3, 3>;
@@ -26,11 +26,11 @@ using Segment = std::array<Vec3, 2>;
 Vec3 middle(const Facet& f) { return (f[0] + f[1] + f[2]) / 3; }
 Vec3 middle(const Segment& s) { return (s[0] + s[1]) / 2; }
 
-/// Quads of side `h` on a facet, and sides of length `h` on a segment.
+/// Number of quads of side `h` on a facet, and of sides of length `h` on a segment.
 double asked_by(double h, const Facet& f) { return (f[1] - f[0]).cross(f[2] - f[0]).norm() / 2 / (h * h); }
 double asked_by(double h, const Segment& s) { return (s[1] - s[0]).norm() / h; }
 
-/// Whether a size is one on a facet or segment, by its corners and its middle.
+/// Whether the size is uniform on a facet or segment, by its corners and its midpoint.
 template <std::size_t n>
 bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_middle)
 {
@@ -43,8 +43,8 @@ bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_m
     return most <= kOneSize * least;
 }
 
-/// Quads that a size asks for on a facet, or sides on a segment, which is halved until the size is one on it;
-/// no more than just over `most` are counted.
+/// Number of quads (on a facet) or sides (on a segment) for a size field, by subdivision until the size is
+/// uniform. Counting stops just above `most`.
 template <std::size_t n>
 double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double most)
 {
@@ -87,7 +87,7 @@ double sides_round(const Model& model, FaceId face, const SizeField& size, doubl
 
 bool asks_for_more(const OpenVolume& volume, const SizeField& size, double most)
 {
-    constexpr double kSides = 4; ///< of a face that a grid fills
+    constexpr double kSides = 4; ///< of a face with a grid
     const Model& model = volume.model;
     double all = 0;
     for (const FaceId face : volume.faces(Role::source)) {

@@ -6,9 +6,9 @@
 
 namespace lacuna::surface {
 
-/// Whether a size asks for more quads than `most` on the source. They are counted over facets that are halved
-/// as long as the size changes on them; a face of four sides, which a grid may fill, has as many as the sides
-/// of its rim make.
+/// Whether a size field requests more quads than `most` on the source. Quads are counted over facets,
+/// subdivided while the size varies on them; a four-sided face, which may be mapped, counts by the sides of
+/// its rim.
 /// @note  O(min(quads asked for, most)) sizes.
 bool asks_for_more(const topology::OpenVolume& volume, const SizeField& size, double most);
 

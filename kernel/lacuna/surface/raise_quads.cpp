@@ -20,21 +20,21 @@ using namespace topology;
 
 namespace {
 
-/// Quads with a smaller scaled Jacobian are raised: what a source of few quads is to have at least where its
-/// corners allow.
+/// Quads with a smaller scaled Jacobian are improved: the minimum to reach even with few quads, if the
+/// corners allow it.
 constexpr double kGoodEnough = 0.6;
-/// Rounds over the nodes: a bound on the work alone, for a round without gain is the last.
+/// Maximum number of passes over the nodes; the first pass without a gain is the last.
 constexpr int kRounds = 20;
-/// Steps of the search, of the shortest side around a node, and what a step has to gain: those of the search
-/// in the plane (quads/smooth_plane.cpp); choices.
+/// Step sizes of the search relative to the shortest side at the node, and the minimum gain of a step, as in
+/// quads/smooth_plane.cpp. Heuristic.
 constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
-/// A node that gains less in all stays: beside a sharp corner each could give a little, and the quads around
-/// paid for it (a mean of .943 fell to .927 for a least that rose by .0001). A choice.
+/// A node with a smaller total gain is moved back. Beside a sharp corner tiny gains degrade the quads around
+/// (mean 0.943 to 0.927 for a minimum that rose by 0.0001). Heuristic.
 constexpr double kWorthIt = 0.02;
-/// A node stays this share of the way from its neighbours on an edge. A choice.
+/// Minimum distance of a node from its neighbours on an edge, as a share of theirs. Heuristic.
 constexpr double kApart = 0.1;
-/// No side gets shorter than this share of the shortest that there was at one of its ends: sines alone let
-/// quads shrink to needles. A choice.
+/// No side becomes shorter than this share of the shortest side at its ends: maximizing sines alone shrinks
+/// quads to needles. Heuristic.
 constexpr double kShortest = 0.5;
 
 class Raiser {
@@ -74,14 +74,14 @@ public:
 private:
     struct Home {
         enum class Kind { fixed, edge, face } kind = Kind::fixed;
-        std::size_t number = 0; ///< in the freedom's edges or faces
-        std::size_t place = 0;  ///< on the edge
+        std::size_t number = 0; ///< number in the edges or faces of `NodeFreedom`
+        std::size_t place = 0;  ///< position on the edge
     };
     struct Line {
         std::vector<Vec3> points;
         std::vector<double> arc;
     };
-    /// What a node of a face moves on: its plane, or its facets.
+    /// The surface on which a node of a face moves: its plane, or its facets.
     struct Ground {
         bool flat = false;
         std::optional<geometry::FacetTree> tree;
@@ -94,7 +94,7 @@ private:
             .cross(nodes_[index(quad[3])] - nodes_[index(quad[1])]);
     }
 
-    /// The sine of a corner, its sign by the side it is seen from.
+    /// The sine of a corner, negative if it is inverted.
     [[nodiscard]] double sine(const Quad& quad, std::size_t k, const Vec3& normal) const
     {
         const Vec3& p = nodes_[index(quad[k])];
@@ -124,14 +124,14 @@ private:
         return false;
     }
 
-    /// The quads at a node, each with the way its face looks there.
+    /// The quads at a node, each with the face normal there.
     struct Star {
         std::vector<std::size_t> quads;
         std::vector<Vec3> normals;
-        double shortest = 0; ///< side at the node
+        double shortest = 0; ///< shortest side at the node
     };
 
-    /// Of the sides that end at a node.
+    /// The shortest of the sides at a node.
     [[nodiscard]] double shortest_side(std::size_t p) const
     {
         double shortest = std::numeric_limits<double>::infinity();
@@ -168,7 +168,7 @@ private:
         return worst;
     }
 
-    /// Whether a node is as far from its neighbours as it has to stay.
+    /// Whether a node keeps its minimum distance from its neighbours.
     [[nodiscard]] bool keeps_apart(std::size_t p) const { return shortest_side(p) >= least_side_[p]; }
 
     bool raise_round()
@@ -205,7 +205,7 @@ private:
         return lines_[e];
     }
 
-    /// Along its edge. @return whether it went anywhere
+    /// Move a node along its edge. @return whether it moved
     bool slide(std::size_t p, const Star& star)
     {
         const Line& line = line_of(home_[p].number);
@@ -253,7 +253,7 @@ private:
         return ground;
     }
 
-    /// On its face. @return whether it went anywhere
+    /// Move a node on its face. @return whether it moved
     bool move(std::size_t p, const Star& star)
     {
         const Ground& ground = ground_of(home_[p].number);
@@ -279,8 +279,8 @@ private:
         return better;
     }
 
-    /// Nodes that moved go to the exact edges and faces; where the worst quad around them is worse there than
-    /// before all, everything stays as it was.
+    /// Project the moved nodes onto the exact edges and faces. If the worst quad around them is then worse
+    /// than at the beginning, restore everything.
     std::map<EdgeId, std::vector<double>> settle(const std::vector<Vec3>& before)
     {
         std::map<EdgeId, std::vector<double>> moved;
@@ -315,7 +315,7 @@ private:
         return moved;
     }
 
-    /// The least sine of quads with a node that moved, as they are now.
+    /// The minimum sine over quads with a moved node, at the current positions.
     [[nodiscard]] double worst_moved(const std::vector<Vec3>& before, const std::vector<Vec3>& after) const
     {
         double worst = 1;
@@ -335,12 +335,12 @@ private:
     const NodeFreedom& freedom_;
     const RunContext& context_;
     std::vector<Home> home_;
-    std::vector<std::vector<double>> at_; ///< of the nodes of each edge, as fractions
+    std::vector<std::vector<double>> at_; ///< of the nodes on each edge, as fractions
     std::vector<Line> lines_;
     std::vector<Ground> grounds_;
     mesh::Incidence quads_at_;
-    std::vector<char> restless_;     ///< worth another look
-    std::vector<double> least_side_; ///< of each node, that its sides must keep
+    std::vector<char> restless_;     ///< to be visited again
+    std::vector<double> least_side_; ///< lower bound of the sides at each node
 };
 
 } // namespace

@@ -22,12 +22,12 @@ namespace {
 
 using Pairs = std::vector<std::pair<double, double>>;
 
-/// Vertices of both rims nearer to each other than this part of the facets there share a column. As for edges
-/// of the walls: no quad fits between them.
+/// Vertices of both rims closer than this share of the local facets use one column, as for edges of the
+/// walls: no quad fits between them.
 constexpr double kOneColumn = 0.4;
-/// Facets that turn less than this are flat [radian].
+/// Facets at smaller angles are coplanar [radian].
 constexpr double kFlat = 1e-6;
-/// A crease goes on within this angle [cosine]: sides of facets across it are 90° off. Of the others the
+/// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
 /// sharpest and straightest is taken.
 constexpr double kGoesOn = 0.25;
 
@@ -36,11 +36,11 @@ Vec3 area_vector(const Model& model, const Triangle& t)
     return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
 }
 
-/// The points that Douglas and Peucker's rule keeps, both ends included: the others are no further than `sag`
-/// from the chords between them.
+/// The points that the Douglas-Peucker rule keeps, both ends included: the others lie within `sag` of the
+/// chords.
 std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
 {
-    std::vector<std::size_t> kept{0}, ends{points.size() - 1}; // what is settled, and ends of chords to try
+    std::vector<std::size_t> kept{0}, ends{points.size() - 1}; // accepted points, and ends of chords to test
     while (!ends.empty()) {
         const std::size_t from = kept.back(), to = ends.back();
         const Vec3 chord = points[to] - points[from];
@@ -65,7 +65,7 @@ std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
     return kept;
 }
 
-/// Whether an edge of a chain starts at a place: nodes are there anyway.
+/// Whether an edge of a chain starts at a position, which is then a node anyway.
 bool starts_at(const Chain& chain, double at)
 {
     for (std::size_t u = 0; u <= chain.uses().size(); ++u)
@@ -73,13 +73,13 @@ bool starts_at(const Chain& chain, double at)
     return false;
 }
 
-/// `at` but for whole lengths, nearest to `to`.
+/// `at` plus the multiple of the length that is nearest to `to`.
 double nearest_turn(double at, double to, double length)
 {
     return at + std::round((to - at) / length) * length;
 }
 
-/// Move the breaks between segments, where they are no vertex of this rim, onto vertices that are near.
+/// Snap the breaks between segments to nearby vertices, unless they are vertices of this rim.
 template <class Vertices>
 void snap(Pairs& ends, double std::pair<double, double>::*side, const Chain& chain, const Vertices& vertices)
 {
@@ -100,7 +100,7 @@ void snap(Pairs& ends, double std::pair<double, double>::*side, const Chain& cha
     }
 }
 
-/// Shares of the way between two places at which vertices lie, rising.
+/// Relative positions of the vertices between two positions, increasing.
 template <class Vertices>
 std::vector<double> shares_between(double from, double to, const Chain& chain, const Vertices& vertices)
 {
@@ -113,7 +113,7 @@ std::vector<double> shares_between(double from, double to, const Chain& chain, c
     return shares;
 }
 
-/// Where segments begin, and the end of the last.
+/// The starts of all segments, and the end of the last one.
 Pairs boundaries(const LinkingSurface& link)
 {
     Pairs ends;
@@ -123,7 +123,7 @@ Pairs boundaries(const LinkingSurface& link)
     return ends;
 }
 
-/// Whether a pair is among others, but for whole turns.
+/// Whether a pair is among others, up to whole turns.
 bool holds(const Pairs& pairs, const std::pair<double, double>& wanted, const LinkingSurface& link)
 {
     const double length = link.target.length();
@@ -134,7 +134,7 @@ bool holds(const Pairs& pairs, const std::pair<double, double>& wanted, const Li
     });
 }
 
-/// Pairs all round, and where edges of the source start between them.
+/// Pairs around the ring, and positions between them where source edges start.
 Pairs with_starts(Pairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
@@ -150,7 +150,7 @@ Pairs with_starts(Pairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// Vertices of both rims that lie near each other, and the places opposite to the others.
+/// Pairs of close vertices of both rims, and the opposite positions of the other vertices.
 template <class Vertices>
 Pairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {
@@ -222,7 +222,7 @@ const std::vector<Index>& RimFacets::crease(Index rim)
     return crease->second;
 }
 
-/// Whether the given nodes of a linking surface's rims are where creases begin and end.
+/// Whether creases begin and end at the given nodes of a linking surface's rims.
 bool RimFacets::has_nodes_at(const LinkingSurface& link,
                              std::span<const std::pair<double, double>> creases) const
 {
@@ -242,7 +242,7 @@ bool RimFacets::has_nodes_at(const LinkingSurface& link,
     return true;
 }
 
-/// Along the sharpest sides of facets; empty where they lead to no other rim.
+/// Follow the sharpest facet sides; empty if they do not lead to another rim.
 std::vector<Index> RimFacets::crease_from(Index rim) const
 {
     const Model& model = volume_.model;
@@ -302,7 +302,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
     return vertices;
 }
 
-/// Without those of edges of which any vertex is on none.
+/// Drop the edges that have a vertex without a crease.
 std::vector<RimFacets::Vertex> RimFacets::on_creases(std::vector<Vertex> vertices)
 {
     std::set<EdgeId> without;
@@ -324,7 +324,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         const std::vector<Vertex> low = on_creases(kept(link.source, per_turn, size));
         const std::vector<Vertex> high = on_creases(kept(link.target, per_turn, size));
         if (low.empty() && high.empty()) continue;
-        // Creases up the walls, and the places they join.
+        // Creases up the walls, and the positions they connect.
         std::vector<Crease> up;
         Pairs joined;
         bool in_order = true;

@@ -14,15 +14,14 @@ namespace lacuna::surface {
 
 /// Vertices of facets that become nodes of the rims.
 struct RimBreaks {
-    /// Of each linking surface, running lengths on the source's and the target's chain; empty: it stays.
+    /// Of each linking surface, running lengths on the source's and the target's chain; empty: no breaks.
     std::vector<std::vector<std::pair<double, double>>> pairs;
-    std::vector<char> on_crease; ///< of each linking surface: all its columns there run along creases
-    std::map<EdgeId, std::vector<double>>
-        edges;              ///< followed ones, with the fractions of such vertices inside
-    std::set<Index> points; ///< all such vertices
+    std::vector<char> on_crease; ///< of each linking surface: all its columns at breaks run along creases
+    std::map<EdgeId, std::vector<double>> edges; ///< edges with such vertices inside, and their fractions
+    std::set<Index> points;                      ///< all such vertices
 };
 
-/// A row of facet sides up the walls that a column runs along.
+/// A chain of facet sides up the walls, followed by a column.
 struct Crease {
     double source_at = 0;      ///< running length of its start
     std::vector<Index> points; ///< from the source's rim to the target's
@@ -30,20 +29,19 @@ struct Crease {
 
 /// Finds the vertices of coarse facets at which rims need nodes.
 ///
-/// A rim of facets keeps the vertices that Douglas and Peucker's rule keeps (@cite douglas_1973_reduction) at
-/// the sag of an arc of the edge's length and turn. The mesh follows the facets by these alone only where a
-/// crease leads from each of them to another rim: across an end as one facet side, or up the walls, so that a
-/// column runs along it. An edge stays as it is where creases lead elsewhere, and where it has more such
-/// vertices than its arc has sides.
+/// On a rim of facets the breaks are the vertices that the Douglas-Peucker rule keeps (@cite
+/// douglas_1973_reduction) at the sag of an arc of the edge's length and turn. They help only if a crease
+/// leads from each of them to another rim: across an end as one facet side, or up the walls, so that a column
+/// runs along it. An edge gets no breaks if creases lead elsewhere, or if it has more such vertices than its
+/// arc has sides.
 class RimFacets {
 public:
     RimFacets(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
 
-    /// @param per_turn  sides for a full turn, >= 1. @param size  of sides where that is coarser.
+    /// @param per_turn  sides for a full turn, >= 1. @param size  of sides; used if it is coarser.
     [[nodiscard]] RimBreaks breaks(int per_turn, const SizeField& size);
 
-    /// Points along the sharpest sides of facets from a point of a rim to another rim; empty where there are
-    /// none.
+    /// Points along the sharpest facet sides from a point of a rim to another rim; empty if there are none.
     const std::vector<Index>& crease(Index rim);
 
 private:
@@ -52,7 +50,7 @@ private:
         Index point = -1;
         EdgeId edge;
         double fraction = 0;   ///< of the edge's length
-        bool at_start = false; ///< the edge starts there: a node, on a crease or not
+        bool at_start = false; ///< the edge starts there: a node in any case
     };
     struct Side {
         Index to = -1;
@@ -67,12 +65,12 @@ private:
 
     const topology::OpenVolume& volume_;
     std::span<const LinkingSurface> links_;
-    std::vector<char> end_of_; ///< 1: on the source's rims, 2: on the target's, of each model point
+    std::vector<char> end_of_; ///< of each model point: 1 on the source's rims, 2 on the target's
     std::map<Index, std::vector<Side>> sides_;    ///< of facets, at each point
-    std::map<Index, std::vector<Index>> creases_; ///< from rims, those that were looked for; empty: none
+    std::map<Index, std::vector<Index>> creases_; ///< from rims, as far as computed; empty: none
 };
 
-/// Those from where segments begin that are marked so, in order.
+/// The starts of segments with a mark, in order.
 std::vector<Crease> creases_of(const topology::OpenVolume& volume, const LinkingSurface& link);
 
 /// Divide the segments of the rims at the breaks, and mark those that begin on creases.

@@ -16,9 +16,9 @@ using namespace topology;
 
 namespace {
 
-/// A side is round from this turn on. A choice, not a measurement.
+/// Minimum turn of a round side. Heuristic.
 constexpr double kBulges = std::numbers::pi / 4;
-/// Rows before a round side reach so deep: as the patterns of discs have it (`quads::pattern_counts()`).
+/// Relative depth of the rows along a round side, as in the disc patterns (`quads::pattern_counts()`).
 constexpr double kRowsOfRadius = 1.0 / 3;
 
 } // namespace
@@ -52,7 +52,7 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
                  IntervalProgram& program)
 {
     const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
-    // From the corner, on the part's middle ray, to the rays at its ends, as deep below the side.
+    // From the corner on the middle ray of the part to the rays at its ends, at equal depth below the side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
     program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish), 1});

@@ -19,22 +19,22 @@ using namespace topology;
 
 namespace {
 
-/// Sides for a full turn where none are asked for. With fewer a quad of a round face has a corner of 120° or
-/// more.
+/// Minimum number of sides for a full turn if none is requested. With fewer, quads of a round face have
+/// corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// Part of a side by which the curvature may ask for more before it gets one: what the sampling of a curve
-/// is off by. A choice, not a measurement.
+/// Share of a side by which the curvature may exceed the count before it adds a side: the sampling error of a
+/// curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
-/// Points per piece at which the size is asked: a choice, not a measurement.
+/// Points per piece at which the size is sampled. Heuristic.
 constexpr int kSizeSamples = 32;
 
-/// Sizes that differ by a smaller share along an edge are one, and its nodes stand evenly: less than can be
-/// seen.
+/// Sizes along an edge that differ by a smaller share count as uniform, and the nodes are spaced evenly: the
+/// difference is invisible.
 constexpr double kSameSize = 1e-3;
 
-/// How much the target's rim turns in even steps along a segment [radian].
+/// Turn of the target's rim over even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
 {
     const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
@@ -48,7 +48,7 @@ std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment
     return turning;
 }
 
-/// The parts of the source's rim that one edge each of the target's rim is over, as pieces.
+/// The parts of the source's rim that are swept to a single edge of the target's rim, as pieces.
 void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
 {
     const EdgeTurning target(model, link.target.uses());
@@ -76,8 +76,8 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// A face of quads and triangles is a mesh, and no hexahedra stand on its triangles. Facets that are all
-/// triangles are a shape. That it is meshed anew where that was asked for is said.
+/// A face of quads and triangles is a mesh, but hexahedra cannot stand on its triangles; a face of triangles
+/// only is a shape. If the face is remeshed on request, a note says so.
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
     const Face& f = task.model[face];
@@ -85,16 +85,16 @@ void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
     if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
     const std::string found = name_of(task.model, face) + " came with " + std::to_string(quads) +
                               " quads and " + std::to_string(triangles) +
-                              " triangles, on which no hexahedra stand";
+                              " triangles, which cannot be swept to hexahedra";
     if (task.style == QuadStyle::automatic) {
         throw NotSweepable("surface.given_triangles",
-                           found + "; use wedges = true to keep all of them, quads = \"paved\" to mesh "
-                                   "the face anew inside its rim, or load with keep_mesh = false");
+                           found + "; use wedges = true to keep them all, quads = \"paved\" to remesh "
+                                   "the face inside its rim, or load with keep_mesh = false");
     }
-    seeds.notes.push_back(found + ": it is meshed anew inside its rim");
+    seeds.notes.push_back(found + ": it is remeshed inside its rim");
 }
 
-/// Whether a face came with quads that are to be its mesh.
+/// Whether a face's given quads are kept.
 bool keeps(const SeedTask& task, FaceId face, const std::set<FaceId>& kept)
 {
     const Face& f = task.model[face];
@@ -105,14 +105,14 @@ bool keeps(const SeedTask& task, FaceId face, const std::set<FaceId>& kept)
             name_of(task.model, face) + " has " + std::to_string(f.given_quads.size()) +
                 " quads of its own and " +
                 std::to_string(f.triangles.size() - std::min(f.triangles.size(), 2 * f.given_quads.size())) +
-                " triangles; quads = \"keep\" needs quads all over: wedges = true keeps triangles too, "
-                "and quads = \"auto\" makes quads");
+                " triangles; quads = \"keep\" needs quads only: use wedges = true to keep triangles too, "
+                "or quads = \"auto\" to remesh");
     }
     return whole &&
            (task.style == QuadStyle::kept || task.style == QuadStyle::automatic || kept.contains(face));
 }
 
-/// The pieces of an edge get the nodes it came with.
+/// Give the pieces of an edge its given nodes.
 void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
 {
     const std::vector<double> arc = geometry::arc_lengths(edge_line(model, edge));
@@ -127,11 +127,11 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
             to = to || std::abs(f - piece.to) <= slack;
             if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
         }
-        // A piece that is one side already has no node inside.
+        // A piece that is a single side already has no node inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
             throw NotSweepable("surface.kept_rim", name_of(model, edge) + " of " + name_of(model, face) +
-                                                       ", whose quads are to be kept, has no node where "
-                                                       "the other end has a corner; mesh both ends "
+                                                       ", which keeps its quads, has no node opposite a "
+                                                       "corner of the other end; mesh both ends "
                                                        "alike, or load with keep_mesh = false");
         }
         piece.fixed = true;
@@ -140,7 +140,7 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
     }
 }
 
-/// How many sides size and curvature ask for, and where they are wanted.
+/// The number of sides by size and curvature, and their distribution.
 void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
 {
     const int per_turn = task.sizing.curvature > 0 ? task.sizing.curvature : kFewestPerTurn;
@@ -149,7 +149,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // Only what the opposite rim turns more counts: an oblique end turns unevenly and as much.
+    // Only the excess turn of the opposite rim counts: the rim of an oblique end turns unevenly, but as much
+    // in total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
     };
@@ -178,10 +179,9 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     if (sides > std::numeric_limits<Index>::max() / 8) {
         char count[32];
         std::snprintf(count, sizeof count, "%.3g", sides);
-        throw NotSweepable("surface.too_many_sides",
-                           name_of(task.model, edge) + " would have " + count +
-                               " sides by the size asked for, more than nodes can be numbered; "
-                               "give a larger size");
+        throw NotSweepable("surface.too_many_sides", name_of(task.model, edge) + " would have " + count +
+                                                         " sides at this size, more than node numbers allow; "
+                                                         "give a larger size");
     }
     const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
     piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});

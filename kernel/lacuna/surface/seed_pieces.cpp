@@ -87,7 +87,7 @@ LinkingNodes Seeds::nodes(const LinkingSurface& link) const
 
 namespace {
 
-/// Shares of a piece as a use of the edge meets them.
+/// Relative positions on a piece, in the direction of an edge use.
 std::vector<double> shares_of(const SeedPiece& piece, std::vector<double> fractions, bool reversed)
 {
     for (double& f : fractions) f = (f - piece.from) / (piece.to - piece.from);

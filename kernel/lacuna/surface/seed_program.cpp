@@ -18,31 +18,33 @@ using namespace topology;
 
 namespace {
 
-/// What a line across a mapped face weighs beside an edge of its rim: a choice, not a measurement.
+/// Weight of a line across a mapped face relative to an edge of its rim. Heuristic.
 constexpr double kLineWeight = 1;
 
-/// Two threes side by side fill a face from this turn of its round side on: 120°. A choice.
+/// A face with a round side of at least this turn is filled by two three-sided patterns side by side: 120°.
+/// Heuristic.
 constexpr double kHalves = 2 * std::numbers::pi / 3;
 
-/// What a core of as many sides one way as the other weighs beside an edge. With a quarter of it sectors
-/// about one point got unlike numbers, 15 and 13 on every other radius.
+/// Weight of a square core relative to an edge. With a quarter of it, sectors around a common point alternate
+/// between 15 and 13 sides.
 constexpr double kEvenCore = 1;
 
-/// Quads of a sector from which its numbers of sides go by rows along the round side. Quarters of a disc got
-/// 80 and 86 quads for 30 and 12 asked by rows, 45 and 39 without; at 120 the rows are better in all.
+/// Number of quads from which a sector's counts follow the rows along its round side. Quarters of a disc get
+/// 80 and 86 quads for 30 and 12 wanted with this rule, 45 and 39 without it; from 120 on it is better
+/// throughout.
 constexpr double kQuadsForRows = 20;
 
-/// A grid of a face, by the variables along its sides, those one way and those the other.
+/// A grid of a face, as the variables along its sides in either direction.
 using FaceGrid = std::array<std::vector<std::size_t>, 2>;
 
-/// Numbers of sides to be solved for, and the pieces they are of.
+/// The variables of the program and the pieces they belong to.
 struct Program {
     IntervalProgram intervals;
     std::vector<SeedPiece*> pieces;
     std::vector<std::size_t> piece_variable;
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
-    std::vector<FaceGrid> grids;         ///< that fill faces together
-    double asked = 0;                    ///< quads of those faces
+    std::vector<FaceGrid> grids;         ///< grids that fill a face together
+    double asked = 0;                    ///< quads wanted on those faces
 };
 
 void add_piece(SeedPiece& piece, Program& program)
@@ -71,7 +73,7 @@ std::vector<std::size_t> variables_of(Seeds& seeds, const std::vector<EdgeId>& e
     return variables;
 }
 
-/// Mapped and submapped faces: as many sides on opposite ones.
+/// Opposite sides of mapped and submapped faces have the same number of sides.
 void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Program& program)
 {
     for (const auto& [face, pairs] : grids.opposite) {
@@ -99,9 +101,9 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
     }
 }
 
-/// Whether a face of three sides, one of them round, shares an edge with another free one: the number of
-/// sides there has to do for both. None of its sides are given or asked for, and its quads are enough for
-/// rows along the round side.
+/// Whether a three-sided face with one round side shares an edge with another free face, so that the count
+/// there must suit both. None of its sides may be given or requested, and it must be large enough for rows
+/// along the round side.
 bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds& seeds, FaceId face,
                       const std::vector<EdgeId>& edges)
 {
@@ -118,12 +120,11 @@ bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds&
     });
 }
 
-/// What a free face needs. Of three sides: each as many as two of three grids have that meet in one node
-/// inside, so an even number in all and none more than the others together. Of two, as a half disc, its
-/// round side and the other: those of two such threes side by side, with a square core. Of two others:
-/// one has an even number more than the other, as round four corners of a grid, two of them inside.
-/// Others: an even number in all.
-/// @return  whether one side is round, and the numbers are those of its rows as well
+/// Constraints of a free face. Three sides: three grids around one inner node, so the total is even and no
+/// side exceeds the sum of the others. Two sides of which one is round (half disc): two such patterns side by
+/// side, with a square core. Two other sides: their counts differ by an even number, as around the four
+/// corners of a grid, two of them inside. All others: an even total.
+/// @return  whether one side is round, so that the counts are also those of its rows
 bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edges, Seeds& seeds,
               Program& program)
 {
@@ -175,8 +176,8 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
     return false;
 }
 
-/// Free faces that share edges with mapped ones, so that these leave them numbers that close.
-/// @return edges that have numbers of a grid so
+/// Constrain free faces that share edges with mapped ones, so that their counts close.
+/// @return edges whose counts are those of a grid
 std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds,
                                    Program& program)
 {
@@ -196,7 +197,7 @@ std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids,
     return settled;
 }
 
-/// The same with as many sides on edges that symmetries of a face map onto each other.
+/// The same, with equal counts on edges that a symmetry of a face maps onto each other.
 IntervalProgram with_alike(const Program& program, const AlikeEdges& alike)
 {
     IntervalProgram intervals = program.intervals;
@@ -213,11 +214,11 @@ IntervalProgram with_alike(const Program& program, const AlikeEdges& alike)
     return intervals;
 }
 
-/// The same with as many sides on edges of a submapped face that want as many.
+/// The same, with equal counts on edges of a submapped face that want the same count.
 IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const IntervalProgram& intervals,
                               const Program& program)
 {
-    constexpr double kSame = 0.01; // as of edges alike
+    constexpr double kSame = 0.01; // same tolerance as for alike edges
     IntervalProgram straight = intervals;
     for (const FaceId face : seeds.submapped) {
         std::vector<std::pair<double, std::size_t>> wanted; // by variable
@@ -236,13 +237,13 @@ IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const In
     return straight;
 }
 
-/// Whether numbers of sides with which the lines of grids are straight cost little more than others: an L
-/// of 400 quads gets 24, 12 and 12 sides where 23, 12 and 11 would cost least.
-/// @param share  of the sides wanted that the program asks for
+/// Whether counts with straight grid lines cost little more than others: an L of 400 quads gets 24, 12 and 12
+/// sides, although 23, 12 and 11 cost least.
+/// @param share  factor on the wanted numbers of sides
 bool is_worth_it(const Program& program, double share, const std::vector<int>& straight,
                  const std::vector<int>& counts)
 {
-    constexpr double kCost = 2, kQuads = 0.15; // of the cost, and the share of quads: choices
+    constexpr double kCost = 2, kQuads = 0.15; // factor on the cost, and share of quads; heuristic
     if (std::ranges::find(straight, 0) != straight.end()) return false;
     double sides = 0, wanted = 0;
     for (std::size_t p = 0; p < program.pieces.size(); ++p) {
@@ -255,8 +256,8 @@ bool is_worth_it(const Program& program, double share, const std::vector<int>& s
                kCost * cost_of_intervals(program.intervals, counts);
 }
 
-/// Numbers of sides of least cost: alike on edges that are, and straight where that costs little.
-/// @param share  of the sides wanted; 0 of those where there are none.
+/// Counts of least cost, with alike and straight variants if these cost little more.
+/// @param share  factor on the wanted numbers of sides; 0: only those that are set.
 std::vector<int> solve(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds, Program program,
                        double share)
 {
@@ -275,7 +276,7 @@ std::vector<int> solve(const SeedTask& task, const AlikeEdges& alike, const Seed
     return counts;
 }
 
-/// Quads of all grids; 0 where some have no numbers of sides.
+/// Quads of all grids; 0 if some have no solution.
 double quads_of(const Program& program, const std::vector<int>& counts)
 {
     double quads = 0;
@@ -294,13 +295,13 @@ double quads_of(const Program& program, const std::vector<int>& counts)
     return quads;
 }
 
-/// Numbers of sides of least cost or, where these make too many quads or too few, of another share of those
-/// wanted: three grids round a node have more quads than their face's sides say.
+/// Counts of least cost. If these give too many or too few quads, solve again with scaled wanted counts:
+/// three grids around a node have more quads than the sides of their face suggest.
 std::vector<int> solve_for_quads(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds,
                                  const Program& program)
 {
-    // As many quads as asked, a quarter more or less, is what is promised. What they are worth beside that,
-    // and how often shares are put right, are choices.
+    // The promised number of quads is the requested one within a quarter. The weight inside that range and
+    // the number of corrections are heuristic.
     constexpr double kNear = 0.1, kMostOff = 0.25, kQuads = 0.25;
     constexpr int kTries = 4;
     std::vector<int> best = solve(task, alike, seeds, program, 1), counts = best;
@@ -330,7 +331,7 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     const Program mapped = all;
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
     const std::vector<int> counts = solve_for_quads(task, alike, seeds, all);
-    std::vector<int> fewer; // where free faces have no solution
+    std::vector<int> fewer; // if the free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];
         if (count == 0 && p < mapped.pieces.size()) {

@@ -28,27 +28,25 @@ using namespace topology;
 
 namespace {
 
-/// How much longer quads may be for each length away from a place that asks for short ones: as the paver
-/// grades from its boundary [-].
+/// Growth of the size per distance from a place with short sides: the paver's grading from its boundary [-].
 constexpr double kGrading = 0.3;
-/// Sag of a side over the width of the face there, at most: opposite sides keep half the width [-].
+/// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
-/// Rim points for each side of the size asked for. A choice, not a measurement.
+/// Rim points per side of the requested size. Heuristic.
 constexpr double kPointsPerSide = 4;
-/// Rim points no further apart than so many of the sizes they ask for. Half way between two the size is a
-/// third larger. A choice.
+/// Maximum distance of rim points in units of the size there. Halfway between two points the size is a third
+/// larger. Heuristic.
 constexpr double kApart = 2;
-/// Rim points of one edge, at most. A choice, not a measurement.
+/// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
-/// Places face each other if the line between them is this near to the rim's normal [cosine]: more than any
-/// two sides of a right angle.
+/// Two rim points face each other if the line between them is this close to the rim's normal [cosine]: closer
+/// than for any two sides of a right angle.
 constexpr double kFacing = 0.8;
-/// Places of one edge face each other if the way between them along it is this much longer than the line:
-/// nearly half a circle, 1.57 [-].
+/// Two points of one edge face each other if the path along the edge is longer than the chord by this factor:
+/// nearly a half circle, 1.57 [-].
 constexpr double kWayRound = 1.5;
-/// Inside a face its curvature makes quads no smaller than this share of the size asked for. They are as long
-/// as they are wide, so a sharp bend would cost hundreds of them for one side's sag. A choice, not a
-/// measurement.
+/// Inside a face, curvature does not reduce the size below this share of the requested one. Quads are
+/// isotropic, so a sharp bend would cost hundreds of them for the sag in one direction. Heuristic.
 constexpr double kLeastShare = 0.5;
 
 Vec3 area_vector(const Model& model, const Triangle& t)
@@ -56,13 +54,13 @@ Vec3 area_vector(const Model& model, const Triangle& t)
     return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
 }
 
-/// Keep the cause of the smaller size.
+/// Keep the cause with the smaller size.
 void take_least(std::optional<SizeCause>& least, const SizeCause& cause)
 {
     if (!least || cause.size < least->size) least = cause;
 }
 
-/// What the curvature of a face asks for, at the points of its facets.
+/// Size by curvature at the facet vertices of a face.
 void add_curvature(const Model& model, FaceId face, const SizeField& asked, int per_turn,
                    std::vector<PointSize>& sizes, std::optional<SizeCause>& cause)
 {
@@ -78,7 +76,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             area += other.area;
         }
     };
-    std::vector<Index> number; // of the face's points, in the model's order
+    std::vector<Index> number; // model points of the face, sorted
     for (const Triangle& t : f.triangles) number.insert(number.end(), t.begin(), t.end());
     std::sort(number.begin(), number.end());
     number.erase(std::unique(number.begin(), number.end()), number.end());
@@ -110,7 +108,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             to.bends += part;
         }
     }
-    // The facets at one point alone are too few where they are slivers: their neighbours' count as well.
+    // The facets at one vertex are too few if they are slivers, so the neighbours' facets are included.
     std::vector<Around> wide = at;
     for (const auto& [side, triangle] : first) {
         const std::size_t a = place(static_cast<Index>(side >> 32));
@@ -125,7 +123,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around.bends / around.area,
                                                                     Eigen::EigenvaluesOnly);
         const double curvature = solver.eigenvalues().cwiseAbs().maxCoeff();
-        if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size can see
+        if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size resolves
         double size = 2 * std::numbers::pi / (curvature * per_turn);
         if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
         size = std::max(size, kLeastShare * asked(model.at(point)));
@@ -150,7 +148,7 @@ struct RimPiece {
     double length = 0; ///< of the whole edge
 };
 
-/// The boundary of a face as pieces in a tree, and what its width asks for.
+/// The boundary of a face as pieces in a tree, and the size by local width.
 class Width {
 public:
     Width(const Model& model, FaceId face) : model_(model), face_(face)
@@ -190,7 +188,7 @@ public:
     }
 
 private:
-    /// The boundary that faces a place.
+    /// Pairs of boundary points that face each other.
     struct Opposite {
         EdgeId edge;
         double width = 0;
@@ -213,7 +211,7 @@ private:
             const double wanted = kPointsPerSide * length / asked((a + b) / 2);
             const auto count = static_cast<std::size_t>(
                 std::clamp(wanted, 1.0, static_cast<double>(kMostPoints)));
-            std::vector<std::array<double, 2>> parts; // of the piece, still to be asked
+            std::vector<std::array<double, 2>> parts; // intervals of the piece still to be sampled
             for (std::size_t k = count; k-- > 0;) {
                 parts.push_back({length * static_cast<double>(k) / static_cast<double>(count),
                                  length * static_cast<double>(k + 1) / static_cast<double>(count)});
@@ -223,7 +221,7 @@ private:
                 parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
-                // Sides along the edge are no longer than this for its curvature alone.
+                // The edge's own curvature limits its sides to this length anyway.
                 const double bend = at.curvature * sizing.curvature / (2 * std::numbers::pi);
                 const double most = 1 / std::max(1 / asked(at.point), bend);
                 const auto facing = opposite(edge, start + (from + to) / 2, at, reach(at, most, sizing.gap));
@@ -239,11 +237,12 @@ private:
                 }
                 const double share = sizing.gap > 0 ? width / sizing.gap : most;
                 if (share >= most) continue;
-                // Half way across as well, so that quads do not grow from rim to rim.
+                // Add the point halfway across too, so that quads do not grow away from the rim.
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // Narrower than the size by far: between places so wide apart the size would grow again.
+                // Where the width is much smaller than the size, refine the sampling: the size would grow
+                // again in between.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});
@@ -253,19 +252,19 @@ private:
         }
     }
 
-    /// The width beyond which a place asks for nothing.
+    /// The width above which a place does not reduce the size.
     static double reach(const RimPoint& at, double most, int gap)
     {
         return std::max(gap * most, at.curvature * most * most / (8 * kSagOfWidth));
     }
 
-    /// The boundary that faces this place, if it is not beyond `reach`.
+    /// The boundary point opposite to this place, if it is within `reach`.
     [[nodiscard]] std::optional<Opposite> opposite(EdgeId edge, double s, const RimPoint& at,
                                                    double reach) const
     {
         if (!(reach > 0)) return std::nullopt;
-        constexpr int kSteps = 30;      // of shrinking; a few are usual
-        constexpr double kTouch = 1e-3; // share of the radius by which a ball may hold a rim
+        constexpr int kSteps = 30;      // maximum number of shrink steps; a few are usual
+        constexpr double kTouch = 1e-3; // overlap of ball and rim that is tolerated, as a share of the radius
         double radius = reach / 2;
         Vec3 met = at.point;
         std::optional<std::size_t> piece;
@@ -290,7 +289,7 @@ private:
         return Opposite{other, width};
     }
 
-    /// Whether two edges share both corners.
+    /// Whether two edges share both end vertices.
     [[nodiscard]] bool enclose_face(EdgeId edge, EdgeId other) const
     {
         const Edge &a = model_[edge], &b = model_[other];
@@ -298,7 +297,7 @@ private:
                ((a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from));
     }
 
-    /// Whether two places are on different sides of the face, and not beside the same corner or bend.
+    /// Whether two points lie on different sides of the face, and not next to the same corner or bend.
     [[nodiscard]] bool across(EdgeId edge, double s, const RimPiece& other, const Vec3& met,
                               double width) const
     {
@@ -318,7 +317,7 @@ private:
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };
 
-/// Whether a face is one that mapping fills.
+/// Whether a face can be mapped.
 bool is_mapped(const Model& model, FaceId face)
 {
     const auto corners = four_corners(model, face);

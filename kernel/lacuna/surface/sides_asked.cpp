@@ -24,7 +24,7 @@ std::string in_short(double x)
     return words;
 }
 
-/// Height over the side that rows run along, up to which an edge has room for them.
+/// The height of rows, measured along the side they run along, up to which an edge has room for them.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;
@@ -34,12 +34,12 @@ double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_
     return (edge_points(model, edge, at).front() - model.at(model[end.corner].point)).dot(end.inward);
 }
 
-/// Nodes on an edge at the heights of rows that end at one of its ends.
+/// Place nodes on an edge at the heights of the rows that end at one of its ends.
 void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
     SeedPiece& piece = at_end ? pieces.back() : pieces.front();
-    if (piece.fixed) return; // whether its nodes will do shows when the rows are placed
+    if (piece.fixed) return; // given nodes are checked when the rows are placed
     const std::vector<double>& heights = seeds.rows.heights[static_cast<std::size_t>(end.table)];
     std::vector<double>& own = at_end ? piece.high : piece.low;
     own = row_places(model, edge, at_end, end, heights);
@@ -50,10 +50,10 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
             "surface.layers_room",
             "the boundary layers of " + name_of(model, end.wall) + ", " + in_short(heights.back()) +
                 " high, end on " + name_of(model, edge) + " at " + name_of(model, end.corner) +
-                ", where there is room for " + in_short(room_on(model, piece, edge, at_end, end)) +
+                ", where there is room for only " + in_short(room_on(model, piece, edge, at_end, end)) +
                 ((at_end ? piece.low : piece.high).empty() ? ""
                                                            : " beside the rows that end at its other end") +
-                "; ask for fewer or thinner rows");
+                "; use fewer or thinner rows");
     }
     const double share = (high - low) / (piece.to - piece.from);
     const double sides_between = piece.wanted.empty() ? share * piece.count
@@ -62,7 +62,7 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
                   static_cast<int>(piece.low.size() + piece.high.size());
 }
 
-/// Number of sides up to a share of the length, by the bias.
+/// Number of sides up to a share of the length, with bias.
 double index_at(double share, const SidesAsked& asked)
 {
     if (asked.count < 2 || asked.bias == 1) return share * asked.count;
@@ -77,7 +77,7 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// The nodes at the ends of pieces: those nearest by the bias, one side at least each.
+/// Assign nodes to the ends of pieces: the nearest ones by the bias, with at least one side per piece.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};
@@ -91,32 +91,32 @@ std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& ask
     return node;
 }
 
-/// Who asked for the sides of a piece.
+/// The source of a piece's number of sides, for messages.
 using Askers = std::map<const SeedPiece*, std::string>;
 
-/// Put what is asked of a piece in its place.
+/// Merge a requested number of sides into a piece, or refuse a conflict.
 void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiece& own,
             const std::string& who, const SidesAsked& asked)
 {
     const auto before = askers.find(&piece);
     if (piece.fixed) {
-        const std::string other = before != askers.end() ? before->second : "the mesh given there";
+        const std::string other = before != askers.end() ? before->second : "the given mesh there";
         if (piece.count != own.count)
-            refuse_sides(who + " (" + std::to_string(own.count) + " of them on this part), and " + other +
+            refuse_sides(who + " (" + std::to_string(own.count) + " of them on this part), but " + other +
                          " has " + std::to_string(piece.count));
         for (std::size_t i = 0; i < own.kept.size() && before != askers.end(); ++i) {
             if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model.tolerance)
-                refuse_sides(who + ", and " + other + ", with other lengths");
+                refuse_sides(who + ", and " + other + ", with different lengths");
         }
         return;
     }
     if (!piece.low.empty() || !piece.high.empty()) {
         const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
         if (own.count <= rows)
-            refuse_sides(who + ", where boundary layers end that have " + std::to_string(rows) +
-                         " of their own: ask for " + std::to_string(rows + 1) + " or more");
+            refuse_sides(who + ", where boundary layers end with " + std::to_string(rows) + " sides: give " +
+                         std::to_string(rows + 1) + " or more");
         if (asked.bias != 1)
-            refuse_sides(who + " with a bias, where boundary layers end: these set the lengths");
+            refuse_sides(who + " with a bias, but boundary layers that end there set the lengths");
         piece.count = own.count;
         const std::vector<double> at = piece.fractions();
         piece.kept.assign(at.begin() + 1, at.end());
@@ -127,7 +127,7 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
     askers[&piece] = who;
 }
 
-/// A number of sides that a person asks for: its nodes, for good.
+/// Fix the nodes of a requested number of sides.
 void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAsked& asked)
 {
     const std::string who = asked.name + " asks for " + std::to_string(asked.count) + " sides";
@@ -149,7 +149,7 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
         }
     }
     if (static_cast<std::size_t>(asked.count) < pieces.size()) {
-        refuse_sides(who + " where corners of both ends leave at least " + std::to_string(pieces.size()));
+        refuse_sides(who + ", but corners of both ends require at least " + std::to_string(pieces.size()));
     }
     std::vector<double> ends{0}; // running lengths
     for (const SeedPiece* piece : pieces) ends.push_back(ends.back() + piece->length);

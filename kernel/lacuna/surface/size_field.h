@@ -10,10 +10,10 @@ namespace lacuna::surface {
 /// Target edge length at a place; positive and finite [model length].
 using SizeField = std::function<double(const Vec3&)>;
 
-/// Lengths asked for on faces.
+/// Size fields on faces.
 struct SizeFields {
-    SizeField edge;  ///< of the quads' sides
-    SizeField row{}; ///< height of rows along the loops that smoothing keeps; empty: none are asked for
+    SizeField edge;  ///< length of the quads' sides
+    SizeField row{}; ///< height of rows along the loops that smoothing keeps; empty: no rows
 };
 
 } // namespace lacuna::surface

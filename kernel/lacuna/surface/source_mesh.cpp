@@ -61,7 +61,7 @@ public:
         }
         put_triangles_last();
         raise();
-        // The faces look outward; the sweep wants the quads to look along it.
+        // Face normals point outward; the quads' normals must point along the sweep.
         for (Quad& quad : result_.quads.quads) quad = mesh::turned_over(quad);
         return std::move(result_);
     }
@@ -72,8 +72,7 @@ private:
         return !seeds_.kept.contains(face) && !seeds_.corners.contains(face);
     }
 
-    /// Poor quads made better, as far as nodes are free: not those that were given. With boundary layers all
-    /// stay.
+    /// Improve poor quads by moving free nodes, not given ones. With boundary layers no node moves.
     void raise()
     {
         if (!seeds_.rows.empty()) return;
@@ -121,7 +120,7 @@ private:
         std::vector<Index>& loop = result_.quads.loops.emplace_back();
         for (std::size_t i = points.size(); i-- > 0;) loop.push_back(first + static_cast<Index>(i));
 
-        // The nodes of each edge, as the edge runs.
+        // The nodes of each edge, in its direction.
         std::size_t i = 0;
         for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
             const EdgeUse use = link.source.uses()[u];
@@ -164,7 +163,7 @@ private:
         return chain;
     }
 
-    /// Kept: the quads and triangles the face came with, node for node.
+    /// Kept: the given quads and triangles of the face, node for node.
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
@@ -187,7 +186,7 @@ private:
         }
     }
 
-    /// Mapped: a grid of quads over four sides.
+    /// Mapped: a grid between four sides.
     void map(FaceId face, const std::vector<std::size_t>& corners)
     {
         const Loop& loop = model_[face].loops[0];
@@ -233,7 +232,7 @@ private:
         }
     }
 
-    /// The rows along a face's rim, whose nodes are in the order of `border_loops()`.
+    /// The boundary rows along a face's rim, with nodes in the order of `border_loops()`.
     [[nodiscard]] quads::BoundaryRows rows_along(FaceId face, const std::vector<RimNode>& rim) const
     {
         quads::BoundaryRows rows;
@@ -259,7 +258,7 @@ private:
         return rows;
     }
 
-    /// Rows that do not fit, by the wall they are for and the edge they are along.
+    /// Report rows that do not fit, with the wall they belong to and the edge they follow.
     [[noreturn]] void refuse_rows(FaceId face, const std::vector<RimNode>& rim,
                                   const quads::RowsFinding& finding) const
     {
@@ -286,34 +285,35 @@ private:
             throw NotSweepable("surface.layers_room", who + " are " + number(finding.asked) +
                                                           " high in all, and " + number(finding.found) +
                                                           where +
-                                                          " is all the room to what lies opposite, its own "
-                                                          "rows included; ask for fewer or thinner rows");
+                                                          " is the room to the opposite side, including its "
+                                                          "rows; use fewer or thinner rows");
         case Why::sharp_bend:
             throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " +
                                                           number(finding.asked) + "; there is room for " +
                                                           number(finding.found) +
-                                                          " there: ask for fewer or thinner rows, or for a "
+                                                          " there; use fewer or thinner rows, or a "
                                                           "smaller size");
         case Why::off_height:
             throw NotSweepable("surface.layers_ends",
-                               who + " end" + where + " on nodes that stand at " + number(finding.found) +
+                               who + " end" + where + " on nodes at height " + number(finding.found) +
                                    " instead of " + number(finding.asked) +
-                                   "; these were given, or the edge there is too short for the rows");
+                                   "; these are given nodes, or the edge is too short for the rows");
         case Why::unlike:
             break;
         }
         throw NotSweepable("surface.layers_meet",
-                           who + " go on into those of the next wall" + where +
-                               " without a corner, and the two are unlike; give both walls one table");
+                           who + " continue into those of the next wall" + where +
+                               " without a corner, but the two differ; give both walls the same table");
     }
 
-    /// Free: by the planar mesher. A seam is inside the face, and a pole a point like others.
+    /// Free: filled by the planar mesher. Seams are interior edges of the face, and poles are ordinary
+    /// points.
     void fill(FaceId face)
     {
         if (!mesher_) {
             throw NotSweepable("surface.no_mesher",
                                name_of(model_, face) +
-                                   " is not four-sided and no mesher for such faces is at hand");
+                                   " is not four-sided, and no planar mesher is available");
         }
         std::vector<Index> boundary;
         std::vector<RimNode> rim;
@@ -357,7 +357,7 @@ private:
     const quads::PlanarQuadMesher& mesher_;
     const RunContext& context_;
     SourceMesh result_;
-    std::string how_; ///< the last face was meshed
+    std::string how_; ///< method for the last face
     std::map<VertexId, Index> node_of_;
     std::set<EdgeId> rim_;                      ///< edges of the linking surfaces
     std::vector<NodeFreedom::OnFace> inside_{}; ///< nodes of faces that were meshed

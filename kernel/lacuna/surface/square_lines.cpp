@@ -21,25 +21,25 @@ using namespace topology;
 
 namespace {
 
-/// Points of an edge known for each side of quads: enough for a cubic through them. A choice.
+/// Samples per side of quads on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Steps of the solution, and times that evenness is made to count for more. Choices: the first is far from
-/// even where it takes more.
+/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. Heuristic: a solution that
+/// needs more is far from even.
 constexpr int kSteps = 12, kRounds = 5;
-/// A side may become so much shorter and longer than it was: half of what is right for its size.
+/// Bounds of a side's length relative to its original length: half of the accepted range of sizes.
 constexpr double kShortest = 0.75, kLongest = 1.35;
-/// Evenness counts more at the ends of a line. A choice: with 1 a third of the rows along shared edges of
-/// flat rings were too low, with 4 their mean scaled Jacobians lose .01.
+/// Evenness has a higher weight at the ends of a line. Heuristic: with 1 a third of the rows along shared
+/// edges of flat rings are too low, with 4 the mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
-/// The worst cosine has to fall by so much, or nodes stay where they are: 3°. A choice.
+/// Nodes move only if the largest cosine falls by this: 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
-/// A grid's lines are straight at a side where its neighbours leave it within this share of a line's length;
-/// only then are sections of the volume above known from the walls. A choice.
+/// A grid's lines are straight at a side if the adjacent sides leave it within this share of a line's length;
+/// only then do the walls determine the sections above. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// A cosine and how it changes with the places of a line's two ends.
+/// A cosine and its derivatives by the positions of a line's two ends.
 struct Cosine {
     double value = 0, from = 0, to = 0;
 };
@@ -51,9 +51,9 @@ struct Node {
 /// A line of a grid between nodes of opposite sides.
 struct Rung {
     Node from, to;
-    /// What its direction at either end differs by from the straight way between them, at the source.
+    /// Deviation of its direction at either end from the chord, on the source.
     std::array<Vec3, 2> bend{Vec3::Zero(), Vec3::Zero()};
-    bool on_rims = false; ///< both ends
+    bool on_rims = false; ///< both ends lie on the rims
 };
 
 class LineSquarer {
@@ -77,7 +77,7 @@ public:
         for (std::size_t l = 0; l < lines_.size(); ++l) parts[sets.find(l)].first.push_back(l);
         for (std::size_t r = 0; r < rungs_.size(); ++r)
             parts[sets.find(rungs_[r].from.line)].second.push_back(r);
-        bool above = false; // whether sections above the source were asked for
+        bool above = false; // whether sections above the source are used
         for (const auto& [set, part] : parts) {
             const auto& [lines, rungs] = part;
             check_cancelled(context_);
@@ -107,7 +107,7 @@ private:
         }
     }
 
-    /// Fractions of the edge at even parts of a piece's sides, its end included.
+    /// Fractions of the edge at even steps of a piece's sides, its end included.
     static std::vector<double> fractions_of(const SeedPiece& piece, int per_side)
     {
         std::vector<double> nodes = piece.fractions(), at;
@@ -120,19 +120,19 @@ private:
         return at;
     }
 
-    /// Where the nodes of the source's rims come to lie higher up. @return false where the walls cannot say
+    /// Find where the nodes of the source's rims lie in higher sections. @return false if the walls do not
+    /// determine it
     bool add_sections()
     {
         std::vector<LinkingNodes> nodes;
         for (const LinkingSurface& link : links_) nodes.push_back(seeds_.nodes(link));
         std::vector<double> heights;
-        for (std::size_t k = 0; k < kSections; ++k)
-            heights.push_back(height_of(k));
+        for (std::size_t k = 0; k < kSections; ++k) heights.push_back(height_of(k));
         std::vector<WallMesh> walls;
         try {
             walls = mesh_walls_on_facets(volume_, links_, nodes, heights, context_);
         } catch (const NotSweepable&) {
-            return false; // more edges to follow than sections
+            return false; // there are more edges to follow than sections
         }
         for (std::size_t b = 0; b < links_.size(); ++b) {
             std::size_t next = 0;
@@ -185,7 +185,7 @@ private:
         return lines_[node.line].place(end, lines_[node.line].at[node.node]);
     }
 
-    /// The lines from a side to the one opposite, which the sides `first` and `last` run along.
+    /// The lines from a side to the opposite one; the sides `first` and `last` run along them.
     void add_between(const std::vector<Node>& from, const std::vector<Node>& to,
                      const std::vector<Node>& first, const std::vector<Node>& last)
     {
@@ -209,7 +209,7 @@ private:
         }
     }
 
-    /// Cosines between a line and the edges it starts from and ends on.
+    /// Cosines between a line and the edges at its ends.
     [[nodiscard]] std::array<Cosine, 2> cosines(const Rung& rung, std::size_t section) const
     {
         const Line &a = lines_[rung.from.line], &b = lines_[rung.to.line];
@@ -235,7 +235,7 @@ private:
         return lines_[node.line].column(section, node.node);
     }
 
-    /// What a section of a line counts beside the lengths of sides.
+    /// Weight of a section of a line relative to the lengths of sides.
     static double share(const Rung& rung) { return rung.on_rims ? 1.0 / kSections : 1; }
 
     template <class Visit>
@@ -258,7 +258,7 @@ private:
         return worst;
     }
 
-    /// The same, with the cosines between edges and columns that were even.
+    /// The same, with the cosines between the edges and the originally even columns.
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
                                       const std::vector<std::size_t>& rungs) const
     {
@@ -271,7 +271,7 @@ private:
         return worst;
     }
 
-    /// Whether some line meets edges otherwise in one section than in another.
+    /// Whether the angles between lines and edges vary from section to section.
     [[nodiscard]] bool are_unlike(const std::vector<std::size_t>& rungs) const
     {
         return std::any_of(rungs.begin(), rungs.end(), [&](std::size_t r) {
@@ -304,37 +304,40 @@ private:
         return sum;
     }
 
-    /// Visit the places of a line's nodes with their variables: on the source, and on the target where these
-    /// are others.
-    template <class Visit> static void for_ends(const Line& line, const Visit& visit)
+    /// Visit the positions of a line's end nodes with their variables: on the source, and on the target if it
+    /// has its own.
+    template <class Visit>
+    static void for_ends(const Line& line, const Visit& visit)
     {
         visit(line.at, line.variable);
         if (!line.above.empty()) visit(line.above, line.variable_above);
     }
 
-    /// Visit the nodes whose columns run otherwise than even ones: sides along for a length up the walls.
-    template <class Visit> static void for_columns(const Line& line, const Visit& visit)
+    /// Visit the nodes whose columns deviate from even ones: displacement along the edge per length of the
+    /// column.
+    template <class Visit>
+    static void for_columns(const Line& line, const Visit& visit)
     {
         for (std::size_t i = 1; i + 1 < line.above.size(); ++i)
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
 
-    /// What evenness counts at an end of a line: both ends together as one where they are the same.
+    /// Weight of evenness at an end of a line; both ends count once if they are the same.
     static double weight_of(const Line& line, double weight)
     {
         return line.above.empty() ? weight : weight / 2;
     }
 
-    /// What evenness counts more at the ends of a line, where a side is as high as the row along what meets
-    /// it there.
+    /// Additional weight of evenness at the ends of a line if a side there is the height of a row along the
+    /// edge that meets it.
     static double beside_end(std::size_t side, const std::vector<double>& u)
     {
         return side == 0 || side + 2 == u.size() ? kEnds : 1;
     }
 
-    using Slope = std::pair<std::size_t, double>; ///< over a variable
+    using Slope = std::pair<std::size_t, double>; ///< derivative by a variable
 
-    /// What changes with a node's column in a section, by its variables.
+    /// Derivative of a node's column in a section, by its variables.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
     {
         const Line& line = lines_[node.line];
@@ -343,7 +346,7 @@ private:
         if (height > 0) slopes.emplace_back(line.variable_above[node.node], height * slope);
     }
 
-    /// One step of Gauss and Newton. @return how far it goes [sides]
+    /// One Gauss-Newton step. @return its length [sides]
     double step(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs, double weight,
                 std::size_t variables)
     {
@@ -368,8 +371,8 @@ private:
             });
             for_columns(lines_[l], [&](std::size_t i, double slope) {
                 const Line& line = lines_[l];
-                add(std::array<Slope, 2>{
-                        {{line.variable[i], -line.steep[i]}, {line.variable_above[i], line.steep[i]}}},
+                add(std::array<Slope, 2>{{{line.variable[i], -line.steep[i]},
+                                          {line.variable_above[i], line.steep[i]}}},
                     slope, 1);
             });
         }
@@ -442,8 +445,8 @@ private:
         if (settle_apart(lines, rungs, variables) || squarer) take(lines);
     }
 
-    /// Give lines places of their own on the target, where the sections between differ and that helps.
-    /// @return whether it does
+    /// Give lines separate positions on the target if the sections differ and the angles improve.
+    /// @return whether they improve
     bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                       std::size_t variables)
     {
@@ -469,13 +472,14 @@ private:
         return false;
     }
 
-    /// Move nodes to where the lines meet edges best. @return whether sides are even enough then
+    /// Move nodes to make the lines as square to the edges as possible. @return whether the sides stay even
+    /// enough
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
-        constexpr double kStill = 1e-3; // [sides]; less than can be seen
+        constexpr double kStill = 1e-3; // invisible change [sides]
         double weight = 1;
-        std::vector<Line> uneven; // with the weight before
+        std::vector<Line> uneven; // uneven lines, with their previous weight
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
             for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
             if (is_even(lines)) {
@@ -488,7 +492,7 @@ private:
         return false;
     }
 
-    /// Move nodes of even sides towards places where they are squarer and not even: as far as sides stay so.
+    /// Move evenly spaced nodes towards squarer positions, as far as the sides stay even enough.
     void go_towards(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                     const std::vector<Line>& uneven)
     {

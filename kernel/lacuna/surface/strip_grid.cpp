@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// Give each level the layer nearest to it that leaves one for all others above and below it.
+    /// Assign each level the nearest layer that leaves one for every level above and below it.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
@@ -67,10 +67,10 @@ private:
         if (most >= layers) {
             throw NotSweepable("surface.too_few_layers",
                                name_of(model_, net_.levels.front().edge) +
-                                   " runs round the walls between source and target, as do edges at " +
-                                   std::to_string(most) + " heights in all; each needs a layer to lie on, " +
-                                   "which takes layers = " + std::to_string(most + 1) + " or more, and " +
-                                   std::to_string(layers) + " are asked for");
+                                   " runs around the walls between source and target, as do edges at " +
+                                   std::to_string(most) + " heights in all; each height needs a layer, " +
+                                   "so use layers = " + std::to_string(most + 1) + " or more (" +
+                                   std::to_string(layers) + " given)");
         }
         for (std::size_t r = 0; r < count; ++r) {
             int nearest = 1, lowest = 1;
@@ -84,7 +84,7 @@ private:
         }
     }
 
-    /// Heights of a column's nodes: the layers', drawn to the rings it crosses.
+    /// Heights of a column's nodes: the layers' heights, shifted to the rings that cross the column.
     [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<std::pair<double, double>> knots{{0, 0}};
@@ -104,7 +104,7 @@ private:
         return result;
     }
 
-    /// The same in the map's own t: without rings to meet, evenly up the walls.
+    /// The same in the map's own t: even steps up the walls if there are no rings.
     [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<double> at = column_heights(at_layer);
@@ -113,7 +113,7 @@ private:
         return at;
     }
 
-    /// Where plain rings cross a column, by their layers.
+    /// Positions where plain rings cross a column, by their layers.
     [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
     {
         std::map<int, LinkingMap::Crossing> at_layer;
@@ -129,7 +129,7 @@ private:
         return at_layer;
     }
 
-    /// Heights of a side line's nodes, drawn to where plain rings meet it.
+    /// Heights of a side line's nodes, shifted to where plain rings meet it.
     [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
         std::map<int, double> at_layer;
@@ -145,8 +145,8 @@ private:
         return column_heights(at_layer);
     }
 
-    /// Where each node lies in the strip: columns upright and layers as the plain rings draw them, then moved
-    /// so that the net's nodes lie on it.
+    /// Position of each node in the strip: vertical columns and layers shifted to the plain rings, then moved
+    /// so that nodes coincide with the net's stops.
     void lay_grid()
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
@@ -172,7 +172,7 @@ private:
 
     // --- the net -------------------------------------------------------------------------------------
 
-    /// The node of each column of the net.
+    /// Assign a node to each column of the net.
     [[nodiscard]] std::vector<std::size_t> nodes_of_columns() const
     {
         std::vector<std::size_t> node;
@@ -199,7 +199,7 @@ private:
                 if (node[a] != node[b] || p.high < q.low || q.high < p.low) continue;
                 refuse_wall_edge(model_, q.line ? p.edge : q.edge,
                                  "and " + name_of(model_, q.line ? q.edge : p.edge) +
-                                     " want the same column of nodes; ask for a smaller size");
+                                     " require the same column of nodes; use a smaller size");
             }
         }
         return node;
@@ -212,7 +212,7 @@ private:
         return static_cast<std::size_t>(level_layer_[static_cast<std::size_t>(stop.level)]);
     }
 
-    /// Put a node on an edge.
+    /// Pin a node to an edge.
     void pin(std::size_t node, std::size_t layer, EdgeId edge, double share, const Vec2& place)
     {
         if (layer == 0 || layer == layers_) return;
@@ -226,8 +226,8 @@ private:
             const std::size_t from = layer_of(low), to = layer_of(high);
             if (from >= to) {
                 refuse_wall_edge(model_, edge.upright->edge,
-                                 "runs up the walls past other edges in another order than the layers; ask "
-                                 "for more layers");
+                                 "runs up the walls past edges whose layers have another order; use "
+                                 "more layers");
             }
             for (std::size_t k = from; k <= to; ++k) {
                 double f = (heights_[k] - heights_[from]) / (heights_[to] - heights_[from]);
@@ -238,7 +238,7 @@ private:
         }
     }
 
-    /// The place in the strip of a share of an edge.
+    /// The position in the strip of a fraction of an edge.
     static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
     {
         constexpr double kSlack = 1e-9; ///< of the edge: rounding
@@ -251,7 +251,7 @@ private:
         return pieces.front().a;
     }
 
-    /// Nodes between the stops of a level lie on its edges, at even steps of the columns.
+    /// Between the stops of a level, nodes lie on its edges at even steps of the columns.
     void pin_level(std::size_t number, const std::vector<std::size_t>& column_node)
     {
         const WallNet::Level& level = net_.levels[number];
@@ -284,14 +284,14 @@ private:
         }
     }
 
-    /// s of a node, growing past whole turns.
+    /// s of a node, continued over whole turns.
     [[nodiscard]] double at_node(std::size_t node) const
     {
         return nodes_.source_at[node % count_] / link_.source.length() +
                static_cast<double>(node / count_); // NOLINT(bugprone-integer-division): whole turns
     }
 
-    /// Pin nodes to the net, and move the others as the grid's harmonic field says.
+    /// Pin nodes to the net, and move the others by a harmonic field over the grid.
     void follow_net()
     {
         const std::vector<std::size_t> column_node = nodes_of_columns();
@@ -314,7 +314,7 @@ private:
         }
     }
 
-    /// Whether the nodes of a column lie one above the other in the strip, but for those that are given.
+    /// Whether the nodes of a column are in order in the strip, except for given nodes.
     [[nodiscard]] bool rises(std::size_t node) const
     {
         for (std::size_t k = 0; k < layers_; ++k) {
@@ -324,7 +324,8 @@ private:
         return true;
     }
 
-    /// Put the free nodes of a column between those that are given or on an edge, as the heights are.
+    /// Distribute the free nodes of a column between given nodes and nodes on edges, in proportion to the
+    /// heights.
     void spread_evenly(std::size_t node)
     {
         const auto is_free = [&](std::size_t k) {
@@ -345,7 +346,7 @@ private:
 
     [[noreturn]] void refuse_overlap() const
     {
-        const std::string why = "draws the layers over each other; ask for more layers";
+        const std::string why = "makes layers overlap; use more layers";
         if (!net_.levels.empty()) refuse_wall_edge(model_, net_.levels.front().edge, why);
         if (!net_.columns.empty()) refuse_wall_edge(model_, net_.columns.front().edge, why);
         const auto given = std::find(given_.side.begin(), given_.side.end(), 1) - given_.side.begin();
@@ -354,7 +355,7 @@ private:
                                                     " came with " + why);
     }
 
-    /// How far a node is from where it belongs in the strip.
+    /// Displacement of a node from its target position in the strip.
     [[nodiscard]] double off_place(const Vec2& to, std::size_t node, Eigen::Index axis) const
     {
         const double off = to[axis] - laid_.place[node][axis];
@@ -363,14 +364,14 @@ private:
 
     void move_grid()
     {
-        // On a cylinder, where the grid closes on itself as the strip does.
+        // Solve on a cylinder, because the grid is periodic like the strip.
         constexpr double kTurn = 2 * std::numbers::pi;
         std::vector<Vec3> points;
         for (std::size_t k = 0; k <= layers_; ++k) {
             for (std::size_t i = 0; i < count_; ++i) {
                 const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
                 points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
-                                         heights_[k] * map_->height());
+                                    heights_[k] * map_->height());
             }
         }
         std::vector<Triangle> triangles;

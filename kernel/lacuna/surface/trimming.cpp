@@ -16,26 +16,26 @@ using namespace topology;
 
 namespace {
 
-/// Rounds of Newton's method on a curve. They start from the share of a side, a few percent of it off, and
-/// each squares that: a choice.
+/// Newton iterations on a curve. They start a few percent of a side off and converge quadratically.
+/// Heuristic.
 constexpr int kRounds = 3;
-/// Derivatives of a curve are differences over this part of a side: a choice between their own error and
-/// that of rounding.
+/// Step of the finite differences for a curve's derivatives, as a share of a side: a compromise between
+/// truncation and rounding. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Points a thread takes at least: as the search for closest facets, which costs as much.
+/// Minimum number of points per thread, as in the closest facet search, which costs as much.
 constexpr std::size_t kGrain = 512;
 
-/// The highest a convex curve can stand over its chord when it turns by these angles at the ends, as a part
-/// of the chord.
+/// Maximum height of a convex curve over its chord, as a share of the chord, for these angles between curve
+/// and chord at the ends.
 double height_over_chord(double first, double second)
 {
-    constexpr double kSteep = 1.2; // beyond it, nearly 70°, as high as the chord is long
+    constexpr double kSteep = 1.2; // above it, nearly 70°, use the chord's length
     if (std::max(first, second) > kSteep) return 1;
     const double a = std::tan(first), b = std::tan(second);
     return a + b > 0 ? a * b / (a + b) : 0;
 }
 
-/// Newton's step along curves towards points, all of one edge at once.
+/// A Newton step on curves towards points, for all points of one edge at once.
 struct OnCurve {
     double param = 0, difference = 0;
     Vec3 tangent = Vec3::Zero();
@@ -59,7 +59,7 @@ void step_along(const geometry::ExactCurve& curve, std::span<OnCurve> places, st
         const Vec3 miss = targets[i] - here;
         const double plain = first.squaredNorm(), full = plain - miss.dot(second);
         const double step = miss.dot(first) / (full > plain / 2 ? full : plain);
-        // No further than a side at a time.
+        // Limit the step to one side.
         const double most = 1 / kDifference * place.difference;
         const double next = params[3 * i + 1] + std::clamp(step, -most, most);
         place.param = std::clamp(next, low, high);
@@ -125,8 +125,7 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
         side.inward_at_end = side.inward + sides_[first + after].inward;
         const Edge& edge = model[side.use.edge];
         if (edge.curve == nullptr) continue;
-        // At the end of an edge the polyline may turn as it likes; the curve turns as on the side's other
-        // end.
+        // The polyline's angle at the end of an edge is arbitrary; use the angle at the side's other end.
         const bool starts = sides_[first + before].use != side.use || before == i;
         const bool ends = sides_[first + after].use != side.use || after == i;
         const double at_start = turn(before, i), at_end = turn(i, after);
@@ -155,7 +154,8 @@ void Trimming::measure_clearance() const
         clearance_.push_back(clearance_of(static_cast<Index>(t)));
 }
 
-/// Well inside: no border within the way the point went from its facet, or that way ends over the same facet.
+/// Points well inside: the displacement from the facet is shorter than the distance to any border, or ends
+/// over the same facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
@@ -174,14 +174,14 @@ bool Trimming::is_near(const Projected& point, Near& near) const
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
     if (std::sqrt(hit.distance2) <= side.bulge) return true;
     if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
-    // A border that is near in space and far along the face: no way over it leads here.
+    // The border is near in space but far along the face: no path across it leads here.
     return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
 }
 
 void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
-    // All facets are measured once, where there are as many points; few points have theirs measured.
+    // Compute the clearance of all facets if there are as many points; otherwise only of those in use.
     const bool measured = points.size() >= (*model_)[face_].triangles.size();
     if (measured) std::call_once(once_, [&] { measure_clearance(); });
     std::vector<char> clear(points.size(), 0);
@@ -232,7 +232,7 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         Near& n = near[i];
         const Side& side = sides_[n.side];
         n.on_border = at[i];
-        if (params[i] <= low || params[i] >= high) continue; // an end: as its corner has it
+        if (params[i] <= low || params[i] >= high) continue; // at an end the corner's rule applies
         const Vec3 tangent = rising == side.use.reversed ? Vec3(-places[i].tangent) : places[i].tangent;
         n.inward = side.normal.cross(tangent);
     }

@@ -16,8 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// A break of the rim nearer than this share of the size is the column's: no quad fits between them. A
-/// choice, not a measurement.
+/// A break of the rim closer to a column than this share of the size is used for the column: no quad fits
+/// between them. Heuristic.
 constexpr double kOneColumn = 0.4;
 constexpr double kRounding = 1e-9; ///< of the rim's length
 
@@ -46,8 +46,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Layers that edges round the walls take at least where they end on side lines alone: one more than a line
-/// has vertices between the rims from which such edges leave.
+/// Minimum number of layers for edges around the walls that end on side lines only: one more than the most
+/// vertices on one line where such edges start.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;
@@ -96,7 +96,7 @@ public:
     }
 
 private:
-    /// Whether a column that reaches over the same heights has a place of the rim already.
+    /// Whether a column that overlaps in height already uses a position of the rim.
     [[nodiscard]] bool is_taken(double at, std::size_t column) const
     {
         const WallNet::Column& own = net_.columns[column];
@@ -136,8 +136,8 @@ private:
         if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
     }
 
-    /// How far the target's end of a break has to move along the rim to the end of a column; nothing where it
-    /// is a vertex or a given node already, or other breaks are between.
+    /// The distance by which a break's target end must move along the rim to reach the end of a column;
+    /// nothing if it is a vertex or a given node, or if other breaks lie between.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();
@@ -171,7 +171,7 @@ private:
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             RimSegment& low = link_.segments[i];
             if (at < low.source_from + slack || at > low.source_to - slack) continue;
-            if (low.given) return; // one side of a quad: the column takes a node of it
+            if (low.given) return; // one side of a given quad: the column uses one of its nodes
             RimSegment high = low;
             const double f = (at - low.source_from) / (low.source_to - low.source_from);
             high.source_from = low.source_to = at;
@@ -185,7 +185,7 @@ private:
     LinkingSurface& link_;
     LinkingMap map_;
     WallNet net_;
-    std::vector<std::pair<double, std::size_t>> taken_; ///< places on the source's rim with their columns
+    std::vector<std::pair<double, std::size_t>> taken_; ///< used positions on the source's rim
 };
 
 } // namespace
@@ -202,7 +202,7 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
         try {
             layers = std::max(layers, Breaker(volume, size, link, true).run());
         } catch (const NotSweepable& error) {
-            // Where given nodes lead, void edges need not.
+            // If given nodes guide the columns, edges between void faces are optional.
             if (!has_given || error.code() != "surface.wall_edge") throw;
             layers = std::max(layers, Breaker(volume, size, link, false).run());
         }

@@ -8,11 +8,11 @@
 
 namespace lacuna::surface {
 
-/// Give the rims a node under and over every column that long edges of the walls ask for, by dividing the
-/// segments there. A break nearer than a part of the size is taken as it is: the column bends.
-/// @return  layers that edges round the walls take at least: one more than lie over each other.
+/// Add rim nodes at both ends of every column that long edges of the walls require, by splitting the segments
+/// there. A break closer than a fraction of the size is used instead: the column bends.
+/// @return  minimum number of layers for edges around the walls: one more than the most above each other.
 /// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross.
-/// @note  Maps the walls onto a strip only where their edges are more than side lines and whole rings.
+/// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
 int set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
                     std::vector<LinkingSurface>& links);
 

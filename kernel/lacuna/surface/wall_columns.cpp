@@ -15,15 +15,15 @@ using namespace topology;
 
 namespace {
 
-/// Columns looked at where there are no side lines: a choice, not a measurement.
+/// Number of sampled columns if there are no side lines. Heuristic.
 constexpr int kPlaces = 8;
 
-/// Walls longer than the straight way by a smaller share count as straight: less than a layer of ten.
+/// Walls longer than the straight line by a smaller share count as straight: this is less than one of ten
+/// layers.
 constexpr double kHardlyLonger = 0.05;
 
-/// Whether walls are as long, by their area over their rims' length in the mean, as a straight way of so many
-/// columns: longer ones bend or bulge, and walls that are narrower between their rims than there have less
-/// area.
+/// Whether the walls' area over the mean length of their rims is the mean length of straight columns. Longer
+/// walls bend or bulge; walls with a waist have less area.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns)
 {
     double area = 0;

@@ -15,17 +15,17 @@ using namespace topology;
 
 namespace {
 
-/// Tangent of 30°: an edge that leaves the direction of its column or level by more is slanted or round. A
-/// choice, not a measurement.
+/// Tangent of 30°: an edge that deviates more from the direction of its column or level is slanted or round.
+/// Heuristic.
 constexpr double kSlanted = 0.577;
-/// Cosine of 20°, below which facets' edges count as bent. A choice, not a measurement.
+/// Cosine of 20°; facets' edges with a larger bend are corners. Heuristic.
 constexpr double kSmooth = 0.94;
-/// Places this near in the strip are one: rounding.
+/// Tolerance of equal positions in the strip: rounding.
 constexpr double kSamePlaceInStrip = 1e-9;
 
 double wrapped(double s) { return s - std::floor(s + kSamePlaceInStrip); }
 
-/// Sets that grow together.
+/// Disjoint sets (union-find).
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count)
@@ -43,7 +43,7 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-/// Whether two segments of the circle of length 1 share more than a point.
+/// Whether two intervals on the circle of length 1 overlap in more than a point.
 bool overlap(double a0, double a1, double b0, double b1)
 {
     const double shift = std::floor(a0 - b0);
@@ -111,12 +111,12 @@ private:
     [[noreturn]] void refuse_direction(EdgeId edge) const
     {
         refuse_wall_edge(model_, edge,
-                         "is round or slanted where it runs, neither along the layers nor from source to "
-                         "target, so layers and columns would cut across it; name other faces as source and "
-                         "target, cut the volume where its section changes, or join the two faces to one");
+                         "crosses the layers: a wall edge must run along the sweep or around it; "
+                         "choose other faces as source and target, cut the volume where its section "
+                         "changes, or merge the two faces");
     }
 
-    /// Where the ends of a ring's edges lie in the strip.
+    /// Positions in the strip of the end vertices of a ring's edges.
     [[nodiscard]] std::map<VertexId, Vec2> places_of(const LinkingMap::Ring& ring) const
     {
         std::map<VertexId, Vec2> places;
@@ -148,15 +148,15 @@ private:
             const EdgeId corner = corner_at(ring, vertex);
             if (!met && (!corner.valid() || on_line_.contains(vertex))) continue;
             if (on_source_.contains(vertex) || on_target_.contains(vertex)) {
-                // A column stands there, and the level runs into the rim.
+                // There is a column, and the level runs into the rim.
                 refuse_wall_edge(model_, corner.valid() ? corner : level.edge,
-                                 "runs round the walls and ends on a rim, where no layer can follow it; let "
-                                 "it end above or below the rim, or join the two faces to one");
+                                 "runs around the walls and ends on a rim, where no layer can follow it; let "
+                                 "it end above or below the rim, or merge the two faces");
             }
             level.plain = false;
             level.stops.push_back(stop_at(vertex, place));
         }
-        // Where a level that stops has vertices on side lines, their nodes are stops as well.
+        // Where a level with stops meets vertices on side lines, the nodes there are stops as well.
         for (const auto& [vertex, place] : places) {
             if (level.plain || !on_line_.contains(vertex)) continue;
             const std::size_t stop = stop_at(vertex, place);
@@ -168,7 +168,7 @@ private:
         net_.levels.push_back(std::move(level));
     }
 
-    /// An edge of a ring that turns or ends at a vertex; none where the ring runs on smoothly.
+    /// An edge of a ring that turns or ends at a vertex; none if the ring continues smoothly.
     [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
     {
         std::vector<Vec3> away;
@@ -187,7 +187,7 @@ private:
         return away.size() == 2 && away[0].dot(away[1]) < -kSmooth ? EdgeId() : any;
     }
 
-    /// Edges of one ring lie one beside the other round the walls; those of a round patch come back.
+    /// Edges of one ring follow each other around the walls; those around a round patch turn back.
     void check_one_way(const LinkingMap::Ring& ring) const
     {
         struct Reach {
@@ -204,8 +204,7 @@ private:
             reach.low = std::min(reach.low, reach.at);
             reach.high = std::max(reach.high, reach.at);
         }
-        // Of its way round; a closed edge that comes back to where it started has half. A choice, not a
-        // measurement.
+        // Share of the ring's length: a closed edge that returns to its start has half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];
@@ -217,8 +216,8 @@ private:
         }
     }
 
-    /// Levels that stop somewhere run about level all the way; rings that lead from side line to side line or
-    /// all round may climb.
+    /// Levels with stops must be nearly horizontal throughout; rings from side line to side line or all the
+    /// way round may climb.
     void check_cross_edges(const WallNet::Level& level) const
     {
         if (level.plain) return;
@@ -231,8 +230,8 @@ private:
             for (const VertexId end : {edge.from, edge.to}) {
                 if (++ends[end] < 3) continue;
                 refuse_wall_edge(model_, id,
-                                 "parts from others that run round the walls, and a layer follows one of "
-                                 "them alone; join two of the faces there to one");
+                                 "branches off other edges around the walls, and a layer can follow only "
+                                 "one of them; merge two of the faces there");
             }
         }
         for (const LinkingMap::Piece& piece : map_.rings()[*level.ring].pieces) {
@@ -265,10 +264,9 @@ private:
             for (const std::size_t end : {edge.low, edge.high}) {
                 if (!on_line_.contains(net_.stops[end].vertex)) continue;
                 refuse_wall_edge(model_, edge.upright->edge,
-                                 "starts or ends on a side line from a corner of the source to one of the "
-                                 "target, and a column of nodes follows one of them alone; let it start on "
-                                 "the rim or on an edge that runs round the walls, or join the two faces to "
-                                 "one");
+                                 "starts or ends on a side line between corners of source and target, and a "
+                                 "column of nodes can follow only one of them; let it start on "
+                                 "the rim or on an edge around the walls, or merge the two faces");
             }
             groups.join(edge.low, edge.high);
         }
@@ -323,7 +321,7 @@ private:
         return column;
     }
 
-    /// Vertices between the rims that no cross edge meets have a level of their own.
+    /// Vertices between the rims without a cross edge get a level of their own.
     void make_point_levels()
     {
         for (std::size_t i = 0; i < net_.stops.size(); ++i) {

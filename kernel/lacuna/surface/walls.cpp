@@ -23,11 +23,11 @@ using namespace topology;
 
 namespace {
 
-/// A patch this far from its face, as a share of the shorter rim, is no guide to where nodes belong on it. A
-/// choice, not a measurement.
+/// A patch that is farther from its face than this share of the shorter rim does not guide node positions on
+/// the face. Heuristic.
 constexpr double kFarFromPatch = 0.05;
 
-/// The faces of the segment of walls after each side line.
+/// The faces of the wall segment after each side line.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> borders;
@@ -60,7 +60,7 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
     return panels;
 }
 
-/// One linking surface being meshed.
+/// Meshes one linking surface.
 class WallMesher {
 public:
     WallMesher(const OpenVolume& volume, const LinkingSurface& link, const LinkingNodes& nodes,
@@ -89,13 +89,13 @@ public:
         } catch (const NotSweepable& error) {
             if (error.code() != "surface.wall_edge") throw;
         }
-        // Given nodes leave no column for an edge between void faces: these are not followed.
+        // Given nodes leave no column for an edge between void faces, so such edges are ignored.
         map_.reset();
         followed_.clear();
         net_ = {};
         WallMesh result = mesh(false);
-        result.notes.emplace_back("edges between void faces are no columns and layers of the mesh, because "
-                                  "the nodes that the walls came with leave none for them");
+        result.notes.emplace_back("edges between void faces are not followed by the mesh, because "
+                                  "the given nodes of the walls leave no column for them");
         return result;
     }
 
@@ -172,7 +172,7 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Columns of given nodes do not move: what turns or ends between them is refused.
+    /// Columns of given nodes are fixed: edges that turn or end between them are refused.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {
@@ -181,8 +181,8 @@ private:
             if ((mesh_.points[grid_.stops[i]] - at).norm() <= model_.tolerance) continue;
             refuse_wall_edge(model_, net_.columns[stop.column].edge,
                              "turns or ends at " + name_of(model_, stop.vertex) +
-                                 ", where the nodes that the walls or ends came with leave no column; load "
-                                 "with keep_mesh = false, or join the two faces to one");
+                                 ", where the given nodes of walls or ends leave no column; load "
+                                 "with keep_mesh = false, or merge the two faces");
         }
     }
 
@@ -191,7 +191,7 @@ private:
         grid_ = lay_strip({model_, link_, nodes_, heights_, line_of_, begun_}, map_.get(), net_, context_);
     }
 
-    /// The point of a node that lies on an edge.
+    /// The position of a node that lies on an edge.
     [[nodiscard]] std::optional<Vec3> pinned_point(std::size_t layer, std::size_t node) const
     {
         const auto found = grid_.on_edge.find(layer * count_ + node);
@@ -228,7 +228,7 @@ private:
             left.push_back(point(k, first));
             right.push_back(point(k, last));
         }
-        // Flat panels stay with the plain patch, which keeps an affine block affine to rounding.
+        // Flat panels keep the plain patch, which keeps an affine block affine up to rounding.
         const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
         const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left)
                                             : geometry::swept_grid(bottom, right, top, left);
@@ -246,8 +246,8 @@ private:
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
-            // Round a seam the patch has no chord to turn with; far from the face it would spread the nodes
-            // by chance.
+            // Around a seam the patch has no chord to rotate with; far from the face it would distribute the
+            // nodes arbitrarily.
             const bool round_a_seam = n == count_;
             if (round_a_seam &&
                 moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
@@ -267,7 +267,7 @@ private:
         for (Vec3& p : points) p = tree.closest(p).point;
     }
 
-    /// True when a quad between two columns has a corner turned over against the quad's own normal.
+    /// Whether a quad between two columns has a corner that is inverted against the quad's normal.
     [[nodiscard]] bool folds(std::size_t first, std::size_t last)
     {
         for (std::size_t k = 0; k < layers_; ++k) {

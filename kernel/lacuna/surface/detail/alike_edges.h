@@ -8,21 +8,21 @@
 #include <span>
 #include <vector>
 
-/// Edges of a symmetric face that are to have as many sides. Internal to this folder.
+/// Edges of a symmetric face that need equal numbers of sides. Internal to this folder.
 namespace lacuna::surface {
 
-/// The edges of a face's loops by what its symmetries map onto each other, each set in the order of the
-/// loops. Symmetries are those of the outline laid on the plane across the face's normal.
-/// @return  all edges, one that is like no other as a set of its own; none where the face has no symmetry.
+/// Classes of a face's edges under its symmetries, each in the order of the loops. Symmetries are those of
+/// the outline in the plane normal to the face's normal.
+/// @return  all edges, one without a counterpart as a class of its own; empty if the face has no symmetry.
 std::vector<std::vector<EdgeId>> alike_edges(const topology::Model& model, FaceId face);
 
-/// Sets of edges of each face that are to have as many sides.
+/// Classes of edges of each face that need equal numbers of sides.
 using AlikeEdges = std::map<FaceId, std::vector<std::vector<EdgeId>>>;
 
-/// Ask for one number of sides on edges that a face's symmetries map onto each other, where as many are
-/// wanted on each of them and none are given.
-/// @param faces  those that keep their own quads are left out.
-/// @return  the sets of which that was so.
+/// Set one number of sides on edges that a face's symmetries map onto each other, if their wanted numbers
+/// agree and none is given.
+/// @param faces  those that keep their own quads are skipped.
+/// @return  the classes to which this applied.
 AlikeEdges ask_alike(Seeds& seeds, const topology::Model& model, std::span<const FaceId> faces);
 
 } // namespace lacuna::surface

@@ -10,15 +10,15 @@
 
 namespace lacuna::surface {
 
-/// What of the target goes with what of the source, where both ends are split in the same way.
+/// Corresponding entities of source and target, if both ends are split in the same way.
 struct AlikeEnds {
     std::vector<RimPair> pairs; ///< where inner edges end on the rims
     std::map<topology::EdgeUse, topology::EdgeUse>
-        edges;                      ///< inner uses of source faces; the target's way is theirs
-    std::map<FaceId, FaceId> faces; ///< target face over each source face
+        edges;                      ///< inner uses of source faces; the target's run in the same direction
+    std::map<FaceId, FaceId> faces; ///< target face of each source face
 };
 
-/// Match the faces of both ends, as graphs, from the rims inwards; nothing where they are split differently.
+/// Match the faces of both ends, as graphs, from the rims inwards; nothing if they are split differently.
 /// O(edges of the ends).
 std::optional<AlikeEnds> alike_ends(const topology::OpenVolume& volume,
                                     std::span<const LinkingSurface> links);

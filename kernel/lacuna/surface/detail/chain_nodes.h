@@ -7,7 +7,8 @@
 
 namespace lacuna::surface {
 
-/// Running lengths this near, as a share of the chain, are one: far below any side, far above rounding.
+/// Running lengths closer than this, as a share of the chain, are equal: far below any side, far above
+/// rounding.
 constexpr double kSamePlace = 1e-9;
 
 /// A point of the model on a chain.
@@ -16,7 +17,7 @@ struct ChainNode {
     Index point = -1;
 };
 
-/// Points of a closed chain in order; those of edges that `wanted` says.
+/// Points of a closed chain in order, restricted to edges for which `wanted` holds.
 template <class Wanted>
 std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& chain, const Wanted& wanted)
 {

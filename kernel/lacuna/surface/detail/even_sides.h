@@ -6,22 +6,22 @@
 
 #include <set>
 
-/// An even number of sides round every free face. Internal to this folder.
+/// An even number of sides around every free face. Internal to this folder.
 namespace lacuna::surface {
 
-/// Even numbers of sides on edges of free faces that get so many quads that these are made of a quarter as
-/// many, over every other node. Edges of other faces keep theirs.
-/// @param settled  edges that do so as well.
+/// Even counts on edges of free faces that get so many quads that these are refined from a mesh with a
+/// quarter as many, over every other node. Edges of other faces are not changed.
+/// @param settled  edges that are not changed either.
 void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled,
                    Seeds& seeds);
 
-/// Free faces by how many edges lie between them and the rim, farthest first: each hands its odd side on.
-/// A mapped face between two free ones passes a side from one of its sides to the one opposite.
+/// Pass odd sides of free faces towards the rim, starting with the faces that are the most edges away from
+/// it. A mapped face between two free ones passes a side to its opposite side.
 void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike, Seeds& seeds);
 
-/// No quads fill a rim with an odd number of sides. Where all are given, the longest of the rim's that no
-/// kept quads of the source stand on is divided, or with wedges one cell is a triangle, and that is said.
-/// @throw NotSweepable  "surface.sides_asked", "surface.odd_loop"  where no edge takes a side more.
+/// Quads cannot fill a rim with an odd number of sides. If all are given, the longest side on the rim without
+/// kept quads is divided, or with wedges one cell is a triangle; a note says so.
+/// @throw NotSweepable  "surface.sides_asked", "surface.odd_loop"  if no edge can take another side.
 void finish_even(const SeedTask& task, const FaceGrids& grids, Seeds& seeds);
 
 } // namespace lacuna::surface

@@ -5,14 +5,13 @@
 
 #include <set>
 
-/// Numbers of sides with which one grid fills a free face. Internal to this folder.
+/// Numbers of sides for which a grid fills a free face. Internal to this folder.
 namespace lacuna::surface {
 
-/// Give free faces numbers of sides that one grid can have, those first whose loops have to agree with each
-/// other, before those that take what is settled: a ring about a disc before the disc. Edges of mapped faces
-/// keep theirs.
-/// @param settled  edges that keep theirs as well.
-/// @return  those, and the edges that have numbers of a grid now.
+/// Give free faces counts for which a grid closes. Faces whose loops constrain each other come before those
+/// that depend on settled edges: a ring around a disc before the disc. Edges of mapped faces are not changed.
+/// @param settled  edges that are not changed either.
+/// @return  those, and the edges that now have counts of a grid.
 /// @throw Cancelled
 std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
                            Seeds& seeds, const RunContext& context);

@@ -11,11 +11,11 @@
 /// Edges of both ends in one plane. Internal to this folder.
 namespace lacuna::surface {
 
-/// An edge in the plane, cut at nodes.
+/// An edge in the plane, with its cuts at nodes.
 struct FlatEdge {
     EdgeId edge;
     std::vector<Vec2> line;
-    std::vector<double> at; ///< share of the edge's length of each point of `line`
+    std::vector<double> at; ///< fraction of the edge's length of each point of `line`
     struct Cut {
         double at;
         std::size_t node;
@@ -23,7 +23,7 @@ struct FlatEdge {
     std::vector<Cut> cuts; ///< both ends among them, in any order
 };
 
-/// The place of a polyline closest to a point.
+/// The point of a polyline closest to a point.
 struct Closest {
     double distance = std::numeric_limits<double>::infinity();
     double at = 0; ///< share of the edge's length
@@ -31,7 +31,7 @@ struct Closest {
 };
 Closest closest_on(const std::vector<Vec2>& line, const std::vector<double>& at, const Vec2& p);
 
-/// Where two segments cross, as shares of both; none where they are parallel or miss each other.
+/// The crossing of two segments, as shares of both; nothing if they are parallel or do not meet.
 std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 } // namespace lacuna::surface

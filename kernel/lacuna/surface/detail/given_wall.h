@@ -5,14 +5,14 @@
 
 #include <vector>
 
-/// What of a wall's grid came with a mesh. Internal to this folder.
+/// The part of a wall's grid that has a given mesh. Internal to this folder.
 namespace lacuna::surface {
 
 struct GivenWall {
     static constexpr Index kNotGiven = -1, kBetweenGiven = -2;
 
-    std::size_t count = 0;   ///< nodes of a row
-    std::vector<Index> node; ///< model point that a node is, by layer · count + node, or one of the two
+    std::size_t count = 0;   ///< nodes in a row
+    std::vector<Index> node; ///< model point of each node, by layer · count + node; or a constant
     std::vector<char> side;  ///< given quads, by layer · count + node
 
     [[nodiscard]] bool has_node(std::size_t layer, std::size_t at) const
@@ -24,13 +24,13 @@ struct GivenWall {
     [[nodiscard]] bool has_all(std::size_t first, std::size_t last) const;
 };
 
-/// A wall's grid with the nodes and quads that were given, the others still to be placed.
+/// A wall's grid with its given nodes and quads; the other nodes are not placed yet.
 struct BegunWall {
     WallMesh mesh;
     GivenWall given;
 };
 
-/// @throw NotSweepable "surface.wall_rows"  given quads have no node on the rim opposite; names the wall.
+/// @throw NotSweepable "surface.wall_rows"  given quads have no node on the opposite rim; names the wall.
 BegunWall begin_wall(const topology::Model& model, const LinkingSurface& link, const LinkingNodes& nodes,
                      const GivenColumns& columns, std::size_t layers);
 

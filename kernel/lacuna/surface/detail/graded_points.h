@@ -8,25 +8,25 @@
 
 namespace lacuna::surface {
 
-/// A length asked for at a point.
+/// A size at a point.
 struct PointSize {
     Vec3 point;
     double size; ///< [model length]
 };
 
-/// Lengths asked for at points, which grow with the distance from them: the least of size + grading ·
-/// distance over all points. A tree of boxes; a query is O(log points) where points are spread.
+/// Sizes at points, growing with the distance from them: the minimum of size + grading · distance over all
+/// points. A tree of boxes; a query is O(log points) if the points are spread out.
 class GradedPoints {
 public:
     GradedPoints(std::vector<PointSize> points, double grading);
 
-    /// The least length at a place, `most` at most.
+    /// The minimum at a position, at most `most`.
     [[nodiscard]] double at(const Vec3& place, double most) const;
 
 private:
     struct Node {
         Eigen::AlignedBox3d box;
-        double least = 0; ///< of its points
+        double least = 0; ///< minimum over its points
         std::size_t begin = 0, end = 0;
         std::size_t right = 0; ///< its second child; the first is the next node; 0: a leaf
     };

@@ -11,7 +11,7 @@
 
 namespace lacuna::surface {
 
-/// A place on a source face's facets, and beside it in space.
+/// A position on the facets of a source face, and its point in space.
 struct SourcePlace {
     FaceId face;
     FacetPosition at;
@@ -21,25 +21,25 @@ struct SourcePlace {
 /// Closed edges of both ends that are swept to each other.
 struct ClosedPair {
     EdgeId source, target;
-    double from = 0, to = 1; ///< shares of the target's length over the source edge's ends, past whole turns
+    double from = 0, to = 1; ///< fractions of the target edge at the source edge's ends, past whole turns
 };
 
 /// Both ends of a volume in one plane, the source counter-clockwise.
 class EndsMap {
 public:
     /// @param volume  referred to; must outlive the map.
-    /// @param closed  edges that are laid on each other.
-    /// @param known   lines that are.
+    /// @param closed  edges that are made coincident.
+    /// @param known   lines that are made coincident.
     EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
             std::span<const ClosedPair> closed = {}, std::span<const KnownLine> known = {});
 
-    /// Whether both ends lie in the plane one to one.
+    /// Whether both ends are mapped one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
-    /// Places of points of the source and of the target; a rim point has one in each.
+    /// Positions of points of the source and of the target; a rim point has one of each.
     [[nodiscard]] const Vec2& source(Index point) const { return source_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] const Vec2& target(Index point) const { return target_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] SourcePlace on_source(const Vec2& place) const;
-    /// The same on one face alone.
+    /// The same, restricted to one face.
     [[nodiscard]] SourcePlace on_face(FaceId face, const Vec2& place) const;
 
 private:

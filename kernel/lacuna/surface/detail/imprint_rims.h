@@ -11,14 +11,14 @@
 /// The rims of both ends before an imprint. Internal to this folder.
 namespace lacuna::surface {
 
-/// A vertex on the source's rim for every one of the target's where an inner edge ends: one that is near, or
-/// the rim is split there.
+/// Find a vertex on the source's rim for every vertex of the target's rim where an inner edge ends: a nearby
+/// one, or one made by splitting the rim.
 /// @param inner  edges inside the target.
 /// @throw NotSweepable "surface.not_imprinted"  the rim cannot be split there.
 std::vector<RimPair> pair_rims(topology::Model& model, std::span<const LinkingSurface> links,
                                std::span<const EdgeId> inner, const SizeField& size);
 
-/// The linking surfaces of a volume whose rims were paired; those without a pair are turned as they were.
+/// The linking surfaces after the rims were paired; those without a pair keep their rotation.
 std::vector<LinkingSurface> link_anew(const topology::OpenVolume& volume,
                                       std::span<const LinkingSurface> given_links,
                                       std::span<const RimPair> pairs);

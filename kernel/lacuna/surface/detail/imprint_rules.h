@@ -5,15 +5,14 @@
 
 #include <string>
 
-/// What all steps of an imprint hold to. Internal to this folder.
+/// Rules common to all steps of an imprint. Internal to this folder.
 namespace lacuna::topology {
 struct Model;
 }
 
 namespace lacuna::surface {
 
-/// Edges of both ends nearer than this share of the size asked for are one: no quad fits between them. A
-/// choice, not a measurement.
+/// Edges of both ends closer than this share of the size are merged: no quad fits between them. Heuristic.
 inline constexpr double kOneEdge = 0.4;
 
 /// @throw NotSweepable "surface.not_imprinted"  names the edge.

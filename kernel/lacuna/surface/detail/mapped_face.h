@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-/// How a grid lies on a face of four sides, before there is one. Internal to this folder.
+/// Prediction of a grid on a four-sided face. Internal to this folder.
 namespace lacuna::surface {
 
 /// A grid over a face, sampled in space.
@@ -17,17 +17,17 @@ public:
     /// @param corners  from `four_corners()`.
     MappedFace(const topology::Model& model, FaceId face, const std::vector<std::size_t>& corners);
 
-    /// Sides that the size asks for on lines between the sides of a pair, evenly spread from the one to the
-    /// other, those two left out: of the sides 0 and 2, and of 1 and 3.
+    /// Numbers of sides by the size on evenly spaced lines between the two sides of a pair, these excluded:
+    /// for sides 0 and 2, and for 1 and 3.
     [[nodiscard]] std::array<std::vector<double>, 2> wanted_inside(const SizeField& size) const;
 
     struct Shape {
         double mean_scaled_jacobian = 1; ///< in space
-        /// Of its sides along one way, those 0.6 to 1.6 times as long as their root mean square, all by the
-        /// size asked for: the way with fewer.
+        /// Share of grid sides in one direction whose length relative to the size is 0.6 to 1.6 times the
+        /// root mean square; the smaller of both directions.
         double even_share = 1;
     };
-    /// How good the best grid will be, with any number of columns and rows.
+    /// Quality of the best grid with any number of columns and rows.
     [[nodiscard]] Shape shape(const SizeField& size) const;
 
 private:

@@ -9,10 +9,10 @@
 /// Loops of a plane region. Internal to this folder.
 namespace lacuna::surface {
 
-/// Area that a loop of points encloses; > 0 where it runs anticlockwise.
+/// Signed area of a loop of points; > 0 if it runs counter-clockwise.
 double signed_area(std::span<const Vec2> points, std::span<const Index> loop);
 
-/// The outer loop first, as the planar meshers want it.
+/// Sort the outer loop first, as the planar meshers require.
 void sort_outer_first(std::span<const Vec2> points, std::vector<std::vector<Index>>& loops);
 
 } // namespace lacuna::surface

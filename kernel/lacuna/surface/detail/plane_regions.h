@@ -13,7 +13,7 @@ namespace lacuna::surface {
 struct PlaneChain {
     std::vector<Vec2> line;         ///< from node to node, at least two points
     std::size_t from = 0, to = 0;   ///< numbers of its nodes
-    bool left = true, right = true; ///< whether there is something to be bounded on that side
+    bool left = true, right = true; ///< whether the region on that side is part of the result
 };
 
 /// A chain as a loop uses it.
@@ -27,11 +27,11 @@ struct PlaneRegion {
     std::vector<std::vector<PlaneUse>> loops;
 };
 
-/// The regions that chains cut a part of the plane into.
+/// The regions into which chains divide a part of the plane.
 ///
-/// Half-edges are traced by turning as far left as can be at each node; loops of negative area are holes of
-/// the smallest loop round them.
-/// @pre  chains do not cross; none ends loose.
+/// Half-edges are traced by taking the leftmost turn at each node; loops of negative area are holes of the
+/// smallest loop around them.
+/// @pre  chains do not cross; none has a free end.
 std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains);
 
 } // namespace lacuna::surface

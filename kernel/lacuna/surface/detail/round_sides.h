@@ -9,27 +9,27 @@
 #include <optional>
 #include <vector>
 
-/// Faces with a round side, as sectors and half discs have. Internal to this folder.
+/// Faces with a round side, such as sectors and half discs. Internal to this folder.
 namespace lacuna::surface {
 
-/// The one side of a face that is round and bulges outward.
+/// The only side of a face that is round and convex.
 struct RoundSide {
     std::size_t side = 0;
-    double turn = 0, radius = 0, size = 1; ///< [radian], [model length], asked for in its middle
+    double turn = 0, radius = 0, size = 1; ///< [radian], [model length], size at its midpoint
 };
 
 /// The round side of a face, one that turns by 45° or more.
 /// @param sides  as `sides_by_corners()` gives them.
-/// @return  nothing where no side is round, several are, or it is bent inward.
+/// @return  nothing if no side is round, several are, or it is concave.
 std::optional<RoundSide> bulge_of(const topology::Model& model, FaceId face,
                                   const std::vector<std::vector<EdgeId>>& sides, const SizeField& size);
 
-/// Wish for rows along a round side as deep as a third of its radius, and for as many sides on it as the
-/// length of the line behind them asks for.
-/// @param parts  equal ones that the side is divided into, each with a corner of that line behind it
+/// Add wishes for rows with a depth of a third of the radius along a round side, and for the number of sides
+/// on it that the length of the line behind the rows requires.
+/// @param parts  equal parts of the side, each with a corner of that line behind it
 /// @param round  variables of the side
 /// @param rows   variable of the number of rows
-/// @return  sides wanted on half of the line behind a part
+/// @return  wanted sides on half of the line behind a part
 double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_t>& round, std::size_t rows,
                  IntervalProgram& program);
 

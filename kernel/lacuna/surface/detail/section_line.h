@@ -12,10 +12,10 @@
 /// An edge of the source in several sections of the volume. Internal to this folder.
 namespace lacuna::surface {
 
-/// Sections of the volume that a line is looked at in, evenly from source to target. A choice.
+/// Number of sections of a line, evenly spaced from source to target. Heuristic.
 inline constexpr std::size_t kSections = 5;
 inline constexpr std::size_t kSource = 0;
-/// Of a section, 0 at the source and 1 at the target.
+/// Relative height of a section: 0 at the source, 1 at the target.
 inline double height_of(std::size_t section)
 {
     return static_cast<double>(section) / static_cast<double>(kSections - 1);
@@ -24,15 +24,15 @@ inline double height_of(std::size_t section)
 /// A piece of an edge as a curve over its sides, 0 at its start.
 struct SectionLine {
     SeedPiece* piece = nullptr;
-    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be none
-    std::vector<double> at;                          ///< where the nodes stand, ends included [sides]
+    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be empty
+    std::vector<double> at;                          ///< positions of the nodes, ends included [sides]
     std::vector<double> above;                       ///< the same on the target; empty: as on the source
     std::vector<std::size_t> variable;               ///< of each node, for a solver
     std::vector<std::size_t> variable_above;
     std::vector<double> steep; ///< with `above`: the side at each node over the length of its column
     bool on_rim = false;
 
-    /// Where a node's column is in a section: on a straight way from the source to the target.
+    /// Position of a node's column in a section: linear from the source to the target.
     [[nodiscard]] double column(std::size_t section, std::size_t node) const
     {
         if (section == kSource || above.empty()) return at[node];
@@ -40,7 +40,7 @@ struct SectionLine {
         return (1 - height) * at[node] + height * above[node];
     }
 
-    /// A point of a section, and how it moves with u.
+    /// A point of a section, and its derivative by u.
     struct Spot {
         Vec3 at, slope;
     };
@@ -54,13 +54,13 @@ struct SectionLine {
         const double f = x - static_cast<double>(i);
         const Vec3 before = i > 0 ? Vec3(p[i - 1]) : Vec3(2 * p[0] - p[1]);
         const Vec3 after = i + 2 < p.size() ? Vec3(p[i + 2]) : Vec3(2 * p[i + 1] - p[i]);
-        // A cubic with the slopes of the chords beside.
+        // Cubic interpolation with the slopes of the adjacent chords.
         const Vec3 a = (p[i + 1] - before) / 2, b = (after - p[i]) / 2, c = p[i + 1] - p[i];
         return {p[i] + f * (a + f * ((3 * c - 2 * a - b) + f * (a + b - 2 * c))),
                 per_side * (a + f * (2 * (3 * c - 2 * a - b) + 3 * f * (a + b - 2 * c)))};
     }
     [[nodiscard]] Vec3 place(std::size_t section, double u) const { return spot(section, u).at; }
-    /// Direction along the edge, over half a side each way, and how it turns with u.
+    /// Direction along the edge, over half a side each way, and its derivative by u.
     [[nodiscard]] Spot tangent(std::size_t section, double u) const
     {
         const Spot before = spot(section, u - 0.5), after = spot(section, u + 0.5);
@@ -70,14 +70,14 @@ struct SectionLine {
         const Vec3 along = chord / length, slope = (after.slope - before.slope) / length;
         return {along, slope - slope.dot(along) * along};
     }
-    /// Where nodes stand that were not moved.
+    /// Even positions of the nodes.
     [[nodiscard]] std::vector<double> even() const
     {
         std::vector<double> places(at.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
         return places;
     }
-    /// The side at each node over the length of its column, where nodes stand evenly.
+    /// The side at each node over the length of its column, for evenly spaced nodes.
     [[nodiscard]] std::vector<double> steepness() const
     {
         std::vector<double> steep_at;

@@ -7,13 +7,13 @@
 #include <set>
 #include <span>
 
-/// What every edge of the source is asked for, before edges are made to agree. Internal to this folder.
+/// The requested sides of every source edge, before interval assignment. Internal to this folder.
 namespace lacuna::surface {
 
-/// The pieces of all edges with the sides that size and curvature ask for, and with the nodes that are kept:
-/// those of faces whose own quads are the mesh, and those given on edges inside the source.
+/// The pieces of all edges with the numbers of sides by size and curvature, and with kept nodes: those of
+/// faces that keep their own quads, and those given on edges inside the source.
 /// @param lengths  as for `seed_source()`.
-/// @param kept     faces whose own quads are the mesh whatever the style.
+/// @param kept     faces that keep their own quads in any style.
 /// @return  with `pieces`, `kept` and `notes`.
 /// @throw NotSweepable  "surface.given_triangles", "surface.not_kept", "surface.kept_rim",
 ///                      "surface.too_many_sides".

@@ -3,10 +3,10 @@
 
 #include <lacuna/surface/seeds.h>
 
-/// How nodes are spread over a piece of an edge. Internal to this folder.
+/// Distribution of nodes over a piece of an edge. Internal to this folder.
 namespace lacuna::surface {
 
-/// Sides wanted from a piece's start to a fraction of its edge, where they change along it.
+/// Cumulative wanted sides from a piece's start to a fraction of its edge, if they vary along it.
 double wanted_at(const SeedPiece& piece, double fraction);
 
 } // namespace lacuna::surface

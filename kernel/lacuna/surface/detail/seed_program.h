@@ -6,12 +6,12 @@
 
 #include <set>
 
-/// One program of whole numbers for the faces that must agree. Internal to this folder.
+/// The integer program for coupled faces. Internal to this folder.
 namespace lacuna::surface {
 
-/// Numbers of sides with which all mapped and submapped faces close, and the free faces beside them, solved
-/// as one program; `seed_source()` says which.
-/// @return  edges of free faces that have numbers of sides of a grid so.
+/// Numbers of sides for all mapped and submapped faces and the free faces next to them, solved as one
+/// program; see `seed_source()`.
+/// @return  edges of free faces whose counts are those of a grid.
 std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
                                 Seeds& seeds);
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-/// What numbers of sides are chosen by. Internal to this folder.
+/// Inputs of interval assignment. Internal to this folder.
 namespace lacuna::surface {
 
-/// The source and what is asked of all of it; as for `seed_source()`.
+/// The source and the requests that apply to all of it; see `seed_source()`.
 struct SeedTask {
     SeedTask(const topology::OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
              QuadStyle style, const ShapeSizing& sizing, bool wedges);
@@ -23,26 +23,26 @@ struct SeedTask {
     ShapeSizing sizing;
     bool wedges;
     std::vector<FaceId> faces;                ///< of the source
-    std::map<EdgeId, std::set<FaceId>> users; ///< those of each edge of theirs or of the rim
-    std::set<EdgeId> rim;                     ///< edges that walls stand on
+    std::map<EdgeId, std::set<FaceId>> users; ///< source faces on each edge of them or of the rim
+    std::set<EdgeId> rim;                     ///< edges with walls
 };
 
-/// The edges of a face, in the order of its loops; one that has the face on both sides twice.
+/// The edges of a face, in the order of its loops; a seam occurs twice.
 std::vector<EdgeId> edges_of(const topology::Model& model, FaceId face);
 
-/// Sides on some edges together.
+/// Total number of sides on some edges.
 int total(const Seeds& seeds, const std::vector<EdgeId>& edges);
 
-/// Sides on the loops of a face.
+/// Number of sides on the loops of a face.
 int sides_of(const topology::Model& model, const Seeds& seeds, FaceId face);
 
-/// Quads that the sides wanted round a face ask for.
+/// Number of quads by the sides wanted around a face.
 double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face);
 
-/// Whether an edge has no piece whose number of sides may change.
+/// Whether all pieces of an edge are fixed.
 bool is_fixed(const Seeds& seeds, EdgeId edge);
 
-/// More sides, one at a time, where the sides are longest. @return false where all are fixed
+/// Add sides one at a time where they are longest. @return false if all are fixed
 bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by);
 
 } // namespace lacuna::surface

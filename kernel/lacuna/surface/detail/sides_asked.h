@@ -7,14 +7,14 @@
 #include <span>
 #include <string>
 
-/// Rows and numbers of sides that a person asks of edges. Internal to this folder.
+/// Rows and numbers of sides requested on edges. Internal to this folder.
 namespace lacuna::surface {
 
-/// Nodes on edges at the heights of boundary layers that end there.
+/// Place nodes on edges at the heights of boundary layers that end there.
 /// @throw NotSweepable "surface.layers_room".
 void end_rows(Seeds& seeds, const topology::Model& model, const RimRows& rows);
 
-/// Numbers of sides that a person asks for: their nodes, for good.
+/// Fix the nodes of requested numbers of sides.
 /// @throw NotSweepable "surface.sides_asked".
 void set_sides(Seeds& seeds, const topology::Model& model, std::span<const SidesAsked> sides);
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-/// A wall's grid in the strip that its linking surface is laid out to. Internal to this folder.
+/// A wall's grid in the strip onto which its linking surface is mapped. Internal to this folder.
 namespace lacuna::surface {
 
-/// What is laid.
+/// Inputs of the grid.
 struct StripTask {
     const topology::Model& model;
     const LinkingSurface& link;
@@ -24,17 +24,17 @@ struct StripTask {
 struct StripGrid {
     struct Pinned {
         EdgeId edge;
-        double share; ///< of the edge's length
+        double share; ///< fraction of the edge's length
         Vec2 place;   ///< in the strip
     };
     std::vector<Vec2> place;               ///< of each node, by layer · nodes + node
-    std::map<std::size_t, Pinned> on_edge; ///< nodes that lie on an edge
-    std::vector<std::size_t> stops;        ///< node of each stop of the net
+    std::map<std::size_t, Pinned> on_edge; ///< nodes on an edge
+    std::vector<std::size_t> stops;        ///< node at each stop of the net
 };
 
-/// Where each node lies in the strip: columns upright and layers as the plain rings draw them, then moved so
-/// that the net's nodes lie on it. The moves of the others are harmonic over the grid.
-/// @param map  of the linking surface; none where side lines alone say where nodes lie.
+/// Position of each node in the strip: vertical columns and layers shifted to the plain rings, then moved so
+/// that nodes coincide with the net's stops. The displacement of the others is harmonic over the grid.
+/// @param map  of the linking surface; null if the side lines alone determine the positions.
 /// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
 StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,
                     const RunContext& context);

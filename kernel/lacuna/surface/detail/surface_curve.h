@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// Curves made on exact surfaces. Internal to this folder.
+/// Curves on exact surfaces. Internal to this folder.
 namespace lacuna::surface {
 
 /// A polyline on a face, lifted to its exact surface between its points.
@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// A parameter is the number of a point and the share of the way to the next.
+    /// The parameter is the index of a point plus the share of the segment to the next.
     void evaluate(std::span<const double> params, std::span<Vec3> points,
                   const RunContext& context) const override;
 

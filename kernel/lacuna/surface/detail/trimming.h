@@ -11,44 +11,44 @@
 
 namespace lacuna::surface {
 
-/// A point that was projected on a face: where on the facets it came from, and where it is now. What it
-/// points to is the caller's.
+/// A point after projection onto a face: its source on the facets and its present position, which the caller
+/// owns.
 struct Projected {
-    const geometry::FacetTree::Hit* from = nullptr; ///< the closest place on the facets
+    const geometry::FacetTree::Hit* from = nullptr; ///< the closest point on the facets
     Index triangle = -1;                            ///< that facet, of the face
     Vec3* at = nullptr;                             ///< on the exact surface
 };
 
-/// The border of a face with exact geometry, which its surface goes beyond.
+/// The border of a face with exact geometry; its surface extends beyond it.
 ///
-/// A seam is no border, nor is a pole. Inside and outside are told by the side of the border's polyline that
-/// is nearest, at its corners by the sum of the two inward directions (Bærentzen and Aanæs 2005), and where a
-/// point is as near as the curve may bulge, by the exact curve.
+/// Seams and poles are not part of the border. A point is inside or outside by the nearest side of the
+/// border's polyline, at its corners by the sum of the two inward directions (Bærentzen and Aanæs 2005), and
+/// within the curve's bulge by the exact curve.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);
 
-    /// Move every point outside the face to the nearest point of its trimming curves; the others stay to the
-    /// bit. Costs the points well inside a comparison.
+    /// Move every point outside the face to the nearest point of its trimming curves; the others stay bit for
+    /// bit. A point well inside costs one comparison.
     void keep_inside(std::span<const Projected> points, const RunContext& context = {}) const;
 
 private:
-    /// A side of the border's polyline, as the loop runs.
+    /// A side of the border's polyline, in the direction of the loop.
     struct Side {
         topology::EdgeUse use{};
-        std::size_t segment = 0; ///< of the edge, as the edge runs
+        std::size_t segment = 0; ///< of the edge, in the direction of the edge
         Vec3 normal = Vec3::Zero(), inward = Vec3::Zero();
         Vec3 inward_at_start = Vec3::Zero(), inward_at_end = Vec3::Zero();
-        double bulge = 0; ///< how far off the curve may be at most [model length]
+        double bulge = 0; ///< maximum distance to the curve [model length]
     };
-    /// A point that is outside, or so near to the border that its curve must tell.
+    /// A point that is outside, or so close to the border that its curve decides.
     struct Near {
         std::size_t point = 0, side = 0;
         double share = 0; ///< of the side
         Vec3 on_border = Vec3::Zero(), inward = Vec3::Zero();
     };
 
-    /// How far a place of a facet is from the border at least.
+    /// A lower bound of the distance of a facet's points from the border.
     struct Clearance {
         double facet = 0;            ///< of the whole facet [model length]
         Vec3 heights = Vec3::Zero(); ///< of the facet over each side [model length]
@@ -67,7 +67,7 @@ private:
     geometry::FacetTree tree_; ///< a facet of no area for each side
     double most_bulge_ = 0;
     mutable std::once_flag once_;
-    mutable std::vector<Clearance> clearance_; ///< of each facet, once that is asked for
+    mutable std::vector<Clearance> clearance_; ///< of each facet, computed on first use
 };
 
 } // namespace lacuna::surface

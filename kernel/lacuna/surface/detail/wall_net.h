@@ -9,12 +9,12 @@
 
 namespace lacuna::surface {
 
-/// The edges inside a linking surface as a net that the walls' nodes follow: long edges make columns, cross
-/// edges levels, and where they meet, turn or end a node stands.
+/// The edges inside a linking surface as a net that the walls' nodes follow: long edges become columns, cross
+/// edges become levels, and a node lies where they meet, turn or end.
 ///
-/// Side lines and rims are no part of it; what ends on them does so in their own nodes.
+/// Side lines and rims are not part of it; edges that end on them end in their nodes.
 struct WallNet {
-    /// A vertex that a node stands on.
+    /// A vertex with a node.
     struct Stop {
         VertexId vertex;
         Vec2 place = Vec2::Zero(); ///< in the strip
@@ -23,19 +23,19 @@ struct WallNet {
     };
     static constexpr int kSource = -1, kTarget = -2;
 
-    /// Long edges that go on from each other, or a vertex where cross edges turn or end.
+    /// Consecutive long edges, or a vertex where cross edges turn or end.
     struct Column {
         double at = 0;                                ///< s in [0, 1)
-        double low = 1, high = 0;                     ///< reach in t
-        std::optional<std::size_t> line;              ///< the side line it is
+        double low = 1, high = 0;                     ///< extent in t
+        std::optional<std::size_t> line;              ///< the side line it coincides with
         std::optional<double> source_at, target_at{}; ///< running lengths of its ends on the rims
         EdgeId edge;                                  ///< one of them, for messages
     };
-    /// Cross edges that meet, or a vertex between long edges.
+    /// Connected cross edges, or a vertex between long edges.
     struct Level {
         double height = 0;               ///< mean t
         std::optional<std::size_t> ring; ///< of the map
-        bool plain = false; ///< a ring that turns and ends on side lines alone, and no long edge meets
+        bool plain = false; ///< a ring that turns and ends on side lines only, and meets no long edge
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets
         EdgeId edge;                    ///< one of them, for messages
@@ -51,12 +51,12 @@ struct WallNet {
     std::vector<Level> levels;   ///< by rising height
     std::vector<LongEdge> long_edges;
 
-    /// Whether two levels stand over the same part of the rim, so that they need two layers.
+    /// Whether two levels overlap along the rim, so that they need two layers.
     [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
 };
 
-/// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted,
-///                     or one that ends on a rim or between two side lines where it cannot.
+/// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted, or
+///        with an end on a rim or between two side lines where it must not end.
 /// @note  O(edges² + facets of rings) of the linking surface.
 WallNet wall_net(const topology::Model& model, const LinkingSurface& link, const LinkingMap& map);
 
