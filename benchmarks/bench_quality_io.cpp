@@ -3,10 +3,10 @@
 #include "bench.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <cmath>
 #include <cstdlib>

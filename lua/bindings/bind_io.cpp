@@ -7,7 +7,7 @@
 #include "bindings/write_mesh.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
@@ -15,8 +15,8 @@
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/mesh_file.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/quality/second_order.h>
-#include <lacuna/team/tasks.h>
+#include <lacuna/quality/shared/second_order.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "program/command_line.h"
 #include "program/stopping.h"
 
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/shared/flatten.h>
 
 #include <doctest/doctest.h>
 

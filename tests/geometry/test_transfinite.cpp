@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <doctest/doctest.h>
 

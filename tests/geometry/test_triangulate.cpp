@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include "support/prove_cells.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/quality/quality.h>
 
 #include <doctest/doctest.h>

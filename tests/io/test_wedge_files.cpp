@@ -5,10 +5,10 @@
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/vtk.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/vtk.h>
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 

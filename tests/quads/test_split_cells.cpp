@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/plane_domains.h"
 
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/split_cells.h>
 #include <lacuna/quads/detail/triangle_quads.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include "support/blocks.h"
 

@@ -3,8 +3,8 @@
 #include "support/check_valid.h"
 #include "support/prove_cells.h"
 
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "surface/sealed.h"
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
 

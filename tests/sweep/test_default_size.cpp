@@ -4,8 +4,8 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/shape_size.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/sweep.h>
 

@@ -2,7 +2,7 @@
 #include <lacuna/cad/detail/edge_shape.h>
 
 #include <lacuna/cad/detail/spline_patch.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 

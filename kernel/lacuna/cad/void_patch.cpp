@@ -2,8 +2,8 @@
 #include <lacuna/cad/detail/void_patch.h>
 
 #include <lacuna/cad/detail/edge_shape.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <Eigen/Cholesky>
 

@@ -4,7 +4,7 @@
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/narrow_sides.h>
-#include <lacuna/core/default_labels.h>
+#include <lacuna/core/shared/default_labels.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/section.h>
+#include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <array>

@@ -6,11 +6,11 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
 

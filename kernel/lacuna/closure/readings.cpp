@@ -7,9 +7,9 @@
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/geometry/segment.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <limits>

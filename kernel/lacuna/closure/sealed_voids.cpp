@@ -7,7 +7,7 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <cmath>

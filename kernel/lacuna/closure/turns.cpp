@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/turns.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <cmath>

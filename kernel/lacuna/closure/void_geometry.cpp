@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Eigenvalues>
 

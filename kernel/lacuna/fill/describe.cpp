@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/describe.h>
 
-#include <lacuna/closure/branches.h>
+#include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/assembly.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
 #include <sstream>

@@ -2,9 +2,9 @@
 //
 // find_crossing(): segments are stored in a tree of boxes with median cuts, and each segment queries the tree
 // for later segments. A tree and not a grid, as spacings may differ by a factor of a million.
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/cut.h>
+#include <lacuna/geometry/shared/cut.h>
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 
 #include <algorithm>
 #include <queue>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/delaunay.h>
+#include <lacuna/geometry/shared/delaunay.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/shared/flatten.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <lacuna/geometry/detail/flatten_maps.h>
 

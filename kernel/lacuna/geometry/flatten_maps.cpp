@@ -2,8 +2,8 @@
 #include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/cut.h>
 #include <lacuna/geometry/detail/flatten_maps.h>
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/cut.h>
+#include <lacuna/geometry/shared/harmonic.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/harmonic.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/detail/multigrid.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/minimise.h>
+#include <lacuna/geometry/shared/minimise.h>
 
 #include <algorithm>
 #include <cmath>

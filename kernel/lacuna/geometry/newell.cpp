@@ -2,7 +2,7 @@
 #include <lacuna/geometry/newell.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <cmath>
 #include <limits>

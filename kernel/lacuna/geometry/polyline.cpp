@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 // Sums and products of doubles are split into a rounded double and the exact error, so polynomials can be
 // evaluated without rounding (Shewchuk, Adaptive precision floating-point arithmetic, 1997). The compiler
 // must not contract a·b + c or reorder sums; the usual compilers do not in ISO mode.
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <array>
 #include <cmath>

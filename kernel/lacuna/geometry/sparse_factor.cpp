@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/sparse_factor.h>
+#include <lacuna/geometry/shared/sparse_factor.h>
 
 #include <Eigen/OrderingMethods>
 

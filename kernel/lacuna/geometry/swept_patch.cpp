@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/swept_patch.h>
+#include <lacuna/geometry/shared/swept_patch.h>
 
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,9 +133,9 @@ double SweptPatch::unlike() const
     double most = 0;
     for (int i = 1; i < kFrames; ++i) {
         const double s = static_cast<double>(i) / kFrames;
-        most = std::max(most, (deviation(bottom_, turns_ ? first_ : none, s) -
-                               deviation(top_, turns_ ? last_ : none, s))
-                                  .norm());
+        most = std::max(
+            most, (deviation(bottom_, turns_ ? first_ : none, s) - deviation(top_, turns_ ? last_ : none, s))
+                      .norm());
     }
     return most;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/tips.h>
+#include <lacuna/geometry/shared/tips.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
 #include <cstdint>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <lacuna/core/error.h>
 

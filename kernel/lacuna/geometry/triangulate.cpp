@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/delaunay.h>
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/delaunay.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/healing/weld.h>
+#include <lacuna/healing/shared/weld.h>
 
 #include <bit>
 #include <cmath>

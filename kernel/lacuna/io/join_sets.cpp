@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/join_sets.h>
 
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/mesh/second_order.h>

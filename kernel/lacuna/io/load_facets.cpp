@@ -2,7 +2,7 @@
 #include <lacuna/io/load_facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/healing/stitch.h>
+#include <lacuna/healing/shared/stitch.h>
 #include <lacuna/io/detail/deck_facets.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>

@@ -2,6 +2,7 @@
 #include <lacuna/io/mesh_file.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/vtk_writer.h>
@@ -84,8 +85,7 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
         return set.kind == DeckSet::Kind::sides ||
                (set.kind == DeckSet::Kind::nodes && !format.has_node_sets);
     });
-    if (unwritten > 0)
-        notes.push_back(std::to_string(unwritten) + " " + std::string(format.unwritten_sets));
+    if (unwritten > 0) notes.push_back(std::to_string(unwritten) + " " + std::string(format.unwritten_sets));
 }
 
 DeckFile file_of(const FormatRow& format, const Deck& deck, const DeckFileOptions& options,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/core/team.h>
 #include <lacuna/io/cell_field.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/formats.h>
@@ -16,6 +15,10 @@
 #include <span>
 #include <string>
 #include <vector>
+
+namespace lacuna {
+struct Team;
+}
 
 namespace lacuna::io {
 

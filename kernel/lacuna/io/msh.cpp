@@ -7,7 +7,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/msh_shapes.h>
-#include <lacuna/topology/skin_groups.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>

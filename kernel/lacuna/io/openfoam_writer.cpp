@@ -5,7 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/sections.h>
-#include <lacuna/io/whole_folder.h>
+#include <lacuna/io/detail/whole_folder.h>
 
 #include <algorithm>
 #include <array>

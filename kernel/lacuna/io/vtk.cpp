@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/vtk_writer.h>
 
+#include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/whole_folder.h>
+#include <lacuna/io/detail/whole_folder.h>
 
 #include <lacuna/core/error.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/corners.h>
+#include <lacuna/matching/shared/corners.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/mesh/mesh_view.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 namespace lacuna::mesh {
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/quad_net.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

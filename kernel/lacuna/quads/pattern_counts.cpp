@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/mirror_counts.h>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/square_rows.h>
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <sstream>
 

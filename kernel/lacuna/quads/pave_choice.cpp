@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_choice.h>
 
+#include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
-#include <lacuna/quads/face_pattern.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pattern_counts.h>
-#include <lacuna/quads/smooth_plane.h>
-#include <lacuna/quads/submap.h>
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pattern_counts.h>
+#include <lacuna/quads/shared/smooth_plane.h>
+#include <lacuna/quads/shared/submap.h>
+#include <lacuna/quads/shared/symmetry.h>
 
 #include <algorithm>
 #include <array>

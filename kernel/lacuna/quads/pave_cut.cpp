@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_cut.h>
 
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_fit.h>

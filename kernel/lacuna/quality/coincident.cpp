@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/coincident.h>
 
-#include <lacuna/core/large_pages.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <cstdint>

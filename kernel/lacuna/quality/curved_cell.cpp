@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/lanes.h>
 
 #include <algorithm>

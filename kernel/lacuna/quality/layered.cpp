@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/layered.h>
+#include <lacuna/quality/shared/layered.h>
 
-#include <lacuna/core/bytes.h>
+#include <lacuna/core/shared/bytes.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
 #include <set>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/metrics.h>
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/metrics.h>
+#include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
 

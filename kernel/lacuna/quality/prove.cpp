@@ -2,11 +2,11 @@
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/detail/text.h>
-#include <lacuna/quality/layered.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/layered.h>
 
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/background.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>

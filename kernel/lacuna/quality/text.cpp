@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/text.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
 #include <charconv>

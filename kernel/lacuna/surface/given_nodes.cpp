@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/given_nodes.h>
+#include <lacuna/surface/shared/given_nodes.h>
 
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/paired_breaks.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/projector.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/detail/trimming.h>
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/rim_breaks.h>
+#include <lacuna/surface/shared/rim_breaks.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/paired_breaks.h>

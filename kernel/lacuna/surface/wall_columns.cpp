@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/wall_columns.h>
+#include <lacuna/surface/shared/wall_columns.h>
 
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/linking_map.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/swept_patch.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/swept_patch.h>
+#include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/follow_rows.h>
 #include <lacuna/surface/detail/strip_grid.h>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/union_find.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/intervals.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/intervals.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #include <lacuna/sweep/fidelity.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/surface/face_shape.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
 #include <lacuna/sweep/detail/words.h>
 

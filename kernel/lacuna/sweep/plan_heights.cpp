@@ -2,8 +2,8 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/surface/wall_columns.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 #include <lacuna/sweep/detail/source_quads.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/quads/odd_region.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/quads/submap.h>
-#include <lacuna/surface/quads_asked.h>
-#include <lacuna/surface/wall_columns.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/quads/shared/odd_region.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/quads/shared/submap.h>
+#include <lacuna/surface/shared/quads_asked.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 

@@ -3,21 +3,21 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/intervals.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/intervals.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
+#include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/sweep/layer_plan.h>
-#include <lacuna/sweep/second_order.h>
+#include <lacuna/sweep/shared/layer_plan.h>
 
 #include <algorithm>
 #include <cmath>

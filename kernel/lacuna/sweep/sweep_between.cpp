@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/sweep_between.h>
 
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/progress.h>
-#include <lacuna/quality/layered.h>
+#include <lacuna/core/shared/background.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/given_target.h>
-#include <lacuna/surface/imprint.h>
-#include <lacuna/surface/intervals.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/wall_breaks.h>
+#include <lacuna/quality/shared/layered.h>
+#include <lacuna/surface/shared/given_target.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/surface/shared/intervals.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/surface/shared/wall_breaks.h>
 #include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
+#include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/plan_heights.h>
@@ -22,9 +23,8 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/sweep/layer_plan.h>
-#include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/morph.h>
+#include <lacuna/sweep/shared/layer_plan.h>
+#include <lacuna/sweep/shared/layers.h>
 
 #include <algorithm>
 #include <map>

@@ -2,11 +2,11 @@
 #include <lacuna/sweep/detail/volume_share.h>
 
 #include <lacuna/closure/close.h>
-#include <lacuna/core/edge_key.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/shape_size.h>
-#include <lacuna/surface/wall_columns.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/shape_size.h>
+#include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/team/tasks.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <lacuna/io/mesh_file.h>
-#include <lacuna/quality/layered.h>
+#include <lacuna/quality/shared/layered.h>
 
 #include <algorithm>
 #include <deque>

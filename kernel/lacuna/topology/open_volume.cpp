@@ -2,8 +2,8 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/topology/gaps.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/gaps.h>
 
 #include <algorithm>
 #include <array>

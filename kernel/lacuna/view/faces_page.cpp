@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/page.h>
 
-#include <lacuna/closure/model_facts.h>
+#include <lacuna/closure/shared/model_facts.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/page_file.h>
 

@@ -21,7 +21,7 @@ struct lua_State;
 
 namespace lacuna {
 
-struct Crew; // <lacuna/core/team.h>, of the kernel's headers
+struct Crew; // <lacuna/core/shared/team.h>, of the kernel's headers
 
 /// A plain value of a recipe. std::monostate is nil, or a value that is not plain, such as a table.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;

@@ -4,8 +4,8 @@
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/geometry/exact.h>
-#include <lacuna/geometry/plain_curve.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/geometry/shared/plain_curve.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/swept_view.h>
-#include <lacuna/mesh/mesh_view.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <map>
 #include <memory>

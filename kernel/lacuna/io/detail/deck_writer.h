@@ -5,8 +5,8 @@
 #include <lacuna/io/detail/mesh_deck.h>
 #include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/sections.h>
-#include <lacuna/mesh/mesh_view.h>
 #include <lacuna/mesh/second_order.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <algorithm>
 #include <functional>

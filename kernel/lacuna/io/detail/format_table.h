@@ -4,7 +4,7 @@
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/formats.h>
-#include <lacuna/mesh/mesh_view.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <memory>
 #include <span>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/io/detail/deck_writer.h>
-#include <lacuna/mesh/mesh_view.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <memory>
 

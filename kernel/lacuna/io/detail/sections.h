@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 #include <lacuna/io/whole_file.h>
 
 #include <algorithm>

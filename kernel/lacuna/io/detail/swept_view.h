@@ -3,7 +3,7 @@
 
 #include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/partition.h>
-#include <lacuna/mesh/mesh_view.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/detail/partial_mesh.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 namespace lacuna::quads::paving {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/open_volume.h>

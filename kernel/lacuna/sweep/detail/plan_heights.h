@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/shape_size.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <functional>

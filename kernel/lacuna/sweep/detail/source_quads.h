@@ -3,8 +3,8 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/region.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/source_mesh.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
