@@ -11,16 +11,17 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Position of each point of a side in [0, 1], by running length.
+/// Position of each point of a side in [0, 1].
 template <class Point>
-std::vector<double> parameters(std::span<const Point> side)
+std::vector<double> parameters(std::span<const Point> side, bool by_arc_length)
 {
     std::vector<double> result(side.size(), 0.0);
-    for (std::size_t i = 1; i < side.size(); ++i) result[i] = result[i - 1] + (side[i] - side[i - 1]).norm();
+    for (std::size_t i = 1; by_arc_length && i < side.size(); ++i)
+        result[i] = result[i - 1] + (side[i] - side[i - 1]).norm();
     const double total = result.back();
     const auto last = static_cast<double>(side.size() - 1);
     for (std::size_t i = 0; i < side.size(); ++i)
-        result[i] = total > 0 ? result[i] / total : static_cast<double>(i) / last;
+        result[i] = by_arc_length && total > 0 ? result[i] / total : static_cast<double>(i) / last;
     return result;
 }
 
@@ -46,10 +47,11 @@ void check_sides(std::span<const Point> bottom, std::span<const Point> right, st
 /// `transfinite()`, in the plane or in space.
 template <class Point>
 std::vector<Point> coons_grid(std::span<const Point> bottom, std::span<const Point> right,
-                              std::span<const Point> top, std::span<const Point> left)
+                              std::span<const Point> top, std::span<const Point> left,
+                              const TransfiniteOptions& options)
 {
     check_sides(bottom, right, top, left);
-    const CoonsPatch<Point> patch(bottom, right, top, left);
+    const CoonsPatch<Point> patch(bottom, right, top, left, options);
     const std::size_t n = bottom.size() - 1, m = left.size() - 1;
     std::vector<Point> grid((n + 1) * (m + 1));
     for (std::size_t i = 0; i <= n; ++i) {
@@ -83,11 +85,12 @@ Point point_on(std::span<const Point> side, const std::vector<double>& at, doubl
 
 template <class Point>
 CoonsPatch<Point>::CoonsPatch(std::span<const Point> bottom, std::span<const Point> right,
-                              std::span<const Point> top, std::span<const Point> left)
-    : bottom_{bottom, parameters(bottom)},
-      right_{right, parameters(right)},
-      top_{top, parameters(top)},
-      left_{left, parameters(left)}
+                              std::span<const Point> top, std::span<const Point> left,
+                              const TransfiniteOptions& options)
+    : bottom_{bottom, parameters(bottom, options.by_arc_length)},
+      right_{right, parameters(right, options.by_arc_length)},
+      top_{top, parameters(top, options.by_arc_length)},
+      left_{left, parameters(left, options.by_arc_length)}
 {
 }
 
@@ -127,15 +130,17 @@ template class CoonsPatch<Vec2>;
 template class CoonsPatch<Vec3>;
 
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
-                              std::span<const Vec3> top, std::span<const Vec3> left)
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options)
 {
-    return coons_grid(bottom, right, top, left);
+    return coons_grid(bottom, right, top, left, options);
 }
 
 std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
-                              std::span<const Vec2> top, std::span<const Vec2> left)
+                              std::span<const Vec2> top, std::span<const Vec2> left,
+                              const TransfiniteOptions& options)
 {
-    return coons_grid(bottom, right, top, left);
+    return coons_grid(bottom, right, top, left, options);
 }
 
 } // namespace lacuna::geometry

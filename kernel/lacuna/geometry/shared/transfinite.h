@@ -8,6 +8,13 @@
 
 namespace lacuna::geometry {
 
+/// Options of `transfinite()`.
+struct TransfiniteOptions {
+    /// Where a grid line stands between its two ends: by the running length of the sides (true), so that
+    /// graded sides give a graded grid, or by counting points (false).
+    bool by_arc_length = true;
+};
+
 /// The map of `transfinite()` from the unit square, in the plane (`Vec2`) or in space (`Vec3`).
 template <class Point>
 class CoonsPatch {
@@ -15,7 +22,7 @@ public:
     /// @param bottom, right, top, left as for `transfinite()`; kept by reference. Opposite sides may have
     ///                                  different numbers of points.
     CoonsPatch(std::span<const Point> bottom, std::span<const Point> right, std::span<const Point> top,
-               std::span<const Point> left);
+               std::span<const Point> left, const TransfiniteOptions& options = {});
 
     /// Relative arc length of a side at one of its points, in [0, 1].
     [[nodiscard]] double bottom(std::size_t i) const { return bottom_.at[i]; }
@@ -61,8 +68,10 @@ private:
 /// @throw  InvalidInput "geometry.transfinite_sides"  opposite sides have different numbers of points, a side
 ///         has fewer than two, or neighbouring sides do not share their corner.
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
-                              std::span<const Vec3> top, std::span<const Vec3> left);
+                              std::span<const Vec3> top, std::span<const Vec3> left,
+                              const TransfiniteOptions& options = {});
 std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
-                              std::span<const Vec2> top, std::span<const Vec2> left);
+                              std::span<const Vec2> top, std::span<const Vec2> left,
+                              const TransfiniteOptions& options = {});
 
 } // namespace lacuna::geometry
