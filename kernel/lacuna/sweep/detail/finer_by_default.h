@@ -6,16 +6,16 @@
 
 #include <functional>
 
-/// Sizes and layers that nobody asked for, finer where the mesh does not follow a face. Internal to this
-/// folder.
+/// Refinement of default sizes and layers if the mesh does not follow a face. Internal to this folder.
 namespace lacuna::sweep {
 
 /// The same volume swept by other options, proved and compared.
 using SweepBy = std::function<Swept(const SweepOptions&)>;
 
-/// A mesh that follows every face, or a finer one that does where nobody asked for its size and layers.
-/// @param asked  what the person said. @param taken  what `swept` was made with.
-/// @throw NotSweepable "sweep.deviation"  what is wrong with the mesh as asked for, and with the finest tried
+/// Return the mesh if it follows every face, otherwise a finer one that does, if size and layers are
+/// defaults.
+/// @param asked  the user's options. @param taken  the options of `swept`.
+/// @throw NotSweepable "sweep.deviation"  the finding on the first mesh, and on the finest one tried
 Swept require_or_refine(const SweepOptions& asked, const SweepOptions& taken, Swept swept,
                         const SweepBy& again, const RunContext& context);
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/sweep/fidelity.h>
 
-/// What makes straight sides follow a face that bends away under them. Internal to this folder.
+/// Refinement that makes straight sides follow a curved face. Internal to this folder.
 namespace lacuna::sweep {
 
 /// One of the two is not 0.
@@ -12,10 +12,10 @@ struct FinerSides {
     double size = 0; ///< of the source's quads [model length]
 };
 
-/// The face that is furthest beyond what is allowed; null: none is.
+/// The face that exceeds the allowed distance most; null: none does.
 const FaceFidelity* worst_misfit(const Fidelity& fidelity);
 
-/// By the sag of straight sides, a tenth below what would just do.
+/// By the sag of straight sides, with a margin of a tenth.
 /// @pre  a face whose misfit is `straight`. @param layers  of the mesh.
 FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptions& options);
 
