@@ -22,8 +22,8 @@
 #endif
 
 #include <lacuna/core/error.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/surface/shared/seeds.h>
 
 #include <algorithm>
 #include <cmath>

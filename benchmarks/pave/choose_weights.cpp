@@ -12,7 +12,7 @@
 #include "support/outline_family.h"
 
 #include <lacuna/quads/detail/pave_choice.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <cstdio>
 #include <cstdlib>

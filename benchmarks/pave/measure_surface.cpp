@@ -2,9 +2,9 @@
 #include "saddle_face.h"
 
 #include <lacuna/cad_worker/session.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <gmsh.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plane_figures.h"
 
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/cad_worker/session.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <gmsh.h>
 

@@ -4,8 +4,8 @@
 #include "gmsh_quads.h"
 #include "plane_figures.h"
 
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/surface/fill_face.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/surface/shared/fill_face.h>
 #include <lacuna/topology/model.h>
 
 #include <string>

@@ -4,9 +4,9 @@
 #include <lacuna/cad/load.h>
 #include <lacuna/cad_worker/session.h>
 #include <lacuna/closure/close.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/source_mesh.h>
 
 #include <gmsh.h>
 

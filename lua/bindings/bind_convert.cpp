@@ -36,14 +36,8 @@ int convert(lua_State* L)
     std::size_t nodes = 0, elements = 0;
     guard(L, [&] {
         check_input_path(lent, from);
-        io::DeckFormat format{};
-        if (!io::find_deck_format(io::ending_of(to.text()), format))
-            throw InvalidInput(
-                "lua.unknown_ending",
-                "convert: the ending of " + to.text() +
-                    " says no format that meshes are written in; those are .msh .vtu .vtk .inp "
-                    ".bdf .nas .dat .unv .exo .e");
-        const io::Deck deck = io::skin_as_sets(io::read_deck(from, context), format);
+        const io::Format& format = io::needed_mesh_format("convert", to.text(), true);
+        const io::Deck deck = io::skin_as_sets(io::read_deck(from, context), format.deck);
         nodes = deck.points.size();
         for (const io::DeckBlock& block : deck.blocks) elements += block.count();
         io::write_deck(deck, format, to, context, options);

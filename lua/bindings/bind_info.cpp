@@ -2,8 +2,8 @@
 // What a model is made of, as a table and as text: faces and their sizes, free edges, gaps, cavities.
 #include "bindings/faces.h"
 
-#include <lacuna/closure/model_facts.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/closure/shared/model_facts.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,16 +7,16 @@
 #include "bindings/write_mesh.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/facets.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/vtk.h>
-#include <lacuna/quality/second_order.h>
-#include <lacuna/team/tasks.h>
+#include <lacuna/quality/shared/second_order.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <algorithm>
 
@@ -178,10 +178,16 @@ void read_groups(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.groups_given = true;
 }
 
+/// Whether a mesh is always written in pieces.
+bool is_pieces(const io::Format& format)
+{
+    return format.has_option("partitions") && !format.has_option("version");
+}
+
 /// As many parts as processes, where that is asked for or a .pvtu leaves it open.
 void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Crew* crew)
 {
-    const bool open = !arguments.partitions_given && io::ending_of(path.text()) == ".pvtu";
+    const bool open = !arguments.partitions_given && is_pieces(io::needed_mesh_format("write", path.text()));
     if (arguments.by_process || open) arguments.partition.parts = crew != nullptr ? crew->size : 1;
     arguments.msh.partition = arguments.partition;
 }
@@ -273,97 +279,58 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
     return joined;
 }
 
-void write_deck(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
-                const RunContext& context)
+void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::OutputPath& path,
+                const WriteArguments& arguments, const RunContext& context)
 {
-    WriteArguments all = arguments;
-    io::find_deck_format(io::ending_of(path.text()), all.deck.format);
-    const io::DeckFormat format = all.deck.format;
     if (arguments.with.empty())
-        return io::write_deck(io::deck_of(mesh, all.deck, context), format, path, context);
+        return io::write_mesh(format, mesh, path, arguments.msh, arguments.deck, context);
+    WriteArguments all = arguments;
+    all.deck.format = format.deck;
     const JoinedMesh one{&mesh, arguments.deck.material};
     io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, file_options(arguments));
 }
 
-/// A format by its ending, and which options it has.
-struct Format {
-    const char* ending;
-    bool has_version, has_binary, is_deck, has_element;
-    void (*write)(const mesh::HexMesh& mesh, const io::OutputPath& path, const WriteArguments& arguments,
-                  const RunContext& context);
-};
-
-const Format kFormats[] = {
-    {".msh", true, true, false, false,
-     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
-         io::write_msh(mesh, path, arguments.msh, context);
-     }},
-    {".vtu", false, false, false, false,
-     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
-         io::write_vtu(mesh, path, {arguments.msh.fields}, context);
-     }},
-    {".pvtu", false, false, false, false,
-     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         io::write_pvtu(mesh, path, arguments.partition, {arguments.msh.fields}, context);
-     }},
-    {".vtk", false, true, false, false,
-     [](const auto& mesh, const auto& path, const auto& arguments, const auto& context) {
-         if (!arguments.with.empty()) return write_deck(mesh, path, arguments, context);
-         io::write_vtk(mesh, path, {arguments.msh.binary, arguments.msh.fields}, context);
-     }},
-    {".inp", false, false, true, true, write_deck},
-    {".bdf", false, false, true, false, write_deck},
-    {".nas", false, false, true, false, write_deck},
-    {".dat", false, false, true, false, write_deck},
-    {".unv", false, false, true, false, write_deck},
-    {".exo", false, false, true, false, write_deck},
-    {".e", false, false, true, false, write_deck},
-};
-
 /// An option that was given and that the format does not have; null: none.
-const char* idle_option(const Format& format, const WriteArguments& arguments)
+const char* idle_option(const io::Format& format, const WriteArguments& arguments)
 {
-    if (arguments.version_given && !format.has_version) return "version";
-    if (arguments.binary_given && !format.has_binary) return "binary";
-    const bool numbered = format.is_deck || !arguments.with.empty();
-    if (arguments.quality_given && numbered) return "quality";
-    if (arguments.renumber_given && arguments.with.empty()) return "renumber";
-    if (!arguments.without.empty() && arguments.with.empty()) return "without";
-    if (arguments.element_given && !format.has_element) return "element";
-    if (arguments.gmsh_options && std::string_view(format.ending) != ".msh") return "gmsh_options";
-    if (arguments.groups_given && std::string_view(format.ending) != ".msh") return "groups";
-    const bool pieces = std::string_view(format.ending) == ".pvtu";
-    const bool parted = (pieces || std::string_view(format.ending) == ".msh") && arguments.with.empty();
-    if (!arguments.with.empty() && pieces) return "with";
-    if (arguments.partitions_given && !parted) return "partitions";
-    if (arguments.partition.ghosts > 0 && !(parted && (pieces || arguments.partitions_given)))
-        return "ghosts";
-    if (arguments.deck.first_node != 0 && !numbered) return "first_node";
-    if (arguments.deck.first_cell != 0 && !numbered) return "first_cell";
-    return nullptr;
+    const bool joins = !arguments.with.empty(), numbered = format.is_numbered || joins;
+    const std::pair<bool, const char*> of_meshes[] = {{arguments.quality_given, "quality"},
+                                                      {arguments.partitions_given, "partitions"},
+                                                      {arguments.partition.ghosts > 0, "ghosts"}};
+    const std::pair<bool, const char*> of_decks[] = {{arguments.renumber_given, "renumber"},
+                                                     {!arguments.without.empty(), "without"},
+                                                     {arguments.deck.first_node != 0, "first_node"},
+                                                     {arguments.deck.first_cell != 0, "first_cell"}};
+    const std::pair<bool, const char*> of_all[] = {
+        {arguments.version_given, "version"}, {arguments.binary_given, "binary"},
+        {arguments.element_given, "element"}, {arguments.gmsh_options, "gmsh_options"},
+        {arguments.groups_given, "groups"},   {joins, "with"},
+        {arguments.interfaces, "interfaces"}};
+    for (const auto& [given, name] : of_all)
+        if (given && !format.has_option(name)) return name;
+    for (const auto& [given, name] : of_meshes)
+        if (given && (numbered || !format.has_option(name))) return name;
+    for (const auto& [given, name] : of_decks) {
+        const bool first = std::string_view(name).starts_with("first");
+        if (given && !(first ? numbered : joins)) return name;
+    }
+    // Parts of an .msh are asked for; pieces are parts by themselves.
+    const bool parted = arguments.partitions_given || is_pieces(format);
+    return arguments.partition.ghosts > 0 && !parted ? "ghosts" : nullptr;
 }
 
-const Format& format_of(const std::string& path, const WriteArguments& arguments)
+const io::Format& format_of(const std::string& path, const WriteArguments& arguments)
 {
-    std::string known;
-    for (const Format& format : kFormats) {
-        known += std::string(" ") + format.ending;
-        if (io::ending_of(path) != format.ending) continue;
-        if (const char* idle = idle_option(format, arguments))
-            throw InvalidInput(
-                "lua.idle_option",
-                std::string("write: ") + format.ending + " files " +
-                    (arguments.with.empty() ? "" : "with = model ") + "have no option '" + idle + "'" +
-                    (idle == std::string_view("ghosts") && std::string_view(format.ending) == ".msh"
-                         ? " without 'partitions'"
-                         : "") +
-                    "; leave it out");
-        return format;
-    }
-    throw InvalidInput("lua.unknown_ending",
-                       "write: the ending of " + path + " says no format; meshes are written as" + known);
+    const io::Format& format = io::needed_mesh_format("write", path);
+    const char* const idle = idle_option(format, arguments);
+    if (idle == nullptr) return format;
+    throw InvalidInput("lua.idle_option",
+                       "write: " + std::string(format.ending) + " files " +
+                           (arguments.with.empty() ? "" : "with = model ") + "have no option '" + idle + "'" +
+                           (idle == std::string_view("ghosts") && format.has_option("ghosts")
+                                ? " without 'partitions'"
+                                : "") +
+                           "; leave it out");
 }
 
 /// The scaled Jacobian of some cells: as they were proved, where that was kept.
@@ -376,11 +343,11 @@ void copy_scaled_jacobians(const sweep::Swept& swept, std::span<const std::uint3
 }
 
 /// The fields asked for of the cells of a mesh; decks have none.
-void add_fields(const sweep::Swept& swept, const Format& format, WriteArguments& arguments,
+void add_fields(const sweep::Swept& swept, const io::Format& format, WriteArguments& arguments,
                 const RunContext& context)
 {
     const mesh::HexMesh& mesh = swept.mesh;
-    if (format.is_deck || !arguments.with.empty()) return;
+    if (!format.has_option("quality") || !arguments.with.empty()) return;
     for (const quality::Metric metric : metrics_of(arguments)) {
         io::CellField& field = arguments.msh.fields.emplace_back();
         field.name = quality::metric_name(metric);
@@ -406,14 +373,14 @@ int write(lua_State* L)
     const Host& lent = host(L);
     guard(L, [&] {
         const mesh::HexMesh& mesh = state.swept.mesh;
-        const Format& format = format_of(path.text(), arguments);
+        const io::Format& format = format_of(path.text(), arguments);
         count_parts(arguments, path, lent.crew);
         refuse_interfaces(arguments);
         for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
         arguments.deck.material = state.material;
         report_progress(context, "writing " + path.text());
         add_fields(state.swept, format, arguments, context);
-        format.write(mesh, path, arguments, context);
+        write_mesh(format, mesh, path, arguments, context);
         write_options_beside(lent, path, arguments);
     });
     return 0;
@@ -449,12 +416,8 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                                   .version = arguments.msh.version,
                                   .all_groups = arguments.msh.all_groups},
                                  crew, context);
-    const std::string ending = io::ending_of(path.text());
-    const bool pieces = ending == ".pvtu";
-    if (pieces)
-        arguments.deck.format = io::DeckFormat::vtu;
-    else
-        io::find_deck_format(ending, arguments.deck.format);
+    const io::Format& format = io::needed_mesh_format("write", path.text());
+    arguments.deck.format = format.deck;
     const io::Deck deck = deck_of_parts(state, arguments, context);
     io::DeckFileOptions options = file_options(arguments);
     io::DeckPartition partition;
@@ -465,8 +428,8 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
         partition = io::partition_of(deck, parts_of(state), arguments.partition);
         options.partition = &partition;
     }
-    if (pieces) return io::write_pvtu(deck, partition, arguments.partition.ghosts, path, context);
-    io::write_deck(deck, arguments.deck.format, path, context, options);
+    if (is_pieces(format)) return io::write_pvtu(deck, partition, arguments.partition.ghosts, path, context);
+    io::write_deck(deck, format, path, context, options);
 }
 
 /// assembly_mesh:write(path [, options])
@@ -652,12 +615,11 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     auto& arguments = temporary<WriteArguments>(L);
     read_options(L, index, "sweep_to: write", kLayeredOptions, arguments);
     guard(L, [&] {
-        const std::string ending = io::ending_of(path.text());
-        if (!team::is_layered(ending))
+        const io::Format* const format = io::find_format(path.text());
+        if (format == nullptr || !format->streamed)
             throw InvalidInput("lua.not_layered",
-                               "sweep_to: " + path.text() +
-                                   ": files written a layer at a time end in .msh, .vtu, .pvtu, .vtk, "
-                                   ".inp, .bdf, .nas, .dat, .unv, .exo or .e");
+                               "sweep_to: " + path.text() + ": files written a layer at a time end in " +
+                                   io::endings_of([](const io::Format& of) { return of.streamed; }));
         format_of(path.text(), arguments); // refuses options that it has not
     });
     return arguments;
@@ -665,7 +627,7 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 
 bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path)
 {
-    return team::is_layered_of_parts(io::ending_of(path.text())) && !arguments.partitions_given &&
+    return io::needed_mesh_format("sweep_to", path.text()).streamed_parts && !arguments.partitions_given &&
            !arguments.interfaces;
 }
 
@@ -689,9 +651,9 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
-        const Format& format = format_of(path.text(), arguments);
+        const io::Format& format = format_of(path.text(), arguments);
         add_fields(swept, format, arguments, context);
-        return format.write(mesh, path, arguments, context);
+        return write_mesh(format, mesh, path, arguments, context);
     }
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
                         {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material,

@@ -3,7 +3,7 @@
 
 #include "bindings/classes.h"
 
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <memory>
 #include <optional>

@@ -6,7 +6,7 @@
 #include "bindings/sweep_arguments.h"
 #include "bindings/sweep_to.h"
 
-#include <lacuna/closure/branches.h>
+#include <lacuna/closure/shared/branches.h>
 
 namespace lacuna::lua {
 

@@ -3,8 +3,8 @@
 #include "bindings/faces.h"
 #include "bindings/names.h"
 
-#include <lacuna/topology/face_facts.h>
-#include <lacuna/topology/face_radius.h>
+#include <lacuna/topology/shared/face_facts.h>
+#include <lacuna/topology/shared/face_radius.h>
 
 #include <algorithm>
 #include <array>

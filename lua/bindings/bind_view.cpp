@@ -239,10 +239,10 @@ void read_file_title(lua_State* L, int index, const Where& where, ViewFile& opti
 
 const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", word<&ViewFile::show, kShows>}};
 
-bool is_deck(const std::string& ending)
+bool is_deck(const std::string& file)
 {
-    io::DeckFormat format;
-    return io::find_deck_format(ending, format) || ending == ".mesh";
+    const io::Format* const format = io::find_format(file);
+    return format != nullptr && format->is_read && format->is_mesh;
 }
 
 /// @return  whether the page shows cells, else faces
@@ -250,7 +250,7 @@ bool view_file(const std::string& file, const io::OutputPath& path, ViewFile& op
                const cad::Limits& limits, const RunContext& context)
 {
     if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
-    if (options.show == Show::cells || (options.show == Show::automatic && is_deck(io::ending_of(file)))) {
+    if (options.show == Show::cells || (options.show == Show::automatic && is_deck(file))) {
         const io::Deck deck = io::read_deck(file, context);
         // A mesh is shown as one, whatever format it has.
         if (options.show == Show::cells || deck.element_count(3) > 0) {

@@ -2,9 +2,9 @@
 #include "bindings/faces.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/healing/grow_face.h>
-#include <lacuna/topology/face_radius.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/healing/shared/grow_face.h>
+#include <lacuna/topology/shared/face_radius.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <lua.hpp>
 
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 #include <lacuna/io/whole_file.h>
 
 #include <atomic>

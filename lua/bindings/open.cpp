@@ -6,7 +6,7 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <cstring>
 

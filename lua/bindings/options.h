@@ -7,7 +7,7 @@
 
 #include "bindings/box.h"
 
-#include <lacuna/core/nearest_word.h>
+#include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// <lacuna.h> over lacuna::Interpreter. Nothing is thrown out of here.
+// <lacuna.h> implemented with lacuna::Interpreter. No exception leaves this file.
 #include <lacuna.h>
 
 #include "bindings/unexpected.h"
@@ -17,16 +17,16 @@
 #include <vector>
 
 struct lacuna_interpreter {
-    std::unique_ptr<lacuna::Interpreter> interpreter; ///< null: opening failed, for the error below
-    std::optional<lacuna::ScriptError> error{std::in_place, "", ""}; ///< the last one
-    std::string text;                                                ///< that was last handed out
+    std::unique_ptr<lacuna::Interpreter> interpreter; ///< null: opening failed with the error below
+    std::optional<lacuna::ScriptError> error{std::in_place, "", ""}; ///< the last error
+    std::string text;                                                ///< text returned last
 };
 
 namespace {
 
 using lacuna::ScriptError;
 
-/// An exception of `body` as status and error. `error` has a value but where there is no memory for one.
+/// Store an exception as status and error. `error` is empty only if memory was exhausted.
 void keep(lacuna_interpreter& handle, ScriptError error) noexcept
 {
     try {
@@ -119,9 +119,9 @@ lacuna::InterpreterOptions options_of(const lacuna_options& asked)
     return options;
 }
 
-const char* const kNoMemory = "not enough memory"; // and not even enough to say so otherwise
+const char* const kNoMemory = "not enough memory"; // returned if there is no memory for an error object
 
-/// Whether the failure is known in words.
+/// Whether there is an error message.
 bool failed(const lacuna_interpreter* interpreter) { return interpreter && interpreter->error; }
 
 } // namespace

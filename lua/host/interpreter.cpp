@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lua raises by longjmp and C++ throws, and neither may pass through the other's frames. So all that may
-// raise runs inside a protected call and holds nothing to destroy; what was found is left on Lua's stack, and
-// C++ takes it from there by calls that do not raise.
+// Lua raises errors by longjmp and C++ by exceptions; neither may pass through frames of the other. So code
+// that may raise a Lua error runs in a protected call and owns no objects with destructors. Its results are
+// left on Lua's stack, from where C++ takes them with calls that do not raise.
 #include <lacuna/interpreter.h>
 
 #include "bindings/bind_buffer.h"
@@ -24,9 +24,9 @@ namespace lacuna {
 
 namespace {
 
-constexpr int kHookInstructions = 10'000; // often enough to feel immediate, too seldom to cost time
+constexpr int kHookInstructions = 10'000; // often enough to react at once, seldom enough to cost no time
 
-/// Numbers with a decimal point in this thread, whatever the host's locale; as it was when this ends.
+/// Sets the C locale for numbers in this thread, and restores the host's locale in the destructor.
 class PlainNumbers {
 public:
     PlainNumbers() : before_(uselocale(plain())) {}
@@ -43,7 +43,7 @@ private:
     locale_t before_;
 };
 
-/// Lua's stack as it was, on every way out.
+/// Restores the height of Lua's stack on every exit.
 class SameTop {
 public:
     explicit SameTop(lua_State* L) : state_(L), top_(lua_gettop(L)) {}
@@ -65,7 +65,7 @@ std::string text_at(lua_State* L, int index)
 
 // --- inside protected calls -----------------------------------------------------------------------------
 
-/// text, message, code, file, line of the error at 1; nil for what it does not say.
+/// Push text, message, code, file and line of the error at index 1; nil if unknown.
 int read_error(lua_State* L)
 {
     lua_settop(L, 1);
@@ -85,7 +85,8 @@ int read_error(lua_State* L)
     return 5;
 }
 
-/// Push what the path names; with `owner` all but its last part, and that as a key. Raises.
+/// Push the value of a path. With `owner`, push the table that contains the last part, and the last part as a
+/// key. May raise a Lua error.
 void push_path(lua_State* L, const char* path, bool owner)
 {
     lua_pushglobaltable(L);
@@ -125,7 +126,7 @@ struct Interpreter::State {
     Why why = Why::nothing;
     std::uint64_t steps = 0;
     bool running = false;
-    std::exception_ptr thrown; ///< by a callback
+    std::exception_ptr thrown; ///< exception thrown by a callback
     std::size_t used = 0;      ///< [bytes]
     std::string traceback;
     lua_State* lua = nullptr;
@@ -145,7 +146,7 @@ struct Interpreter::State {
     static int open(lua_State* L);
     static int print(lua_State* L);
 
-    /// Call back; what it throws is kept, and the run stops.
+    /// Run a callback. An exception is stored, and stops the run.
     template <class Body>
     void call_back(Body&& body) noexcept
     {
@@ -164,14 +165,14 @@ struct Interpreter::State {
             });
     }
 
-    /// Of a run: a pending request to stop ends it at once.
+    /// For a run: a pending request to stop ends it at once.
     void start(bool is_run);
     void end() noexcept;
     [[noreturn]] void fail(int status);
     void call(int arguments, int results, bool is_run = true);
     Value value_at(int index) const;
 
-    /// Run `work(L)` protected; what it pushes is left on the stack.
+    /// Run `work(L)` in a protected call; the values that it pushes stay on the stack.
     template <class Work>
     void protect(const Work& work)
     {
@@ -196,7 +197,7 @@ struct Interpreter::State {
 void* Interpreter::State::allocate(void* state, void* block, std::size_t old_size, std::size_t new_size)
 {
     State& self = *static_cast<State*>(state);
-    if (!block) old_size = 0; // Lua then gives a kind of object instead
+    if (!block) old_size = 0; // Lua then passes the type of an object instead
     const std::size_t limit = self.options.memory;
     if (new_size > old_size && limit > 0 && self.used + (new_size - old_size) > limit) return nullptr;
     void* moved = nullptr;
@@ -210,7 +211,8 @@ void* Interpreter::State::allocate(void* state, void* block, std::size_t old_siz
     return moved;
 }
 
-/// Runs every so many instructions. Once asked to stop it raises at every one, so that no pcall can go on.
+/// Called every kHookInstructions instructions. After a request to stop it raises at every one, so that no
+/// pcall can continue.
 void Interpreter::State::hook(lua_State* L, lua_Debug*)
 {
     State& self = of(L);
@@ -229,7 +231,7 @@ void Interpreter::State::hook(lua_State* L, lua_Debug*)
     luaL_error(L, "interrupted");
 }
 
-/// Keeps the error as it is, and the traceback where one is wanted.
+/// Message handler: keeps the error value and, if requested, the traceback.
 int Interpreter::State::handle_message(lua_State* L)
 {
     State& self = of(L);
@@ -333,7 +335,7 @@ void Interpreter::State::end() noexcept
     lua_sethook(lua, nullptr, 0, 0);
 }
 
-/// Throw what the error on top of the stack says, and pop it.
+/// Throw the error on top of the stack, and pop it.
 void Interpreter::State::fail(int status)
 {
     const std::string kind = lua_typename(lua, lua_type(lua, -1));
@@ -354,7 +356,7 @@ void Interpreter::State::fail(int status)
         error.file = text_at(lua, first + 3);
         error.line = lua_isinteger(lua, first + 4) ? static_cast<int>(lua_tointeger(lua, first + 4)) : 0;
     } else {
-        // "recipe.lua:7: message", as Lua has it.
+        // Lua's own format: "recipe.lua:7: message".
         error.message = text;
         for (std::size_t colon = text.find(':'); colon != std::string::npos;
              colon = text.find(':', colon + 1)) {
@@ -371,7 +373,7 @@ void Interpreter::State::fail(int status)
     throw error;
 }
 
-/// Call the function under `arguments` values; what it returns is left on the stack.
+/// Call the function below `arguments` values; its results are left on the stack.
 void Interpreter::State::call(int arguments, int results, bool is_run)
 {
     if (!lua_checkstack(lua, LUA_MINSTACK)) throw std::bad_alloc();
@@ -382,20 +384,21 @@ void Interpreter::State::call(int arguments, int results, bool is_run)
     } const ended{*this};
     const PlainNumbers numbers;
     const int base = lua_gettop(lua) - arguments;
-    lua_pushcfunction(lua, handle_message); // for which Lua keeps room
+    lua_pushcfunction(lua, handle_message); // Lua reserves a stack slot for it
     lua_insert(lua, base);
     const int status = lua_pcall(lua, arguments, results, base);
     lua_remove(lua, base);
-    // Asked to stop while the last step ran, or by a recipe that caught the error: it did not do all it was
-    // to do.
+    // A stop was requested during the last instructions, or the recipe caught
+    // the error: the run is incomplete.
     if (is_run && (thrown || stop)) {
         lua_settop(lua, base - 1);
         const bool limited = why == Why::instructions;
         stop = false;
         if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
         if (!limited) throw Cancelled();
-        ScriptError error("lua.instructions", "the limit of " + std::to_string(options.instructions) +
-                                                  " instructions is over; raise it, or do less");
+        ScriptError error("lua.instructions",
+                          "the limit of " + std::to_string(options.instructions) +
+                              " instructions is exceeded; raise the option 'instructions'");
         error.message = error.what();
         throw error;
     }
@@ -456,7 +459,7 @@ Value Interpreter::run_file(const std::string& path, const std::vector<std::stri
     });
     int loaded = LUA_OK;
     self.protect([&](lua_State* L) {
-        // Bytecode can crash the machine that runs it.
+        // Bytecode can crash the interpreter.
         const char* const mode = self.options.sandbox ? "t" : nullptr;
         loaded = luaL_loadfilex(L, path == "-" ? nullptr : path.c_str(), mode);
         if (loaded != LUA_OK) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proof against accidents, not a wall: it keeps a recipe from files, processes and endless work, and does not
-// claim to hold whoever looks for faults in Lua, Gmsh or the C library.
+// Protects against accidents, not against attacks: it keeps a recipe from files, processes and endless loops,
+// but does not stop exploits of faults in Lua, Gmsh or the C library.
 #include "host/sandbox.h"
 
 #include "bindings/lacuna_lua.h"
@@ -18,7 +18,7 @@ const luaL_Reg kLibraries[] = {
     {"lacuna", luaopen_lacuna},       {nullptr, nullptr},
 };
 
-/// load() of text: upvalue 1 is Lua's own, and the mode is always "t".
+/// load() for text only: upvalue 1 is Lua's load, and the mode is always "t".
 int load_text(lua_State* L)
 {
     lua_settop(L, 4);
@@ -32,7 +32,7 @@ int load_text(lua_State* L)
     return lua_gettop(L) - 4;
 }
 
-/// require() of what is there already, which is `lacuna`.
+/// require() for modules that are already loaded: `lacuna` only.
 int require_known(lua_State* L)
 {
     const char* name = luaL_checkstring(L, 1);
@@ -43,7 +43,7 @@ int require_known(lua_State* L)
     return 1;
 }
 
-/// What os, io and the like say instead of "a nil value".
+/// Replacement for functions of os, io and others, for a better message than "a nil value".
 int refuse(lua_State* L)
 {
     return luaL_error(L, "the sandbox has no '%s'", lua_tostring(L, lua_upvalueindex(1)));

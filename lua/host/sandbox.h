@@ -5,8 +5,8 @@
 
 namespace lacuna::lua {
 
-/// Open the libraries that a recipe in the sandbox may have, `lacuna` among them, and take away from them
-/// what it must not have. Raises.
+/// Open the libraries that a recipe in the sandbox may use, including `lacuna`, and remove their unsafe
+/// functions. May raise a Lua error.
 void open_sandbox_libraries(lua_State* L);
 
 } // namespace lacuna::lua

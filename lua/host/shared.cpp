@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// The shared library is lacuna_host and all below it; what it shows is in exports.map.
+// The shared library contains lacuna_host and the libraries below it; exports.map lists its symbols.

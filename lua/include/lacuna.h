@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Recipes inside a host of any language: C, and whatever can call C.
+/* Runs recipes inside a host in C, or in a language that can call C.
  *
- * Nothing is thrown: calls return a status, and the last failure of an interpreter is kept in it.
+ * No exceptions: calls return a status, and the handle stores the last failure.
  *
- * Ownership. lacuna_open() gives a handle, which lacuna_close() ends. Every text that is returned belongs to
- * the handle and lasts until the next call with it. What is handed over is copied. A buffer belongs to the
- * recipe and lasts as long as a variable of the recipe holds it.
+ * Ownership. lacuna_open() creates a handle, lacuna_close() destroys it. A returned text belongs to the
+ * handle and is valid until the next call with it. Arguments are copied. A buffer belongs to the recipe and
+ * is valid as long as a variable of the recipe holds it.
  *
- * Threads. Any number of handles may be open at once, each used by one thread at a time; lacuna_cancel() may
- * be called from any thread and from signal handlers. Callbacks come on the thread that runs the recipe. They
- * may call lacuna_cancel() and nothing else with their handle.
+ * Threads. Several handles may be open at once, each used by one thread at a time; lacuna_cancel() may be
+ * called from any thread and from signal handlers. Callbacks are called on the thread that runs the recipe.
+ * The only function that they may call with their handle is lacuna_cancel().
  *
- * Paths name values: globals and their fields, as "mesh", "mesh.hexes", "list.1", "job.faces.2.area".
+ * Values are named by paths: a global and its fields, such as "mesh", "mesh.hexes", "list.1",
+ * "job.faces.2.area".
  */
 #ifndef LACUNA_H
 #define LACUNA_H
@@ -30,8 +31,8 @@ struct lua_State;
 
 typedef enum lacuna_status {
     LACUNA_OK = 0,
-    LACUNA_FAILED = 1,   /* lacuna_error_message() and the rest say why */
-    LACUNA_CANCELLED = 2 /* the host asked for it */
+    LACUNA_FAILED = 1,   /* see lacuna_error_message() and the others */
+    LACUNA_CANCELLED = 2 /* requested by the host */
 } lacuna_status;
 
 typedef enum lacuna_type {
@@ -45,24 +46,24 @@ typedef enum lacuna_type {
     LACUNA_OTHER = 7 /* a Model, Volume, Mesh, a function… */
 } lacuna_type;
 
-/* Fill it in with lacuna_default_options(), then change what is to be otherwise. */
+/* Initialise it with lacuna_default_options(), then change members. */
 typedef struct lacuna_options {
     size_t size; /* of this struct, so that later versions may add to it */
-    void* user;  /* handed to every callback; all of them may be null */
-    void (*print)(void* user, const char* text, size_t length);   /* null: to standard output */
-    void (*log)(void* user, const char* text, size_t length);     /* a note of the kernel */
-    int (*progress)(void* user, const char* stage, double share); /* share in [0, 1]; not 0 stops the run */
-    int (*cancelled)(void* user);                                 /* asked often; not 0 stops the run */
-    size_t memory;             /* most that Lua's own values may take [bytes]; 0: no limit */
-    uint64_t instructions;     /* most steps of Lua a run may take, to 10,000; 0: no limit */
-    const char* output_folder; /* with sandbox: files are written below it alone; null: nowhere */
+    void* user;  /* passed to every callback; callbacks may be null */
+    void (*print)(void* user, const char* text, size_t length);   /* null: prints to standard output */
+    void (*log)(void* user, const char* text, size_t length);     /* receives notes of the kernel */
+    int (*progress)(void* user, const char* stage, double share); /* in [0, 1]; not 0: stop the run */
+    int (*cancelled)(void* user);                                 /* called often; not 0: stop the run */
+    size_t memory;             /* limit on the memory of Lua's own values [bytes]; 0: none */
+    uint64_t instructions;     /* limit on the Lua instructions of a run, in steps of 10,000; 0: none */
+    const char* output_folder; /* with sandbox: the only folder for output files; null: none */
     int sandbox;               /* not 0: no os, io, debug, package or bytecode */
-    int traceback;             /* not 0: lacuna_error_traceback() has one */
-    int threads;               /* most that a sweep takes which asks for none itself; 0: all cores */
+    int traceback;             /* not 0: lacuna_error_traceback() returns one */
+    int threads;               /* default number of threads of a sweep; 0: all cores */
 } lacuna_options;
 
 typedef struct lacuna_buffer {
-    const void* data; /* rows × columns numbers, row after row */
+    const void* data; /* rows × columns numbers, row by row */
     size_t rows, columns;
     int type; /* 0: double, 1: int32_t */
 } lacuna_buffer;
@@ -70,30 +71,30 @@ typedef struct lacuna_buffer {
 LACUNA_API const char* lacuna_version(void);
 LACUNA_API void lacuna_default_options(lacuna_options* options);
 
-/* A handle, null only where there is no memory. `options` may be null. Where opening failed otherwise, as for
- * an output folder that is none, lacuna_error_message() says why, and every run fails in the same way. */
+/* Create a handle; null only if memory is exhausted. `options` may be null. If opening fails for another
+ * reason, such as a missing output folder, lacuna_error_message() gives it, and every run fails with it. */
 LACUNA_API lacuna_interpreter* lacuna_open(const lacuna_options* options);
-LACUNA_API void lacuna_close(lacuna_interpreter* interpreter); /* null: nothing happens */
+LACUNA_API void lacuna_close(lacuna_interpreter* interpreter); /* may be null */
 
 /* `words` are the key=value words for lacuna.params; null where `count` is 0. */
 LACUNA_API lacuna_status lacuna_run_file(lacuna_interpreter* interpreter, const char* path,
                                          const char* const* words, size_t count);
-/* `name` stands in messages where a file's name would; null: "recipe". */
+/* `name` replaces the file name in messages; null: "recipe". */
 LACUNA_API lacuna_status lacuna_run_string(lacuna_interpreter* interpreter, const char* text, size_t length,
                                            const char* name);
-/* Stop the run there is, or the next one. */
+/* Stop the current run, or the next one. */
 LACUNA_API void lacuna_cancel(lacuna_interpreter* interpreter);
 
-/* The last failure; "" and 0 where there is none. */
+/* The last failure; "" and 0 if there is none. */
 LACUNA_API const char* lacuna_error_text(
     const lacuna_interpreter* interpreter); /* file, line, message, code */
-LACUNA_API const char* lacuna_error_message(const lacuna_interpreter* interpreter); /* the message alone */
+LACUNA_API const char* lacuna_error_message(const lacuna_interpreter* interpreter); /* message only */
 LACUNA_API const char* lacuna_error_code(const lacuna_interpreter* interpreter);
 LACUNA_API const char* lacuna_error_file(const lacuna_interpreter* interpreter);
 LACUNA_API int lacuna_error_line(const lacuna_interpreter* interpreter);
 LACUNA_API const char* lacuna_error_traceback(const lacuna_interpreter* interpreter);
 LACUNA_API size_t lacuna_error_entity_count(const lacuna_interpreter* interpreter);
-/* The entity numbered `at` from 0; null where there is none. */
+/* The entity with index `at`, from 0; null if there is none. */
 LACUNA_API const char* lacuna_error_entity(const lacuna_interpreter* interpreter, size_t at, int64_t* tag);
 
 LACUNA_API lacuna_status lacuna_set_nil(lacuna_interpreter* interpreter, const char* path);
@@ -105,7 +106,7 @@ LACUNA_API lacuna_status lacuna_set_string(lacuna_interpreter* interpreter, cons
 LACUNA_API lacuna_status lacuna_set_numbers(lacuna_interpreter* interpreter, const char* path,
                                             const double* numbers, size_t count);
 
-/* Each fails where the value is of another kind; an integer is a number too. */
+/* Fail if the value has another type; an integer is a number too. */
 LACUNA_API lacuna_status lacuna_get_type(lacuna_interpreter* interpreter, const char* path,
                                          lacuna_type* type);
 LACUNA_API lacuna_status lacuna_get_boolean(lacuna_interpreter* interpreter, const char* path, int* value);
@@ -117,8 +118,8 @@ LACUNA_API lacuna_status lacuna_get_string(lacuna_interpreter* interpreter, cons
 LACUNA_API lacuna_status lacuna_get_buffer(lacuna_interpreter* interpreter, const char* path,
                                            lacuna_buffer* buffer);
 
-/* For a host that owns a lua_State: luaL_requiref(L, "lacuna", luaopen_lacuna, 0). It must be of the Lua that
- * this library is linked with, version 5.4. */
+/* For a host that owns a lua_State: luaL_requiref(L, "lacuna", luaopen_lacuna, 0). It must belong to the
+ * Lua library, version 5.4, that this library is linked with. */
 LACUNA_API int luaopen_lacuna(struct lua_State* L);
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: MIT
--- lacuna.params: a recipe's parameters, with the words key=value of the command line laid over them.
+-- lacuna.params: the parameters of a recipe, with the key=value words of the command line applied.
 local lacuna, internal = ...
 
 local function fail(...) internal.fail("lua.parameter", "params: " .. string.format(...)) end
 
--- The word as a value of the same type as `default`; nil where it is none.
+-- The word converted to the type of `default`; nil if this is impossible.
 local function value_like(default, word)
   local kind = type(default)
   if kind == "string" then return word end
@@ -15,11 +15,11 @@ end
 
 function lacuna.params(defaults)
   if type(defaults) ~= "table" then
-    fail("a table { name = default, ... } is wanted, found %s", internal.found(defaults))
+    fail("needs a table { name = default, ... }, found %s", internal.found(defaults))
   end
   local names = {}
   for name in pairs(defaults) do
-    if type(name) ~= "string" then fail("every parameter has a name, found %s", internal.found(name)) end
+    if type(name) ~= "string" then fail("every parameter needs a name, found %s", internal.found(name)) end
     names[#names + 1] = name
   end
   table.sort(names)
@@ -30,7 +30,7 @@ function lacuna.params(defaults)
     if not name then
       fail("'%s' on the command line is not of the form key=value", word)
     elseif defaults[name] == nil then
-      if #names == 0 then fail("unknown parameter '%s'; this recipe has none", name) end
+      if #names == 0 then fail("unknown parameter '%s'; this recipe has no parameters", name) end
       fail("unknown parameter '%s'; the nearest is '%s'. The parameters are: %s", name,
            internal.nearest(name, names), table.concat(names, ", "))
     end
@@ -38,9 +38,9 @@ function lacuna.params(defaults)
     if read == nil then
       local kind = type(defaults[name])
       if kind == "table" or kind == "function" then
-        fail("parameter '%s' is a %s, which the command line cannot give", name, kind)
+        fail("parameter '%s' is a %s and cannot be set on the command line", name, kind)
       end
-      fail("parameter '%s' must be a %s, as its default %s; found \"%s\"", name, kind,
+      fail("parameter '%s' must be a %s like its default %s; found \"%s\"", name, kind,
           tostring(defaults[name]), value)
     end
     defaults[name] = read

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: MIT
--- lacuna.synthetic: open volumes of any class and size, for trials and benchmarks.
+-- lacuna.synthetic: open volumes of any class and size, for tests and benchmarks.
 --
--- Each one is a section, which is a list of closed loops in the plane (the outer one counter-clockwise, holes
--- clockwise), swept along an axis by a map (x, y, t) -> point with t in [0, 1]. Faces that meet take their
--- common points from the same call with the same numbers, so they agree to the bit.
+-- Each volume is a section (a list of closed loops in the plane, the outer one counter-clockwise, holes
+-- clockwise) swept along an axis by a map (x, y, t) -> point with t in [0, 1]. Adjacent faces compute their
+-- common points by the same call with the same numbers, so the points agree to the bit.
 local lacuna, internal = ...
 local synthetic = {}
 lacuna.synthetic = synthetic
@@ -13,7 +13,7 @@ local pi, sin, cos = math.pi, math.sin, math.cos
 -- --- options
 -- ---------------------------------------------------------------------------------------------------
 
--- What a value must be: a test and its words.
+-- Kinds of option values: a test and its description.
 local kinds = {
   number = { function(v) return v == v and v ~= math.huge and v ~= -math.huge end, "a number" },
   positive = { function(v) return v > 0 and v < math.huge end, "a positive number" },
@@ -27,18 +27,18 @@ local function fail(call, ...)
   internal.fail("lua.bad_value", "synthetic." .. call .. ": " .. string.format(...))
 end
 
--- Facets a synthetic volume may have; a recipe that asks for more has an option wrong, or wants a file.
+-- Limit on the facets of a synthetic volume; more are a mistake, or belong in a file.
 local most_facets = 2e7
 
--- Refuse a rim, before it is made, that alone would have as many.
+-- Refuse a rim that alone would exceed the limit, before it is made.
 local function check_rim(call, points, options)
   if not (2 * points <= most_facets) then
-    fail(call, "the walls would have %.3g facets, and %.3g are the most; lower %s", 2 * points,
+    fail(call, "the walls would have %.3g facets, the limit is %.3g; reduce %s", 2 * points,
          most_facets, options)
   end
 end
 
--- Options laid over their defaults. spec: key -> { default, kind }.
+-- Options merged with their defaults. spec: key -> { default, kind }.
 local function read_options(call, spec, given)
   if given == nil then given = {} end
   if type(given) ~= "table" then
@@ -51,7 +51,7 @@ local function read_options(call, spec, given)
   for _, key in ipairs(keys) do known[key] = true end
   for key, value in pairs(given) do
     if type(key) ~= "string" then
-      fail(call, "%s stands among the options without a name; write key = value", internal.found(value))
+      fail(call, "%s is an option without a name; write key = value", internal.found(value))
     elseif not known[key] then
       fail(call, "unknown option '%s'; the nearest is '%s'. The keys are: %s", key,
           internal.nearest(key, keys),
@@ -77,7 +77,7 @@ local function read_options(call, spec, given)
   return read, given.drop
 end
 
--- The faces to leave out, as a set; "walls" stands for every wall.
+-- The set of faces to leave out; "walls" means every wall.
 local function read_drop(call, drop, names)
   local left_out = {}
   if drop == nil then return left_out end
@@ -109,8 +109,8 @@ end
 -- --- sections
 -- ----------------------------------------------------------------------------------------------------
 
--- A loop: points {x, y}, and the numbers of those that are corners; between corners runs one wall. A loop
--- without corners is one closed wall.
+-- A loop: points {x, y}, and the indices of its corners; there is one wall between consecutive corners. A
+-- loop without corners is one closed wall.
 local function reversed(loop)
   local points, corners, n = {}, {}, #loop.points
   for i = 1, n do points[i] = loop.points[(n + 1 - i) % n + 1] end  -- starts at the same point
@@ -121,7 +121,7 @@ local function reversed(loop)
   return { points = points, corners = corners }
 end
 
--- A regular polygon, or a polygon through `corners`, with each side cut into `cuts`.
+-- A regular polygon, or a polygon through `corners`, with each side divided into `cuts`.
 local function polygon(corners, cuts)
   local loop = { points = {}, corners = {} }
   for i, a in ipairs(corners) do
@@ -153,7 +153,7 @@ end
 -- --- sweeping a section along
 -- ----------------------------------------------------------------------------------------
 
--- Source and target: the section at t = 0 seen from below, at t = 1 from above.
+-- Source and target: the section at t = 0 seen from below, and at t = 1 seen from above.
 local function end_face(section, map, t)
   local flat, loops = {}, {}
   for l, loop in ipairs(section) do
@@ -172,7 +172,7 @@ local function end_face(section, map, t)
   return points, cells
 end
 
--- The wall over points `from`..`to` of a loop (`to` may run past the end; the whole loop makes a closed
+-- The wall over points `from`..`to` of a loop (`to` may exceed the last point; the whole loop gives a closed
 -- wall).
 local function wall_face(loop, from, to, map, levels)
   local points, cells, n = {}, {}, #loop.points
@@ -195,7 +195,7 @@ local function wall_face(loop, from, to, map, levels)
   return points, cells
 end
 
--- The walls of a section: { loop, from, to }, the outer loop's first.
+-- The walls of a section: { loop, from, to }, those of the outer loop first.
 local function walls_of(section)
   local walls = {}
   for _, loop in ipairs(section) do
@@ -212,8 +212,8 @@ local function build(call, section, map, levels, drop)
   local around = 0
   for _, loop in ipairs(section) do around = around + #loop.points end
   if not (2 * around * levels <= most_facets) then
-    fail(call, "the walls would have %.3g facets, and %.3g are the most; "
-        .. "lower 'twist', 'bend', 'angle' or 'facets'",
+    fail(call, "the walls would have %.3g facets, the limit is %.3g; "
+        .. "reduce 'twist', 'bend', 'angle' or 'facets'",
          2 * around * levels, most_facets)
   end
   local walls = walls_of(section)
@@ -231,7 +231,7 @@ local function build(call, section, map, levels, drop)
   return model
 end
 
--- A straight axis along z, or one bent towards +x by `bend` degrees with the same length.
+-- A straight axis along z, or one of the same length that bends towards +x by `bend` degrees.
 local function axis(height, bend)
   local angle = math.rad(bend)
   if angle == 0 then return function(x, y, t) return x, y, height * t end end
@@ -241,7 +241,8 @@ local function axis(height, bend)
   end
 end
 
--- Rows of facets along a curved axis: as long as the section's own, and no turn above five degrees.
+-- Number of rows of facets along a curved axis: as long as the facets of the section, with at most five
+-- degrees each.
 local function levels_for(length, segment, turn)
   return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
 end
@@ -249,11 +250,11 @@ end
 -- --- the volumes
 -- -------------------------------------------------------------------------------------------------------
 
--- Regular holes in a regular prism: one in the middle, several on a circle.
+-- Regular polygonal holes in a regular prism: one in the centre, or several on a circle.
 local function prism_holes(call, o, cuts)
   local holes = {}
   if o.holes == 0 then return holes end
-  local inner = o.radius * cos(pi / o.sides)  -- of the circle that touches the sides
+  local inner = o.radius * cos(pi / o.sides)  -- radius of the inscribed circle
   local centre = o.holes == 1 and 0 or 0.55 * inner
   local room = o.holes == 1 and inner or math.min(centre * sin(pi / o.holes), inner - centre)
   local radius = o.hole_radius or 0.6 * room
@@ -277,7 +278,7 @@ function synthetic.prism(given)
   }, given)
   if o.bend ~= 0 and math.abs(o.height / math.rad(o.bend)) <= o.radius * math.max(1, o.taper) then
     fail("prism", "option 'bend' of %.6g degrees over height %.6g folds a prism of radius %.6g; "
-        .. "bend less or make it higher",
+        .. "reduce 'bend' or increase 'height'",
          o.bend, o.height, o.radius * math.max(1, o.taper))
   end
   local side = 2 * o.radius * sin(pi / o.sides)

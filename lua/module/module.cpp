@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// The module is the bindings and nothing else: luaopen_lacuna comes out of lacuna::lua (bindings/open.cpp).
+// The module contains the bindings only: luaopen_lacuna comes from lacuna::lua (bindings/open.cpp).

@@ -25,7 +25,7 @@ namespace {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// What a process writes to one of its streams, in a file without a name: it may be long.
+/// The output of a process on one of its streams, in an unnamed file, as it may be long.
 class Kept {
 public:
     Kept() : file_(std::tmpfile(), std::fclose)
@@ -56,7 +56,7 @@ struct Process {
     int status = 0;
 };
 
-/// The options that every recipe gets.
+/// The options that are passed on to every recipe.
 std::vector<std::string> options_of(const CommandLine& line)
 {
     std::vector<std::string> words{"--quiet"};
@@ -73,7 +73,7 @@ std::vector<std::string> options_of(const CommandLine& line)
     return words;
 }
 
-/// Begin a recipe in a process group of its own: Ctrl-C comes to it once, through this process.
+/// Start a recipe in its own process group, so that it gets Ctrl-C only once, from this process.
 Process begin(const Job& job, const std::vector<std::string>& options)
 {
     Process process{.recipe = job.recipe};
@@ -103,18 +103,18 @@ Process begin(const Job& job, const std::vector<std::string>& options)
     return process;
 }
 
-/// Signals that are met by sigwaitinfo() as long as this lives, and not by a handler.
+/// Blocks signals during its lifetime, for sigwaitinfo().
 class HeldSignals {
 public:
     HeldSignals()
     {
-        std::signal(SIGCHLD, SIG_DFL); // ignored, no end of a process would be told
+        std::signal(SIGCHLD, SIG_DFL); // if it were ignored, the end of a process would not be reported
         sigemptyset(&own_);
         sigaddset(&own_, SIGCHLD);
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
             struct sigaction now = {};
             sigaction(signal, nullptr, &now);
-            if (now.sa_handler != SIG_IGN) sigaddset(&own_, signal); // as nohup wants it
+            if (now.sa_handler != SIG_IGN) sigaddset(&own_, signal); // keep signals that nohup ignores
         }
         sigprocmask(SIG_BLOCK, &own_, &before_);
     }
@@ -133,7 +133,7 @@ private:
     sigset_t own_{}, before_{};
 };
 
-/// Take note of processes that ended.
+/// Collect processes that have ended.
 std::size_t reap(std::vector<Process>& processes)
 {
     std::size_t ended = 0;
@@ -145,7 +145,7 @@ std::size_t reap(std::vector<Process>& processes)
     return ended;
 }
 
-/// Print what a process wrote, and how it failed.
+/// Print the output of a process and, if it failed, how.
 void tell(const Process& process)
 {
     process.out.write_to(stdout);

@@ -6,12 +6,12 @@
 
 namespace lacuna::program {
 
-/// Run the recipes of the line side by side, `line.jobs` at once, each in a process of its own with the
-/// line's options: what ends one ends no other.
+/// Run the recipes of the command line in parallel, `line.jobs` at a time, each in its own process with the
+/// options of the command line, so that a crash ends one recipe only.
 ///
-/// What a recipe prints comes whole, in the order of the line, on the stream it printed to. Of each that
-/// fails its name and exit code follow on standard error. Ctrl-C, SIGTERM and SIGHUP are passed on to those
-/// that run, and no other is begun.
+/// The output of each recipe is printed as a whole, in the order of the command line, on the stream it was
+/// written to. For recipes that fail, name and exit code follow on standard error. Ctrl-C, SIGTERM and SIGHUP
+/// are passed on to the running recipes, and no further recipe is started.
 /// @return  `failed` where any recipe failed.
 Exit run_batch(const CommandLine& line);
 

@@ -7,9 +7,9 @@
 
 namespace lacuna::program {
 
-/// A Lua source of the program, loaded and left on the stack. @pre there is one of that name.
+/// Load a Lua source that is part of the program, and push it on the stack. @pre the name exists
 lua_State* push_chunk(Interpreter& interpreter, const char* name);
-/// The text of one. @pre as above
+/// The text of such a source. @pre the name exists
 const char* chunk_text(const char* name);
 
 } // namespace lacuna::program

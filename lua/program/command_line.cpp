@@ -3,6 +3,8 @@
 
 #include "bindings/options.h"
 
+#include <lacuna/io/formats.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -21,78 +23,78 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
        lacuna [option ...] -j N RECIPE [key=value ...] RECIPE [key=value ...] ...
        lacuna [option ...] -i
 
-  RECIPE [key=value ...]  run a recipe, with parameters changed; - reads it from standard input
+  RECIPE [key=value ...]  run a recipe with these parameters; - reads it from standard input
   RECIPE --help           list the parameters that it declares with lacuna.params
-  -j N RECIPE ...         run recipes side by side, N at once, each in a process of its own; what each
-                          prints comes whole, in this order
-  -i                      a prompt; help there says what there is, exit leaves it
+  -j N RECIPE ...         run recipes in parallel, N at a time, each in its own process; their outputs are
+                          printed one after the other, in this order
+  -i                      start a prompt; type help for an overview, exit to leave
 )";
 
 const char* const kOptionHelp = R"(
-  --verbose               what the kernel notes as it works, on standard error
-  --quiet                 no progress on standard error: a line on a terminal, elsewhere one every 5 seconds
-  --timing FILE           seconds by stage as a line of JSON into FILE; - for standard error
-  --traceback             where in the recipe an error came from, call by call
-  --threads N             most threads where a recipe asks for none; default all cores, with -j its share
-  --history FILE          of the prompt: lines typed are kept there; default $LACUNA_HISTORY, else nowhere
-  --sandbox               no os, io or bytecode; limits on memory and time; no file is written
-    --output-dir FOLDER   ... but below this folder
+  --verbose               print the notes of the kernel on standard error
+  --quiet                 print no progress (by default a line on a terminal, else one every 5 seconds)
+  --timing FILE           write the seconds by stage as a line of JSON to FILE; - for standard error
+  --traceback             print the calls of the recipe that led to an error
+  --threads N             threads for recipes that set none; default all cores, with -j a share of them
+  --history FILE          keep the lines typed at the prompt; default $LACUNA_HISTORY, else none
+  --sandbox               no os, io or bytecode; memory and time are limited; no file can be written
+    --output-dir FOLDER   ... except below this folder
     --memory MB           default 2048
     --seconds S           default 300
-  --version, --help       COMMAND --help says more about one
+  --version, --help       COMMAND --help explains a command
 
 exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 terminated
 )";
 
-/// A word that does something with files; lua/program/commands.lua has what it does.
+/// A command for files, implemented in lua/program/commands.lua.
 struct Command {
     const char* name;
-    const char* files;  ///< in capitals, one a file
-    std::size_t count;  ///< of files
-    const char* option; ///< of its own; null: none
+    const char* files;  ///< names of the files, in capitals
+    std::size_t count;  ///< number of files
+    const char* option; ///< the command's own option; null: none
     const char* summary;
     const char* help;
 };
 
 const Command kCommands[] = {
-    {"info", "FILE", 1, "--json", "the faces of a file, and the roles and class they seem to have",
+    {"info", "FILE", 1, "--json", "list the faces of a file, their likely roles and the class",
      R"(
-Reads CAD, facets or a finite element mesh, and prints a line a face: its tag, which is the one Gmsh
-shows, its kind with its sizes, area, centre, normal, box, edges, neighbours and what it may be. Then free
-edges, gaps and the tolerance that sews them, pockets and bores; the roles and the class of the open volume
-that the faces bound, where they can be found. A recipe names faces by these tags:
+Reads CAD, facets or a finite element mesh, and prints one line for each face: its tag (the same as in
+Gmsh), type, dimensions, area, centre, normal, box, edges, neighbours and likely role. Then it lists free
+edges, gaps and the tolerance that sews them, pockets and bores and, if they can be determined, the roles
+and the class of the open volume. Recipes name faces by these tags:
 part:open_volume { source = 12, target = 31 }.
 
-  --json   what model:info() says, with file =, class =, roles = or roles_refused =, for scripts
+  --json   print the result of model:info(), with file =, class =, roles = or roles_refused =, for scripts
 )"},
-    {"view", "FILE", 1, "--faces", "a page of its cells or faces, for a browser",
+    {"view", "FILE", 1, "--faces", "make a page of its cells or faces, for a browser",
      R"(
-Writes FILE.view.html into the folder it is called in, from any file that is read. The page needs nothing
-else: open it in a browser. A mesh or deck with solid cells is shown as cells, to be cut and coloured; any
-other file as faces, to be picked by clicking and copied as roles.
+Writes FILE.view.html into the current folder, for any file that can be read. The page is self-contained:
+open it in a browser. A mesh or deck with solid cells is shown as cells, which can be cut and coloured; any
+other file as faces, which can be selected and copied as roles.
 
-  --faces  the faces of a mesh or deck too, where its voids are to be filled
+  --faces  show faces for a mesh or deck too, to fill its voids
 )"},
-    {"check", "FILE", 1, "--json", "a mesh and its quality; exit code 1 when a cell is invalid",
+    {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
      R"(
-Reads the hexahedra and wedges of a mesh: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh.
-Prints counts, a histogram of the scaled Jacobian and a line a metric. A cell is valid when its Jacobian is
-proved positive everywhere in it. The exit code is 1 when one is not.
+Reads the hexahedra and wedges of a mesh: %MESHES.
+Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
+Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is invalid.
 
-  --json   every number that is printed, and the worst cells, for scripts
+  --json   print all numbers and the worst cells as JSON, for scripts
 )"},
-    {"convert", "IN OUT", 2, nullptr, "a mesh or deck from one format to another",
+    {"convert", "IN OUT", 2, nullptr, "convert a mesh or deck to another format",
      R"(
-Reads a mesh, .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .mesh .stl .obj, and writes it in the
-format that OUT's ending says: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e. Nodes, elements, their
-numbers, regions and sets are kept. What the format cannot hold is named on standard error.
+Reads a mesh, %READ, and writes it in the
+format given by the ending of OUT: %WRITTEN. Nodes, elements, their numbers,
+regions and sets are kept. Data that the format cannot store is listed on standard error.
 )"},
 };
 
 const char* const kFlags[] = {"--output-dir", "--memory",  "--seconds", "--history", "--threads",
                               "--timing",     "--sandbox", "--verbose", "--quiet",   "--traceback",
                               "--version",    "--help",    "--json",    "--faces"};
-constexpr std::size_t kFlagsWithValue = 6; ///< the first ones
+constexpr std::size_t kFlagsWithValue = 6; ///< the flags with a value come first
 
 const Command* find_command(const std::string& name)
 {
@@ -101,7 +103,7 @@ const Command* find_command(const std::string& name)
     return found == std::end(kCommands) ? nullptr : found;
 }
 
-/// " did you mean info?" where a command is like the word; else which commands there are.
+/// "did you mean info?" if the word is similar to a command; else the list of commands.
 std::string like_command(const std::string& word)
 {
     const char* names[std::size(kCommands) + 1] = {"help"};
@@ -111,20 +113,20 @@ std::string like_command(const std::string& word)
         all += std::string(kCommands[i].name) + ", ";
     }
     const std::string near = names[nearest_word(word.c_str(), names)];
-    constexpr std::size_t kSlips = 2; // two letters changed places, or one that is wrong, missing or too many
+    constexpr std::size_t kSlips = 2; // edits: two letters swapped, or one that is wrong, missing or extra
     if (near.starts_with(word) || edit_distance(word.c_str(), near.c_str()) <= kSlips)
         return "did you mean " + near + "?";
     return "the commands are " + all + "help";
 }
 
-/// Whether a word can only be a command: it names no file, and no recipe that is missing.
+/// Whether a word looks like a command: it is not the name of a file or of a missing recipe.
 bool is_misspelt(const std::string& word)
 {
     std::error_code error;
     return word.find_first_of("./") == std::string::npos && !std::filesystem::exists(word, error);
 }
 
-/// Words as the rest of this file reads them: -j4 and --threads=4 are two each.
+/// Split options from their values: -j4 and --threads=4 become two words each.
 std::vector<std::string> split_words(const std::vector<std::string>& all)
 {
     std::vector<std::string> words;
@@ -152,7 +154,7 @@ bool is_parameter(const std::string& word)
     return true;
 }
 
-/// Reads words from the left, option values included.
+/// The words of the command line, read from left to right.
 struct Words {
     const std::vector<std::string>& all;
     std::size_t next = 0;
@@ -161,15 +163,15 @@ struct Words {
     const std::string& take() { return all[next++]; }
     const std::string& value_of(const std::string& flag)
     {
-        if (empty() || all[next].starts_with("--")) throw BadUsage(flag + " wants a value");
+        if (empty() || all[next].starts_with("--")) throw BadUsage(flag + " needs a value");
         return take();
     }
-    /// The name of a file that is written: no recipe's, which would be lost.
+    /// The name of an output file. A recipe is refused, as it would be overwritten.
     const std::string& file_of(const std::string& flag)
     {
         const std::string& name = value_of(flag);
         if (name.ends_with(".lua"))
-            throw BadUsage(flag + " wants the name of a file to write, found a recipe, " + name);
+            throw BadUsage(flag + " needs the name of an output file, found the recipe " + name);
         return name;
     }
     int count_of(const std::string& flag)
@@ -177,7 +179,7 @@ struct Words {
         constexpr double kMost = 1024;
         const double value = positive_value_of(flag);
         if (value != std::floor(value) || value > kMost)
-            throw BadUsage(flag + " wants a whole number from 1 to 1024, found " + all[next - 1]);
+            throw BadUsage(flag + " needs an integer from 1 to 1024, found " + all[next - 1]);
         return static_cast<int>(value);
     }
     double positive_value_of(const std::string& flag)
@@ -186,12 +188,12 @@ struct Words {
         char* end = nullptr;
         const double value = std::strtod(word.c_str(), &end);
         if (*end != '\0' || !std::isfinite(value) || value <= 0)
-            throw BadUsage(flag + " wants a positive number, found " + word);
+            throw BadUsage(flag + " needs a positive number, found " + word);
         return value;
     }
 };
 
-/// A flag with its value; false where the word is none.
+/// Read an option with its value; false if the word is not an option.
 bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& limits)
 {
     if (word == "--sandbox")
@@ -219,7 +221,7 @@ bool read_flag(const std::string& word, Words& words, CommandLine& line, bool& l
     return true;
 }
 
-/// What comes after the word of a command: its flags before, between or after its files.
+/// Read the words after a command: options and files in any order.
 void read_command(const Command& command, Words& words, CommandLine& line)
 {
     line.action = Action::command;
@@ -235,19 +237,20 @@ void read_command(const Command& command, Words& words, CommandLine& line)
             line.option = true;
         else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
             throw BadUsage(std::string(command.name) + " has no option " + word + "; `lacuna " +
-                           command.name + " --help` says what it has");
+                           command.name + " --help` lists its options");
         else if (word[0] != '-' || word == "-")
             line.words.push_back(word);
     }
-    if (limits) throw BadUsage("--output-dir, --memory and --seconds go before " + std::string(command.name));
-    const std::string wants = std::string(command.name) + " wants " +
+    if (limits)
+        throw BadUsage("write --output-dir, --memory and --seconds before " + std::string(command.name));
+    const std::string wants = std::string(command.name) + " needs " +
                               (command.count == 1 ? "a file" : "two files") + ", " + command.files;
     if (line.words.size() < command.count) throw BadUsage(wants);
     if (line.words.size() > command.count)
         throw BadUsage(wants + "; found " + line.words[command.count] + " too");
 }
 
-/// Recipes, and behind each its parameters.
+/// Read recipes, each followed by its parameters.
 void read_batch(Words& words, CommandLine& line)
 {
     line.action = Action::batch;
@@ -257,15 +260,15 @@ void read_batch(Words& words, CommandLine& line)
         if (is_parameter(word) && !line.batch.empty())
             line.batch.back().words.push_back(word);
         else if (is_parameter(word) || word.starts_with("-"))
-            throw BadUsage("-j wants recipes, each with its key=value words behind it, found " + word);
+            throw BadUsage("-j needs recipes, each followed by its key=value words; found " + word);
         else
             line.batch.push_back({word, {}});
     }
-    if (line.batch.empty()) throw BadUsage("recipes are wanted after -j");
-    if (!line.timing.empty()) throw BadUsage("--timing is of one recipe, and goes without -j");
+    if (line.batch.empty()) throw BadUsage("write at least one recipe after -j N");
+    if (!line.timing.empty()) throw BadUsage("--timing works for one recipe only, without -j");
 }
 
-/// A word behind a recipe.
+/// Read a word after the recipe.
 void read_parameter(const std::string& word, CommandLine& line)
 {
     if (word == "--help" || word == "-h") {
@@ -281,7 +284,7 @@ void read_parameter(const std::string& word, CommandLine& line)
     }
 }
 
-/// The word that says what is to be done, and what belongs to it.
+/// Read the word that selects the action, and the words that belong to it.
 void read_action(const std::string& word, Words& words, CommandLine& line)
 {
     if (word == "--version")
@@ -306,7 +309,7 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
         throw BadUsage("unknown option " + word + "; the nearest is " + kFlags[near]);
     } else if (word != "-" && is_misspelt(word)) {
         throw BadUsage(
-            "there is no command and no file " + word + "; " +
+            "there is no command or file " + word + "; " +
             (std::filesystem::exists(word + ".lua") ? "did you mean " + word + ".lua?" : like_command(word)));
     } else {
         line.action = Action::run;
@@ -317,12 +320,28 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
 
 } // namespace
 
+namespace {
+
+/// The endings of formats in the place of their words.
+std::string with_endings(std::string text)
+{
+    const std::pair<std::string_view, std::string> words[] = {
+        {"%MESHES", io::endings_of([](const io::Format& of) { return of.is_read && of.is_mesh; })},
+        {"%READ", io::endings_of([](const io::Format& of) { return of.is_read; })},
+        {"%WRITTEN", io::endings_of([](const io::Format& of) { return of.has_option("with"); })}};
+    for (const auto& [word, endings] : words)
+        if (const std::size_t at = text.find(word); at != text.npos) text.replace(at, word.size(), endings);
+    return text;
+}
+
+} // namespace
+
 std::string help_text(const std::string& name)
 {
     if (const Command* command = find_command(name))
         return std::string("usage: lacuna ") + command->name +
                (command->option ? std::string(" [") + command->option + "] " : " ") + command->files + "\n" +
-               command->help;
+               with_endings(command->help);
     std::string text = kHelp;
     for (const Command& command : kCommands) {
         std::string left = std::string("  ") + command.name + " " + command.files;
@@ -338,18 +357,18 @@ CommandLine parse(const std::vector<std::string>& given)
     const std::vector<std::string> all = split_words(given);
     Words words{all};
     bool limits = false;
-    if (words.empty()) throw BadUsage("a recipe is wanted");
+    if (words.empty()) throw BadUsage("the name of a recipe or a command is missing");
     while (!words.empty()) {
         const std::string word = words.take();
         if (read_flag(word, words, line, limits)) {
-            if (words.empty()) throw BadUsage("a recipe is wanted after " + word);
+            if (words.empty()) throw BadUsage("the name of a recipe is missing after " + word);
             continue;
         }
         read_action(word, words, line);
         if (line.action == Action::help) break;
-        if (!words.empty()) throw BadUsage("nothing is expected after " + word + ", found " + words.take());
+        if (!words.empty()) throw BadUsage("too many words after " + word + ": " + words.take());
     }
-    if (limits && !line.sandbox) throw BadUsage("--output-dir, --memory and --seconds go with --sandbox");
+    if (limits && !line.sandbox) throw BadUsage("--output-dir, --memory and --seconds need --sandbox");
     return line;
 }
 

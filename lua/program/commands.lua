@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- The commands of the program: command, whether its own option was given, file, ...
+-- The commands of the program. Arguments: command, whether its own option is set, files.
 local command, option, first, second = ...
 local lacuna = require "lacuna"
 
@@ -20,7 +20,7 @@ end
 
 local encode
 
--- Keys in order, so that the same file gives the same text.
+-- Sort keys, so that the same file gives the same text.
 local function object(value)
   local keys, parts = {}, {}
   for key in pairs(value) do keys[#keys + 1] = key end
@@ -57,15 +57,15 @@ function commands.info()
     return print(encode(told))
   end
   print(model:describe())
-  print(found and "likely roles, no sweep was checked:\n" .. volume:describe() or
-    "likely roles: none found: " .. volume)
+  print(found and "likely roles (not checked by a sweep):\n" .. volume:describe() or
+    "no likely roles: " .. volume)
 end
 
 function commands.view()
   local page = first:match("[^/]*$") .. ".view.html"
   local shown = lacuna.view(first, page, { show = option and "faces" or "auto" })
   print("wrote " .. page .. "; open it in a browser")
-  if shown == "cells" then print("it shows cells; --faces shows faces, to fill voids between them") end
+  if shown == "cells" then print("it shows cells; use --faces to show faces, for filling voids") end
 end
 
 function commands.check()
@@ -73,7 +73,7 @@ function commands.check()
   if option then
     local told = {}
     for key, value in pairs(quality) do told[key] = value end
-    -- Metrics go by name; their places in the array repeat them.
+    -- Index metrics by name.
     local metrics = {}
     for _, metric in ipairs(told.metrics) do metrics[metric.name] = metric end
     told.metrics, told.file = metrics, first
@@ -92,19 +92,19 @@ function commands.convert()
   print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
 end
 
--- Make ready to list the parameters of the recipe `first`: whatever it calls of lacuna first ends its run, by
--- `second`, and is to be lacuna.params.
+-- List the parameters of the recipe `first`: the first function of lacuna that it calls ends its run, by
+-- `second`, and must be lacuna.params.
 function commands.parameters()
   local params = lacuna.params
   local function stop()
     second()
-    while true do end  -- until it is met, which no pcall of the recipe can catch
+    while true do end  -- until the hook ends the run, which no pcall of the recipe can catch
   end
   local function stopping(owner, prefix)
     for name, value in pairs(owner) do
       if type(value) == "function" then
         owner[name] = function()
-          print(("%s calls %s%s before lacuna.params; parameters that are declared first can be listed")
+          print(("%s calls %s%s before lacuna.params; call lacuna.params first to list parameters")
               :format(first, prefix, name))
           stop()
         end
@@ -114,7 +114,7 @@ function commands.parameters()
   stopping(lacuna.synthetic, "lacuna.synthetic.")
   stopping(lacuna, "lacuna.")
   function lacuna.params(defaults)
-    params(defaults)  -- refuses what is no table of defaults
+    params(defaults)  -- raises an error if this is not a table of defaults
     local names, lines, widest = {}, {}, 0
     for name in pairs(defaults) do names[#names + 1] = name end
     table.sort(names)
@@ -123,7 +123,7 @@ function commands.parameters()
       local simple = kind == "number" or kind == "string" or kind == "boolean"
       lines[i] = ("  %s=%s"):format(name, simple and tostring(defaults[name]) or "...")
       widest = math.max(widest, #lines[i])
-      names[i] = kind .. (simple and "" or ", not to be changed here")
+      names[i] = kind .. (simple and "" or ", cannot be set on the command line")
     end
     for i, line in ipairs(lines) do lines[i] = line .. (" "):rep(widest + 2 - #line) .. names[i] end
     print(("usage: lacuna %s [key=value ...]\n\nparameters and their defaults:\n%s"):format(first,

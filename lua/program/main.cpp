@@ -35,7 +35,7 @@ local lacuna = require "lacuna"
 print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
 )lua";
 
-/// Run a recipe as far as its call of lacuna.params, which lists what it declares.
+/// Run a recipe until it calls lacuna.params, and list the parameters that it declares.
 void list_parameters(const std::string& recipe, lacuna::Interpreter& interpreter)
 {
     struct Listing {
@@ -69,7 +69,7 @@ void run_action(const CommandLine& line, lacuna::Interpreter& interpreter, Progr
     case Action::run:
         interpreter.run_file(line.file, line.words);
         if (!line.words.empty() && !interpreter.words_used())
-            std::fprintf(stderr, "lacuna: note: %s changed nothing: %s does not call lacuna.params\n",
+            std::fprintf(stderr, "lacuna: note: %s had no effect: %s does not call lacuna.params\n",
                          line.words.front().c_str(), line.file.c_str());
         break;
     case Action::parameters:
@@ -112,7 +112,7 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
     options.traceback = line.traceback;
     options.threads = line.threads;
     options.crew = crew;
-    // What a format cannot hold, and what a mesh lacks, is said by notes.
+    // Notes say what the output format cannot store, and what a mesh lacks.
     const bool all = line.verbose || line.command == "convert";
     options.log = [&progress, all](std::string_view text) {
         constexpr std::string_view kEstimate = "estimate: ";
@@ -130,7 +130,7 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
         explicit Watched(lacuna::Interpreter* own) { watch_interrupts(own); }
         ~Watched() { watch_interrupts(nullptr); }
     } const watched(&interpreter);
-    const auto tell_times = [&] { // of what fails, too
+    const auto tell_times = [&] { // of failed runs too
         if (line.timing.empty()) return;
         progress.clear();
         times.write(line.timing, line.file.empty() ? line.command : line.file, line.threads);
@@ -141,7 +141,7 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
         return Exit::done;
     } catch (const lacuna::Cancelled&) {
         progress.clear();
-        std::fflush(stdout); // what fails is told at the end
+        std::fflush(stdout); // print errors after all other output
         tell_times();
         return report_stop(line.seconds);
     } catch (const lacuna::ScriptError& error) {
@@ -156,13 +156,13 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
     }
 }
 
-/// Whether all that was printed arrived; a full disk behind standard output is an error as any other.
+/// Whether all output was written; a full disk is an error for standard output too.
 bool flushed()
 {
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
     std::fprintf(stderr, "lacuna: cannot write to standard output: %s\n",
-                 errno != 0 ? std::strerror(errno) : "some of it was lost");
+                 errno != 0 ? std::strerror(errno) : "some output was lost");
     return false;
 }
 
@@ -176,9 +176,9 @@ bool is_first() { return true; }
 Exit run_alone_or_not(const CommandLine& line) { return run(line, nullptr); }
 #endif
 
-/// Keep memory that is given back for what asks next: blocks of some megabytes come and go in every stage,
-/// and each would be mapped, filled with zeros and unmapped by the system. Larger ones still go back at once.
-/// Measured on a disc and a plate of 10⁶ hexahedra: half the page faults, 4 % of the processor's time.
+/// Keep freed memory for later allocations. Every stage allocates and frees blocks of some megabytes, each of
+/// which would be mapped, zeroed and unmapped by the system. Larger blocks are still returned at once.
+/// Measured on a disc and a plate of 10⁶ hexahedra: half the page faults, 4 % less processor time.
 void keep_freed_memory()
 {
 #if defined(__GLIBC__)
@@ -199,7 +199,8 @@ int main(int argc, char** argv)
         const Exit result = run_alone_or_not(parse(std::vector<std::string>(argv + 1, argv + argc)));
         return static_cast<int>(flushed() || result != Exit::done ? result : Exit::failed);
     } catch (const BadUsage& error) {
-        if (first) std::fprintf(stderr, "lacuna: %s\n`lacuna --help` says what there is\n", error.what());
+        if (first)
+            std::fprintf(stderr, "lacuna: %s\n`lacuna --help` lists commands and options\n", error.what());
         return static_cast<int>(Exit::bad_usage);
     } catch (const std::logic_error& error) {
         if (first) std::fprintf(stderr, "lacuna: %s\n", lacuna::lua::unexpected_text(error.what()).c_str());

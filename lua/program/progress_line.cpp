@@ -10,10 +10,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPatience = 500ms;    // shorter work shows nothing: a choice, not a measurement
-constexpr auto kStep = 100ms;        // between two drawings, so that a slow terminal costs no time
-constexpr auto kLineStep = 5s;       // between two lines where nothing can be drawn over: a choice
-constexpr double kLeastShare = 0.02; // of less nobody can say how long the rest takes: a choice
+constexpr auto kPatience = 500ms;    // shorter work shows no progress
+constexpr auto kStep = 100ms;        // between two updates, so that a slow terminal costs no time
+constexpr auto kLineStep = 5s;       // between two lines if not on a terminal
+constexpr double kLeastShare = 0.02; // below this fraction, the time left cannot be estimated
 
 } // namespace
 

@@ -12,22 +12,22 @@
 
 namespace lacuna::program {
 
-/// Says on standard error what the kernel is at: the stage, and where it tells its share how fast it goes and
-/// how long the rest may take. On a terminal it is one line, which is shown when a stage goes on for a while
-/// and goes away before anything else is written. Elsewhere it is a line every few seconds.
+/// Shows the progress of the kernel on standard error: the stage and, if its fraction is known, its speed and
+/// the estimated time left. On a terminal it is one line, shown if a stage takes long, and removed before
+/// other output. Elsewhere it prints a line every few seconds.
 class ProgressLine {
 public:
-    /// @param wanted  false: nothing is ever shown.
+    /// @param wanted  false: never show anything.
     explicit ProgressLine(bool wanted);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Fill in the callbacks that feed it.
+    /// Set the callbacks that report progress.
     void watch(InterpreterOptions& options);
-    /// Say with every stage of the call that runs how many cells it is expected to make.
+    /// Show the expected number of cells with every stage of the current call.
     void expect(std::string_view cells);
-    /// Nothing is shown until the next stage.
+    /// Remove the line until the next stage.
     void clear();
 
 private:
@@ -39,12 +39,12 @@ private:
     bool wanted_, terminal_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::string stage_;    ///< empty: nothing goes on
-    std::string expected_; ///< cells; empty: nobody knows
+    std::string stage_;    ///< empty: no stage is running
+    std::string expected_; ///< expected number of cells; empty: unknown
     double share_ = 0;
-    Clock::time_point begin_;       ///< of what goes on without a pause
-    Clock::time_point stage_begin_; ///< of the stage
-    Clock::time_point told_;        ///< when the last line was written, where there is no terminal
+    Clock::time_point begin_;       ///< start of the current series of stages
+    Clock::time_point stage_begin_; ///< start of the stage
+    Clock::time_point told_;        ///< time of the last line, if not on a terminal
     bool shown_ = false, ended_ = false;
     std::thread thread_;
 };

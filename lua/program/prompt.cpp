@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines and their editing; what a line means, shows and may go on with is in lua/program/prompt.lua.
+// Input and line editing. Evaluation, printing and completion are in lua/program/prompt.lua.
 #include "program/prompt.h"
 
 #include "program/chunks.h"
@@ -22,7 +22,7 @@ namespace lacuna::program {
 
 namespace {
 
-/// Call a function of prompt.lua with texts; what it returns.
+/// Call a function of prompt.lua with strings.
 Value ask(Interpreter& interpreter, const char* function, std::initializer_list<std::string_view> texts)
 {
     lua_State* const L = interpreter.state();
@@ -35,9 +35,9 @@ Value ask(Interpreter& interpreter, const char* function, std::initializer_list<
 
 #ifdef LACUNA_WITH_EDITLINE
 
-Interpreter* g_completing = nullptr; // editline hands its callbacks nothing of ours
+Interpreter* g_completing = nullptr; // callbacks of editline have no user data
 
-/// Files whose paths begin with `path`; folders with a slash behind.
+/// Files whose paths begin with `path`; folders get a slash at the end.
 std::vector<std::string> files_from(const std::string& path)
 {
     namespace fs = std::filesystem;
@@ -55,8 +55,8 @@ std::vector<std::string> files_from(const std::string& path)
     return files;
 }
 
-/// What `text`, at the end of what was typed, may go on with: one a line of prompt.lua's answer, which is
-/// the place where a path begins instead.
+/// Completions of `text`, the last word of the input. prompt.lua answers with one completion per line, or
+/// with the position at which a path begins.
 std::vector<std::string> words_for(const char* text)
 {
     std::vector<std::string> words;
@@ -77,7 +77,7 @@ std::vector<std::string> words_for(const char* text)
                 words.push_back(lines->substr(at, end - at));
                 at = end + 1;
             }
-    } catch (const std::exception&) { // no words then
+    } catch (const std::exception&) { // no completions
     }
     return words;
 }
@@ -100,7 +100,7 @@ char** complete_words(const char* text, int, int)
 
 #endif
 
-/// Where lines come from: an edited line with history at a terminal, plain ones elsewhere.
+/// Reads lines: with editing and history at a terminal, plain lines otherwise.
 class Lines {
 public:
     Lines(Interpreter& interpreter, std::string history)
@@ -123,13 +123,13 @@ public:
     {
 #ifdef LACUNA_WITH_EDITLINE
         if (edited_ && !history_.empty() && write_history(history_.c_str()) != 0)
-            std::fprintf(stderr, "lacuna: the history cannot be written to %s\n", history_.c_str());
+            std::fprintf(stderr, "lacuna: cannot write the history to %s\n", history_.c_str());
 #endif
     }
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    /// The next line; `given_up`: it was ended by Ctrl-C.
+    /// The next line; `given_up`: Ctrl-C was pressed.
     [[nodiscard]] std::optional<std::string> next(const char* prompt, bool& given_up) const
     {
         begin_idle();
@@ -167,7 +167,7 @@ private:
     std::string history_;
 };
 
-/// Run what was typed; asks for more lines while it is unfinished.
+/// Run a statement; read more lines while it is incomplete.
 void run_statement(Interpreter& interpreter, std::string text, const Lines& lines)
 {
     while (true) {
@@ -191,16 +191,16 @@ void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLi
     lua_State* const L = push_chunk(interpreter, "prompt");
     const char* const stub = chunk_text("lacuna");
     lua_pushstring(L, stub);
-    lua_createtable(L, 0, 3); // which the chunk fills
+    lua_createtable(L, 0, 3); // filled by the chunk
     lua_pushvalue(L, -1);
     lua_setfield(L, LUA_REGISTRYINDEX, "lacuna.prompt");
-    luaopen_debug(L); // a table of its own, which the sandbox's recipes do not see
+    luaopen_debug(L); // a separate table, hidden from recipes in the sandbox
     interpreter.call(3);
 
     const char* const named = std::getenv("LACUNA_HISTORY");
     const Lines lines(interpreter, !history.empty() ? history : named ? named : "");
     if (lines.at_terminal())
-        std::printf("lacuna %s, %s; help says what there is, exit leaves\n", LACUNA_VERSION, LUA_RELEASE);
+        std::printf("lacuna %s, %s; type help for an overview, exit to leave\n", LACUNA_VERSION, LUA_RELEASE);
     while (true) {
         bool given_up = false;
         const std::optional<std::string> line = lines.next("> ", given_up);
@@ -217,7 +217,7 @@ void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLi
         } catch (const Cancelled&) {
             progress.clear();
             std::fflush(stdout);
-            // SIGTERM and SIGHUP end the prompt as they end a recipe.
+            // SIGTERM and SIGHUP end the prompt like a recipe.
             if (report_stop(0) != Exit::interrupted) throw Cancelled();
         }
     }

@@ -9,9 +9,9 @@
 
 namespace lacuna::program {
 
-/// Read, run, print until the end of the input.
-/// @param history  file that lines typed are kept in; empty: that of LACUNA_HISTORY, else none.
-/// @throw ScriptError  the history cannot be kept there.
+/// Read statements, run them and print the results, until the end of the input.
+/// @param history  file for the lines typed; empty: that of LACUNA_HISTORY, else none.
+/// @throw ScriptError  the history file cannot be written.
 void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLine& progress);
 
 } // namespace lacuna::program

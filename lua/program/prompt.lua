@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- What the prompt does with a line: runs it, shows what comes out, completes words, and help, which reads the
--- stub of the language server, so that there is one description of each call.
+-- Evaluation of a line at the prompt: runs it, prints the results, completes words, and shows help. The help
+-- texts are read from the stub of the language server, so that each call is described in one place only.
 local stub, prompt, debug = ...
 
 lacuna = require "lacuna"
@@ -51,8 +51,8 @@ do
   end
 end
 
--- The class of options that a call takes, by its name; of several owners the first that has one. Some calls
--- have theirs in place: { sides?: integer, radius?: number }.
+-- The options class of a call, by the name of the call; the first one if several owners have it. Some calls
+-- declare their options in place: { sides?: integer, radius?: number }.
 local function options_of(name)
   for _, call in ipairs(calls) do
     if call.name == name and call.options then return classes[call.options] end
@@ -114,7 +114,7 @@ end
 local function nearest_word(word)
   local best, least = nil, math.huge
   local function try(name)
-    -- Letters in common, place by place: enough to tell a slip of the keyboard.
+    -- Number of equal letters at equal positions: enough to recognise a typing error.
     local same = 0
     for i = 1, math.min(#name, #word) do
       if name:sub(i, i):lower() == word:sub(i, i):lower() then same = same + 1 end
@@ -175,7 +175,7 @@ help = setmetatable({}, {
 
 -- --- showing what came out -----------------------------------------------------------------------------
 
-local most_entries, most_depth = 20, 3  -- of a table that is shown: a choice, so that it fits a screen
+local most_entries, most_depth = 20, 3  -- limits for printing tables, so that they fit a screen
 
 local function key_text(key)
   if type(key) == "string" and key:match("^[%a_][%w_]*$") then return key end
@@ -226,13 +226,13 @@ local function print_all(...)
   print(table.unpack(shown, 1, count))
 end
 
--- Whether a line leaves the prompt: exit or quit, unless the person has given the name a value.
+-- Whether a line leaves the prompt: exit or quit, unless the user has defined a variable of that name.
 function prompt.leaves(line)
   local word = line:match("^%s*(%a+)%s*%(?%s*%)?%s*;?%s*$")
   return (word == "exit" or word == "quit") and rawget(_G, word) == nil
 end
 
--- true: the statement only lacks its end, and `last` does not say that no more comes.
+-- Returns true if the statement is incomplete, unless `last` says that there is no further line.
 function prompt.run(text, last)
   local chunk, lacks = load("return " .. text, "=prompt", "t")
   if not chunk then
@@ -247,7 +247,7 @@ end
 
 -- --- completion ----------------------------------------------------------------------------------------
 
--- The value a dotted path names, found without running anybody's code.
+-- The value of a dotted path, found without calling metamethods.
 local function value_at(path)
   local value = _G
   for name in path:gmatch("[%w_]+") do
@@ -267,7 +267,7 @@ local function names_in(value)
   return names
 end
 
--- The call whose table of options is open at the end of `typed`, and where the text in quotes begins that is.
+-- The call whose table of options is open at the end of `typed`, and where an open string begins.
 local function open_call(typed)
   local opened = {}
   local quote, from
@@ -288,7 +288,7 @@ end
 local keywords = { "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in",
   "local", "nil", "not", "or", "repeat", "return", "then", "true", "until", "while" }
 
--- Words that `word`, the end of `typed`, may go on to, one a line; or where a path begins in `typed`.
+-- Completions of `word`, the end of `typed`, one per line; or the position in `typed` where a path begins.
 function prompt.complete(typed, word)
   local owner, start = word:match("^(.*[.:])([%w_]*)$")
   local found, names, tail = {}, nil, ""
@@ -305,7 +305,7 @@ function prompt.complete(typed, word)
     local call = open_call(typed:sub(1, #typed - #word))
     local class = call and options_of(call)
     names = {}
-    -- A key stands at the beginning of the table or after a comma.
+    -- A key is at the beginning of the table or after a comma.
     if class and typed:sub(1, #typed - #word):match("[{,]%s*$") then
       for _, field in ipairs(class.fields) do names[#names + 1] = field.name end
       tail = " = "

@@ -17,7 +17,7 @@ bool is_one_of_several() { return mpi::place_of_process().size > 1; }
 Exit run_as_several(const CommandLine& line, const std::function<Exit(const CommandLine&, const Crew*)>& run)
 {
     if (line.action == Action::batch)
-        throw BadUsage("-j goes without mpirun: it starts processes of its own");
+        throw BadUsage("-j cannot be used with mpirun: it starts its own processes");
     mpi::Ranks ranks;
     CommandLine own = line;
     if (own.threads == 0) own.threads = std::max(1, thread_count({}) / ranks.on_this_machine());
@@ -33,10 +33,11 @@ Exit run_as_several(const CommandLine& line, const std::function<Exit(const Comm
     const Exit result = run(own, &ranks.crew());
     const int size = ranks.place().size;
     if (line.action == Action::run && result == Exit::done && !ranks.were_called())
-        std::fprintf(stderr,
-                     "lacuna: note: the first of the %d processes did all: what they share is the layers "
-                     "of volume:sweep_to and assembly:sweep_to\n",
-                     size);
+        std::fprintf(
+            stderr,
+            "lacuna: note: the first of the %d processes did all the work; they only share the layers "
+            "of volume:sweep_to and assembly:sweep_to\n",
+            size);
     if (line.verbose) {
         const mpi::Traffic sent = ranks.traffic();
         std::fprintf(stderr, "lacuna: the first of %d processes sent %zu messages, %llu bytes\n", size,

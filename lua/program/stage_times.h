@@ -10,17 +10,17 @@
 
 namespace lacuna::program {
 
-/// Seconds by the stage of the work, of a whole run.
+/// Elapsed time of each stage of a run.
 class StageTimes {
 public:
-    /// Fill in the callbacks that feed it, over those there are.
+    /// Add callbacks that measure the stages, in addition to existing ones.
     void watch(InterpreterOptions& options);
 
-    /// As an object in JSON, in a line: `seconds` and `processor_seconds` of the process until now,
-    /// `peak_mib`, `threads` asked for, and `stages`, an array of { stage, seconds } in the order they began
-    /// in. What is left is "recipe": Lua, and work that tells no stage.
+    /// The times as a JSON object in one line: `seconds` and `processor_seconds` of the process so far,
+    /// `peak_mib`, `threads` requested, and `stages`, an array of { stage, seconds } in order of their start.
+    /// Time outside any stage (Lua, and work without progress) is the stage "recipe".
     [[nodiscard]] std::string to_json(const std::string& recipe, int threads) const;
-    /// Write that to a file, "-" for standard error. @throw std::runtime_error  it cannot be written.
+    /// Write the JSON to a file, "-" for standard error. @throw std::runtime_error  it cannot be written.
     void write(const std::string& path, const std::string& recipe, int threads) const;
 
 private:
@@ -33,7 +33,7 @@ private:
         double seconds = 0;
     };
     std::vector<Stage> stages_;
-    std::string stage_; ///< that goes on; empty: none
+    std::string stage_; ///< current stage; empty: none
     Clock::time_point start_ = Clock::now(), since_ = start_;
 };
 

@@ -11,21 +11,21 @@ namespace lacuna::program {
 
 namespace {
 
-// Signal handlers reach nothing but globals; these are the program's only ones.
+// Signal handlers can only use global variables; these are the only ones of the program.
 enum class Stop { none, interrupt, terminate, time };
 std::atomic<Stop> g_reason{Stop::none};
 std::atomic<Interpreter*> g_interpreter{nullptr};
-std::atomic<std::atomic<bool>*> g_cancel{nullptr}; ///< of a process that runs no recipe
+std::atomic<std::atomic<bool>*> g_cancel{nullptr}; ///< in a process that runs no recipe
 std::atomic<bool> g_idle{false};
-std::atomic<long> g_asked_at{0}; ///< when a stop was first asked for [ms]
+std::atomic<long> g_asked_at{0}; ///< time of the first request to stop [ms]
 
-/// A second Ctrl-C ends the process where the first was that long ago: keys come in twos. A choice [ms].
+/// A second Ctrl-C ends the process if the first was at least this long ago: keys may repeat [ms].
 constexpr long kOnPurpose = 1000;
 
 long now_ms()
 {
     timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now); // which a signal handler may call
+    clock_gettime(CLOCK_MONOTONIC, &now); // is async-signal-safe
     return now.tv_sec * 1000 + now.tv_nsec / 1000000;
 }
 
@@ -45,9 +45,9 @@ void on_signal(int signal)
         return;
     }
     Stop before = Stop::none;
-    if (!g_reason.compare_exchange_strong(before, reason)) { // asked before, and nothing came of it
+    if (!g_reason.compare_exchange_strong(before, reason)) { // a stop was requested before, without effect
         if (reason == Stop::interrupt && now_ms() - g_asked_at < kOnPurpose) return;
-        constexpr char kOver[] = "lacuna: stopped: the time limit is over\n";
+        constexpr char kOver[] = "lacuna: stopped: the time limit is exceeded\n";
         if (reason == Stop::time) {
             [[maybe_unused]] const auto written = write(STDERR_FILENO, kOver, sizeof kOver - 1);
         }
@@ -63,7 +63,7 @@ void catch_signals()
     struct sigaction action = {};
     action.sa_handler = on_signal;
     for (const int signal : {SIGINT, SIGALRM, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-    // A file that grows past a limit is then an error of writing, which is told, and not the end.
+    // Writing a file beyond a limit then gives an error message instead of a signal.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
@@ -88,7 +88,7 @@ Exit report_stop(double seconds)
 {
     const Stop reason = g_reason.exchange(Stop::none);
     if (reason == Stop::time)
-        std::fprintf(stderr, "lacuna: stopped: the time limit of %g seconds is over\n", seconds);
+        std::fprintf(stderr, "lacuna: stopped: the time limit of %g seconds is exceeded\n", seconds);
     else
         std::fprintf(stderr, "lacuna: %s\n", reason == Stop::terminate ? "terminated" : "interrupted");
     return exit_code(reason == Stop::none ? Stop::interrupt : reason);
@@ -97,7 +97,7 @@ Exit report_stop(double seconds)
 void begin_idle()
 {
     g_idle = true;
-    Stop late = Stop::interrupt; // came when the last run was over
+    Stop late = Stop::interrupt; // a stop that was requested after the last run had ended
     if (!g_reason.compare_exchange_strong(late, Stop::none)) return;
     if (Interpreter* const interpreter = g_interpreter) interpreter->resume();
 }

@@ -10,27 +10,26 @@ namespace lacuna::program {
 /// Exit codes of the program.
 enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, terminated = 143 };
 
-// --- stopping: set by signals, which reach nothing but globals ------------------------------------------
+// --- stopping: signal handlers can only use global variables ---------------------------------------------
 
-/// Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter` from now on, and a second one ends the process,
-/// a Ctrl-C where it comes a second later or more; null: Ctrl-C ends it at once.
+/// From now on Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter`, and a second signal ends the
+/// process (for Ctrl-C, if it comes at least a second later). Null: Ctrl-C ends the process at once.
 void watch_interrupts(Interpreter* interpreter);
-/// The same signals set `cancel`, of a process that runs no recipe; it outlives them.
+/// The same signals set `cancel`, in a process that runs no recipe; `cancel` must outlive them.
 void watch_interrupts(std::atomic<bool>& cancel);
-/// What a run ended by, which was cancelled; `seconds` is the time limit. Writes to standard error, and
-/// forgets the request.
+/// Report on standard error why a run was cancelled, and reset the request. `seconds` is the time limit.
 Exit report_stop(double seconds);
 
-/// Nothing runs from here to end_idle(): Ctrl-C stops nothing, and the other signals end the process.
+/// Until end_idle() nothing runs: Ctrl-C is only recorded, and the other signals end the process.
 void begin_idle();
-/// Whether Ctrl-C came meanwhile.
+/// Whether Ctrl-C was pressed since begin_idle().
 bool end_idle();
 
-/// Tell an error on standard error, with the traceback it may have.
+/// Print an error on standard error, with its traceback if it has one.
 void report(const ScriptError& error);
 
-/// Limit the process: memory by its data segment, time by an alarm that asks first and later ends
-/// the process.
+/// Limit the process: its data segment in memory, and its time by an alarm that first cancels the run and
+/// later ends the process.
 void limit_process(double megabytes, double seconds);
 
 } // namespace lacuna::program

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A program in place of lacuna-cad that misbehaves as CSF_FAKE says.
-#include <lacuna/cad_protocol/channel.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 
 #include <chrono>
 #include <cstdlib>

@@ -6,7 +6,7 @@
 #include "support/dirt.h"
 
 #include <lacuna/closure/close.h>
-#include <lacuna/healing/stitch.h>
+#include <lacuna/healing/shared/stitch.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>

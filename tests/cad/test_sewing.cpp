@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
 
+#include <lacuna/topology/shared/left_out.h>
+
 #include <doctest/doctest.h>
 #include <gmsh.h>
 
@@ -138,8 +140,8 @@ TEST_CASE(
     const std::string path = folder.gmsh("wide.brep", [&] { add_bent_faces({2, 3, 4}, 0.2, 3); });
     const topology::Model wide = cad::load({path});
     CHECK(wide.edges.size() > 18);
-    CHECK(std::ranges::any_of(
-        wide.notes, [](const std::string& note) { return note.find("to close it") != note.npos; }));
+    CHECK(std::ranges::any_of(wide.notes,
+                              [](const std::string& note) { return note.find("to close it") != note.npos; }));
 }
 
 TEST_CASE("two edges of one thin face, and three edges between the same ends, are not sewn by their vertices")

@@ -3,8 +3,8 @@
 #include "support/check_valid.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/closure/branches.h>
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/shared/branches.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/sweep/sweep.h>
 

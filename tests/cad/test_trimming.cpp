@@ -2,7 +2,7 @@
 #include "made_files.h"
 #include "support/dice.h"
 
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <doctest/doctest.h>

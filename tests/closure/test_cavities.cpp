@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/cavities.h>
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/shared/cavities.h>
 #include <lacuna/healing/split_facets.h>
 
 #include <doctest/doctest.h>

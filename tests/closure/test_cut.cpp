@@ -3,9 +3,9 @@
 #include "support/dice.h"
 #include "support/refusal.h"
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/cut.h>
-#include <lacuna/closure/piece_ends.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/follow.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/follow.h>
 
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,7 @@
 #include "support/volumes.h"
 
 #include <lacuna/closure/readings.h>
-#include <lacuna/closure/steps.h>
+#include <lacuna/closure/shared/steps.h>
 
 #include <doctest/doctest.h>
 

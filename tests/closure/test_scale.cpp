@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <lacuna/closure/readings.h>
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/healing/shared/stitch.h>
 #include <lacuna/healing/split_facets.h>
-#include <lacuna/healing/stitch.h>
 #include <lacuna/matching/match.h>
 
 #include <cmath>

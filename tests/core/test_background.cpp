@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/background.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/default_labels.h>
+#include <lacuna/core/shared/default_labels.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/nearest_word.h>
+#include <lacuna/core/shared/nearest_word.h>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include "fill/recipe.h"
 #include "fill/shapes.h"
 
-#include <lacuna/team/tasks.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 // Bytes as a message between the kernel and the CAD process; the first says which. A message that is
 // understood is written again as it came; any other is a ProtocolError. Without libFuzzer:
 // fuzz_cad_protocol [SECONDS [SEED]]
-#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_protocol/shared/messages.h>
 
 #include <algorithm>
 #include <chrono>

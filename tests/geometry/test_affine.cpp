@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/shared/affine.h>
 
 #include <doctest/doctest.h>
 

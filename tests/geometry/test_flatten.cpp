@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/shared/flatten.h>
 
 #include <doctest/doctest.h>
 
@@ -40,6 +40,15 @@ Patch patch(
             result.triangles.push_back({a, c, d});
         }
     return result;
+}
+
+/// The point in space at a place of the flat facets; `points` as given to flatten().
+Vec3 lifted(const Flattened& flat, const std::vector<Vec3>& points, const PlanarLocator::FacetPosition& place)
+{
+    const Triangle& triangle = flat.triangles[index(place.triangle)];
+    const auto corner = [&](std::size_t i) { return points[index(flat.used[index(triangle[i])])]; };
+    return corner(0) + place.barycentric[1] * (corner(1) - corner(0)) +
+           place.barycentric[2] * (corner(2) - corner(0));
 }
 
 Patch moved(Patch patch, unsigned seed)
@@ -339,11 +348,11 @@ TEST_CASE("a place of the flat facets is found and lifted back to where it came 
             const auto found = locator.locate(place);
             CHECK(found.triangle == Index(t));
             CHECK(found.distance < 1e-14);
-            CHECK((lift(flat, ball.points, found) - expected).norm() < 1e-11);
+            CHECK((lifted(flat, ball.points, found) - expected).norm() < 1e-11);
         }
         for (std::size_t i = 0; i < flat.used.size(); ++i) {
             const auto found = locator.locate(flat.position[i]);
-            CHECK((lift(flat, ball.points, found) - ball.points[std::size_t(flat.used[i])]).norm() < 1e-13);
+            CHECK((lifted(flat, ball.points, found) - ball.points[std::size_t(flat.used[i])]).norm() < 1e-13);
         }
         const auto outside = locator.locate(Vec2(100, 100));
         CHECK(outside.triangle >= 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/harmonic.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Geometry>
 

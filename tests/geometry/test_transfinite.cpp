@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <doctest/doctest.h>
 
@@ -46,10 +46,7 @@ std::vector<double> spacing(int count, double ratio)
     return result;
 }
 
-Grid grid_of(const Sides& sides, const TransfiniteOptions& options = {})
-{
-    return transfinite(sides.bottom, sides.right, sides.top, sides.left, options);
-}
+Grid grid_of(const Sides& sides) { return transfinite(sides.bottom, sides.right, sides.top, sides.left); }
 
 } // namespace
 
@@ -156,20 +153,6 @@ TEST_CASE("a side of no length makes a fan")
     for (std::size_t j = 0; j < t.size(); ++j)
         for (std::size_t i = 0; i < s.size(); ++i)
             CHECK((grid[j * s.size() + i] - Vec3(s[i] * (1 - t[j]), t[j], 0)).norm() < 1e-14);
-}
-
-TEST_CASE("counting points instead of lengths spaces the grid by number")
-{
-    const auto s = spacing(6, 1.5), t = spacing(4, 1);
-    const Sides sides = sides_of([](double x, double y) { return Vec3(x, y, 0); }, s, t);
-    Sides bent = sides;
-    for (Vec3& point : bent.bottom) point.y() -= point.x() * (1 - point.x());
-    const Grid grid = grid_of(bent, {.by_arc_length = false});
-    for (std::size_t j = 1; j + 1 < t.size(); ++j)
-        for (std::size_t i = 1; i + 1 < s.size(); ++i) {
-            const double y = t[j] + (1 - t[j]) * bent.bottom[i].y();
-            CHECK((grid[j * s.size() + i] - Vec3(s[i], y, 0)).norm() < 1e-14);
-        }
 }
 
 TEST_CASE("sides that do not fit are refused")

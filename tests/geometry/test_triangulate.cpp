@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <doctest/doctest.h>
 
@@ -198,8 +198,7 @@ TEST_CASE("stars with islands: exact area, all segments, Delaunay, Euler, with a
                 sum += loop_area(region, loop);
                 outer = std::max(outer, loop_area(region, loop));
             }
-            const auto result = triangulate(region.points, region.loops,
-                                            {.interior_points = interior, .single_region = true});
+            const auto result = triangulate(region.points, region.loops, {.interior_points = interior});
             check_triangulation(region, result, 2 * outer - sum, islands);
             if (!interior) CHECK(result.points.size() == region.points.size());
         }
@@ -320,20 +319,17 @@ TEST_CASE("a long segment through many triangles is kept")
     }
 }
 
-TEST_CASE("loops apart and loops within islands make regions of their own, unless one region is asked for")
+TEST_CASE("loops apart and loops within islands make regions of their own")
 {
     Region nested = square(6, {0, 0}, 4);
     append(nested, square(4, {1, 1}, 2));
     append(nested, square(2, {1.5, 1.5}, 1));
     const auto ring_and_core = triangulate(nested.points, nested.loops);
     check_triangulation(nested, ring_and_core, 16 - 4 + 1, 0);
-    CHECK_THROWS_AS(triangulate(nested.points, nested.loops, {.single_region = true}), InvalidInput);
 
     Region apart = square(3);
     append(apart, square(3, {5, 0}));
     check_triangulation(apart, triangulate(apart.points, apart.loops), 2, -1);
-    CHECK_THROWS_WITH_AS(triangulate(apart.points, apart.loops, {.single_region = true}),
-                         doctest::Contains("loop 2 of 2"), InvalidInput);
 }
 
 TEST_CASE("loops that cross, touch or have no area are refused by number")
@@ -354,13 +350,13 @@ TEST_CASE("loops that cross, touch or have no area are refused by number")
     Region spike{{Vec2(0, 0), Vec2(2, 0), Vec2(1, 0), Vec2(1, 1)}, {{0, 1, 2, 3}}};
     refuse(spike, "crosses or touches");
     Region flat{{Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}, {{0, 1, 2}}};
-    refuse(flat, "no area");
+    refuse(flat, "zero area");
     Region pair{{Vec2(0, 0), Vec2(1, 1)}, {{0, 1}}};
     refuse(pair, "2 points");
     Region missing{{Vec2(0, 0), Vec2(1, 1), Vec2(0, 1)}, {{0, 1, 7}}};
     refuse(missing, "point 8");
     Region none;
-    refuse(none, "no loop");
+    refuse(none, "at least one loop");
 }
 
 TEST_CASE("find_crossing agrees with comparing all pairs, and finds the first")
@@ -427,16 +423,6 @@ TEST_CASE("find_crossing agrees with comparing all pairs, and finds the first")
         CHECK(found->loop_b == items[wanted->second].loop);
         CHECK(found->segment_b == items[wanted->second].segment);
     }
-}
-
-TEST_CASE("find_crossing with a tolerance also finds loops that come near")
-{
-    Region region = square(4);
-    append(region, square(4, {1.01, 0}));
-    CHECK(!find_crossing(region.points, region.loops));
-    CHECK(!find_crossing(region.points, region.loops, 0.009));
-    REQUIRE(find_crossing(region.points, region.loops, 0.011));
-    CHECK(find_crossing(region.points, region.loops, 0.011)->loop_b == 1);
 }
 
 TEST_CASE("the same region gives the same triangles, and refinement stops at max_points")

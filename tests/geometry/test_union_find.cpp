@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/healing/grow_face.h>
+#include <lacuna/healing/shared/grow_face.h>
 #include <lacuna/healing/split_facets.h>
 
 #include <lacuna/core/error.h>

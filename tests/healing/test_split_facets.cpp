@@ -4,9 +4,9 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/shared/stitch.h>
+#include <lacuna/healing/shared/weld.h>
 #include <lacuna/healing/split_facets.h>
-#include <lacuna/healing/stitch.h>
-#include <lacuna/healing/weld.h>
 #include <lacuna/topology/model.h>
 
 #include <doctest/doctest.h>

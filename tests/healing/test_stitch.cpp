@@ -3,8 +3,8 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/shared/stitch.h>
 #include <lacuna/healing/split_facets.h>
-#include <lacuna/healing/stitch.h>
 
 #include <doctest/doctest.h>
 

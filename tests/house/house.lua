@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: MIT
--- Proves the plan of the house: which folder of the kernel may include which, that internal headers stay
--- inside their folder, that headers include each other in no circle, who may name Gmsh and Lua, and what the
--- kernel never does (print, end the process).
+-- Proves the plan of the house: which folder of the kernel may include which, that headers include each other
+-- in no circle, who may name Gmsh and Lua, and what the kernel never does (print, end the process).
+-- Headers are of three kinds: installed (listed in cmake/installed_headers.cmake), shared between folders of
+-- the kernel (shared/), and private (detail/).
 --
 --   lua5.4 house.lua SOURCE_DIR
 --
@@ -74,8 +75,18 @@ local forbidden = { "cout", "cerr", "clog", "printf", "fprintf", "vprintf", "put
                     "perror",
                     "abort", "exit", "_Exit", "quick_exit", "terminate" }
 
+-- Folders whose headers are of no kind: programs and parts that are built only on demand.
+local apart = { cad_worker = true, mpi = true }
+
+-- "installed", "shared" or "private"; nil: of no kind.
+local function kind_of(header, installed)
+  if header:match("/shared/") then return "shared" end
+  if header:match("/detail/") then return "private" end
+  return installed[header:gsub("^lacuna/", "")] and "installed" or nil
+end
+
 -- What is wrong with one file of the kernel, as sentences.
-local function faults(folder, path, text)
+local function faults(folder, path, text, installed)
   local found = {}
   local function fault(line, what) found[#found + 1] = ("%s:%d: %s"):format(path, line, what) end
 
@@ -87,8 +98,13 @@ local function faults(folder, path, text)
     fault(1, "a header without #pragma once")
   end
 
-  if path:match("/detail/") and not path:match("%.h$") then
-    fault(1, "detail/ holds internal headers alone")
+  if (path:match("/detail/") or path:match("/shared/")) and not path:match("%.h$") then
+    fault(1, path:match("/(%a+)/[^/]+$") .. "/ holds headers alone")
+  end
+  local of_a_kind = path:match("%.h$") and not apart[folder]
+  local kind = of_a_kind and kind_of(path:match("kernel/(lacuna/.+)$") or path, installed)
+  if of_a_kind and not kind then
+    fault(1, "a header that is neither installed nor in shared/ or detail/")
   end
 
   local allowed = reachable(folder)
@@ -104,8 +120,10 @@ local function faults(folder, path, text)
         fault(number, ("%s includes <%s>, which is not below it"):format(folder, include))
       elseif other and other ~= folder and include:match("^lacuna/[^/]+/detail/") then
         fault(number, ("includes <%s>, which is internal to %s"):format(include, other))
-      elseif other and include:match("/detail/") and path:match("%.h$") and not path:match("/detail/") then
-        fault(number, ("a public header includes <%s>, which is not installed"):format(include))
+      elseif kind == "installed" and other and kind_of(include, installed) ~= "installed" then
+        fault(number, ("an installed header includes <%s>, which is not installed"):format(include))
+      elseif kind == "shared" and include:match("/detail/") then
+        fault(number, ("a shared header includes <%s>, which is private"):format(include))
       elseif include:match("^%.%.") then
         fault(number, ("includes \"%s\": say <lacuna/folder/file.h>"):format(include))
       end
@@ -152,7 +170,7 @@ local samples = {
   { "core", mit .. "#include <lacuna/cad_worker/session.h>\n", "not below it" },
   { "team", mit .. "#include <mpi.h>\n", "only mpi/" },
   { "mpi", mit .. "#include <mpi.h>\n#include <lacuna/core/team.h>\n" },
-  { "io", mit .. "#include <lacuna/team/tasks.h>\n", "not below it" },
+  { "io", mit .. "#include <lacuna/team/shared/tasks.h>\n", "not below it" },
   { "sweep", mit .. "#include <lacuna/fill.h>\n", "not below it" },
   { "fill", mit .. "#include <lacuna/fill.h>\n#include <lacuna/io/deck.h>\n" },
   { "cad_worker", gpl .. "#include <lua5.4/lauxlib.h>\n", "only lua/" },
@@ -170,15 +188,24 @@ local samples = {
   { "sweep", mit .. "#include <lacuna/surface/detail/linking_map.h>\n", "internal to surface" },
   { "surface", mit .. "#include <lacuna/surface/detail/linking_map.h>\n" },
   { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/linking_map.h>\n", "not installed",
-      "surface/walls.h" },
-  { "surface", mit .. "int f() { return 1; }\n", "internal headers alone", "surface/detail/linking_map.cpp" },
-  { "cad_worker", gpl .. "#include <gmsh.h>\n#include <lacuna/geometry/delaunay.h>\n" },
+      "lacuna/surface/requests.h" },
+  { "surface", mit .. "#pragma once\n#include <lacuna/surface/shared/walls.h>\n", "not installed",
+      "lacuna/surface/requests.h" },
+  { "surface", mit .. "#pragma once\n#include <lacuna/surface/detail/linking_map.h>\n", "which is private",
+      "lacuna/surface/shared/walls.h" },
+  { "surface", mit .. "#pragma once\n#include <lacuna/surface/requests.h>\n", nil,
+      "lacuna/surface/shared/walls.h" },
+  { "surface", mit .. "#pragma once\n", "neither installed nor", "lacuna/surface/walls.h" },
+  { "cad_worker", gpl .. "#pragma once\n", nil, "lacuna/cad_worker/session.h" },
+  { "surface", mit .. "int f() { return 1; }\n", "headers alone", "lacuna/surface/detail/linking_map.cpp" },
+  { "cad_worker", gpl .. "#include <gmsh.h>\n#include <lacuna/geometry/shared/delaunay.h>\n" },
   { "core", mit .. '// exit, printf and abort in prose\nauto s = "printf \\" exit";\n'
       .. 'std::snprintf(b, 1, "abort");\n' },
 }
 local wrong = 0
 for number, sample in ipairs(samples) do
-  local found = table.concat(faults(sample[1], sample[4] or "sample.cpp", sample[2]), "\n")
+  local found = table.concat(faults(sample[1], sample[4] or "sample.cpp", sample[2],
+      { ["surface/requests.h"] = true }), "\n")
   local good = sample[3] and found:find(sample[3], 1, true) or not sample[3] and found == ""
   if not good then
     wrong = wrong + 1
@@ -212,12 +239,35 @@ end
 -- The kernel.
 local includes = {}
 local root = assert(arg[1], "usage: house.lua SOURCE_DIR")
+local installed, lengths = {}, {}
+do
+  local file <close> = assert(io.open(root .. "/cmake/installed_headers.cmake"))
+  for header in file:read("a"):gsub("#[^\n]*", ""):gmatch("%f[%w_][%w_/]+%.h") do installed[header] = true end
+end
+for header in pairs(installed) do
+  local file <close> = assert(io.open(root .. "/kernel/lacuna/" .. header))
+  local lines = 0
+  for _ in file:lines() do lines = lines + 1 end
+  lengths[#lengths + 1] = lines
+  lengths.sum = (lengths.sum or 0) + lines
+end
+table.sort(lengths)
+for _, rule in ipairs {
+  { "headers", #lengths, 50 }, { "lines in half of them", lengths[(#lengths + 1) // 2], 80 },
+  { "lines in the longest", lengths[#lengths], 220 }, { "lines in all", lengths.sum, 5000 },
+} do
+  if rule[2] > rule[3] then
+    wrong = wrong + 1
+    print(("installed headers: %d %s, %d at most"):format(rule[2], rule[1], rule[3]))
+  end
+end
 local files = 0
 local list = assert(io.popen(
     ("find '%s/kernel/lacuna' -name '*.h' -o -name '*.cpp' | LC_ALL=C sort"):format(root)))
 for path in list:lines() do
   local folder = path:match("/kernel/lacuna/([^/]+)/[^/]+$") or path:match("/kernel/lacuna/([^/]+)%.h$")
       or path:match("/kernel/lacuna/([^/]+)/detail/[^/]+$")
+      or path:match("/kernel/lacuna/([^/]+)/shared/[^/]+$")
   if not folder or not plan[folder] then
     wrong = wrong + 1
     print(path .. ": the plan has no folder for it")
@@ -229,7 +279,7 @@ for path in list:lines() do
       includes[header] = {}
       for include in text:gmatch("#include <(lacuna/[^>]+)>") do table.insert(includes[header], include) end
     end
-    for _, fault in ipairs(faults(folder, path, text)) do
+    for _, fault in ipairs(faults(folder, path, text, installed)) do
       wrong = wrong + 1
       print(fault)
     end

@@ -29,15 +29,15 @@ int main(int count, char** arguments)
             std::printf("%.3f %zu %zu\n", seconds.count(), deck.points.size(), deck.element_count());
             return 0;
         }
-        io::DeckFormat format{};
-        if (!io::find_deck_format(io::ending_of(arguments[2]), format))
+        const io::Format* const format = io::find_format(arguments[2]);
+        if (format == nullptr || !format->is_written)
             return std::fputs("the second ending is of no format that is written\n", stderr), 2;
         RunContext context;
         context.log = [](std::string_view line) {
             std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
         };
         for (const std::string& note : deck.notes) std::printf("%s\n", note.c_str());
-        io::write_deck(deck, format, io::OutputPath(arguments[2]), context, options);
+        io::write_deck(deck, *format, io::OutputPath(arguments[2]), context, options);
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

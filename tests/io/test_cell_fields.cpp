@@ -2,10 +2,10 @@
 #include "folder.h"
 #include "support/blocks.h"
 
+#include <lacuna/io/detail/vtk.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
-#include <lacuna/io/vtk.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/io/shared/msh_reader.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 

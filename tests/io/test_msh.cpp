@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 #include "support/blocks.h"
+#include "support/prove_cells.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/quality/quality.h>
 
 #include <doctest/doctest.h>
@@ -75,7 +76,7 @@ TEST_CASE("a mesh read back is proved, its skin included")
     const auto mesh = test::ring(12, 5);
     for (const auto& options : kFormats) {
         const io::MshCells cells = written_and_read(mesh, options);
-        CHECK(quality::prove_cells(cells.nodes, cells.hexes, cells.quads).quality.hexes == mesh.hex_count());
+        CHECK(test::prove_cells(cells.nodes, cells.hexes, cells.quads).quality.hexes == mesh.hex_count());
     }
 }
 

@@ -3,7 +3,7 @@
 #include "support/blocks.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 
 #include <doctest/doctest.h>
 

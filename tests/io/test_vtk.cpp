@@ -2,7 +2,7 @@
 #include "folder.h"
 #include "support/blocks.h"
 
-#include <lacuna/io/vtk.h>
+#include <lacuna/io/detail/vtk.h>
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 #include "support/blocks.h"
+#include "support/prove_cells.h"
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/vtk.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/vtk.h>
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 
@@ -60,7 +61,7 @@ void check_deck(const io::Deck& deck, const mesh::HexMesh& mesh, bool skin)
     std::multiset<Hex> expected;
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) expected.insert(mesh.hex(c));
     CHECK(std::multiset<Hex>(cells.begin(), cells.end()) == expected);
-    CHECK_FALSE(quality::prove_cells(deck.points, cells).finding);
+    CHECK_FALSE(test::prove_cells(deck.points, cells).finding);
     if (!skin) return;
     CHECK(count_of(deck, io::DeckShape::tri3) == 2 * mesh.triangle_count());
     CHECK(count_of(deck, io::DeckShape::quad4) == mesh.skin_count() - 2 * mesh.triangle_count());
@@ -91,10 +92,9 @@ TEST_CASE("hexahedra and wedges come back from every format, the skin's triangle
         check_deck(io::read_deck(folder.file("a.vtu")), mesh, true);
         for (const std::string name : {"a.inp", "a.bdf", "a.unv"}) {
             CAPTURE(name);
-            io::DeckFormat format{};
-            REQUIRE(io::find_deck_format(io::ending_of(name), format));
-            io::write_deck(io::deck_of(mesh, {.format = format}), format, folder.file(name));
-            check_deck(io::read_deck(folder.file(name)), mesh, format == io::DeckFormat::unv);
+            const io::Format& format = io::needed_mesh_format("write", name);
+            io::write_mesh(format, mesh, folder.file(name));
+            check_deck(io::read_deck(folder.file(name)), mesh, format.deck == io::DeckFormat::unv);
         }
     }
 }

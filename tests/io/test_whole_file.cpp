@@ -2,7 +2,7 @@
 #include "folder.h"
 #include "support/blocks.h"
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/whole_file.h>
 

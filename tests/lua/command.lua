@@ -154,7 +154,7 @@ usage: lacuna params.lua [key=value ...]
 parameters and their defaults:
   fast=false  boolean
   layers=12   number
-  list=...    table, not to be changed here
+  list=...    table, cannot be set on the command line
   name=a      string
   size=2.0    number
 ]])
@@ -170,7 +170,7 @@ for name, lines in pairs {
   local told = { caught = "a=1", none = "has no parameters", late = "before lacuna.params",
     made = "lacuna.synthetic.prism before" }
   expect({ name .. ".lua", "--help" }, told[name] and 0 or 1, { told[name] },
-      told[name] and {} or { "params: a table" })
+      told[name] and {} or { "params: needs a table" })
   check.that(not check.exists(folder .. "/ran"), name .. ": the rest of a recipe is not run")
 end
 expect({ "params.lua" }, 0, { "12\tinteger\t2.0\ta\tfalse", "params.lua\t0\t0" }, {})
@@ -474,7 +474,7 @@ expect({ "--timing", "/nowhere/t.json", folder .. "/timed.lua" }, 1, {}, { "--ti
 expect({ "--timing", "-", "-j", "2", jobs }, 2, {}, { "--timing", "without -j" })
 -- A recipe in the place of the file is not written over.
 for _, flag in ipairs { "--timing", "--history" } do
-  expect({ flag, folder .. "/timed.lua", "fails=no" }, 2, {}, { flag, "found a recipe", "timed.lua" })
+  expect({ flag, folder .. "/timed.lua", "fails=no" }, 2, {}, { flag, "found the recipe", "timed.lua" })
 end
 expect({ "--timing", "-", folder .. "/timed.lua" }, 0, {}, { '"stages": [' })
 

@@ -39,7 +39,7 @@ local failures = {
   { "lua.wrong_object", function() prism.faces {} end, "colon" },
   { "lua.parameter", function() lacuna.params(3) end, "table" },
   { "lua.bad_value", function() lacuna.synthetic.prism { sides = 1 } end, "sides" },
-  { "lua.bad_value", function() lacuna.synthetic.prism { sides = 1e8 } end, "'sides'", "the most" },
+  { "lua.bad_value", function() lacuna.synthetic.prism { sides = 1e8 } end, "'sides'", "the limit" },
   { "lua.bad_value", function() lacuna.synthetic.barrel { facets = 1e9 } end, "'facets'" },
   { "lua.face_in_parts", function()
     local parts = lacuna.model()

@@ -3,8 +3,8 @@
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 

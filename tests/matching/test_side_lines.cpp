@@ -2,7 +2,7 @@
 #include "support/cancelling.h"
 #include "support/volumes.h"
 
-#include <lacuna/matching/guides.h>
+#include <lacuna/matching/shared/guides.h>
 #include <lacuna/matching/side_lines.h>
 
 #include <doctest/doctest.h>

@@ -4,10 +4,10 @@
 #include "two_ends.h"
 
 #include <lacuna/closure/close.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/sweep/sweep.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <map>
 #include <numeric>

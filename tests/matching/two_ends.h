@@ -7,7 +7,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <doctest/doctest.h>

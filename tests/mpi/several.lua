@@ -298,7 +298,7 @@ check.that(bad ~= 0)
 check.equal(times(usage, "unknown option"), 1, usage)
 bad, _, usage = run(2, "-j", "2", recipe)
 check.that(bad ~= 0)
-check.equal(times(usage, "goes without mpirun"), 1, usage)
+check.equal(times(usage, "cannot be used with mpirun"), 1, usage)
 
 -- Nothing is left beside the files but what they are.
 local list = io.popen(("ls -A '%s'"):format(params.scratch))

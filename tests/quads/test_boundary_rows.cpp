@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/boundary_rows.h>
+#include <lacuna/quads/shared/boundary_rows.h>
 
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <doctest/doctest.h>
 

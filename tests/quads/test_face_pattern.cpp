@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/outline_family.h"
 
-#include <lacuna/quads/face_pattern.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/detail/face_pattern.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/quads/shared/symmetry.h>
 
 #include <doctest/doctest.h>
 

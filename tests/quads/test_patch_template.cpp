@@ -2,7 +2,7 @@
 #include "patch_outline.h"
 
 #include <lacuna/quads/detail/patch_template.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/face_pattern.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pattern_counts.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/detail/face_pattern.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pattern_counts.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/quads/shared/symmetry.h>
 
 #include "support/cancelling.h"
 #include "support/dice.h"

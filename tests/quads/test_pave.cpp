@@ -2,10 +2,10 @@
 #include "plane_grids.h"
 #include "support/outline_family.h"
 
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <doctest/doctest.h>
 
@@ -454,14 +454,9 @@ TEST_CASE("a very short boundary side leaves no needles inside")
                 CAPTURE(tiny);
                 CAPTURE(size);
                 CAPTURE(wide);
-                const PlanarRegion region = polygon({{0, 0},
-                                                     {3, 0},
-                                                     {3, 1},
-                                                     {wide + tiny, 1},
-                                                     {wide, 1 + tiny},
-                                                     {wide, 2.5},
-                                                     {0, 2.5}},
-                                                    size);
+                const PlanarRegion region = polygon(
+                    {{0, 0}, {3, 0}, {3, 1}, {wide + tiny, 1}, {wide, 1 + tiny}, {wide, 2.5}, {0, 2.5}},
+                    size);
                 check_paved(region);
                 const quads::PlanarQuads mesh = quads::pave(region).mesh;
                 double shortest = size;

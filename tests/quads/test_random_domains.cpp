@@ -2,9 +2,9 @@
 #include "support/plane_domains.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/triangulate.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/square_rows.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <doctest/doctest.h>
 

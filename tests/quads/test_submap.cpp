@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/quads/submap.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/quads/shared/submap.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/shared/symmetry.h>
 
 #include <doctest/doctest.h>
 

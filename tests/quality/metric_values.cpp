@@ -2,7 +2,7 @@
 // usage: metric_values IN OUT, for against_vtk.py: every metric of every cell of a list, as raw numbers.
 // IN: two 64-bit counts of nodes and cells, coordinates, node numbers (32-bit) from 0. OUT: metric after
 // metric.
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <cstdint>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/blocks.h"
 
-#include <lacuna/quality/layered.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/layered.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/blocks.h"
+#include "support/prove_cells.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>
@@ -54,8 +55,8 @@ TEST_CASE("sound meshes are proved, swept or as a list with their skin, and meas
                            }})}) {
             CHECK(quality::prove(mesh).quality.volume == quality::measure(mesh).volume);
             const auto hexes = all_hexes(mesh);
-            CHECK(quality::prove_cells(mesh.nodes, hexes).quality.hexes == hexes.size());
-            CHECK(quality::prove_cells(mesh.nodes, hexes, all_skin(mesh)).quality.hexes == hexes.size());
+            CHECK(test::prove_cells(mesh.nodes, hexes).quality.hexes == hexes.size());
+            CHECK(test::prove_cells(mesh.nodes, hexes, all_skin(mesh)).quality.hexes == hexes.size());
         }
     }
 }
@@ -197,7 +198,7 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
         CHECK(code_of(bent) == (width > 0 ? "" : "quality.coincident_nodes"));
     }
     const auto listed = slit(0);
-    CHECK(code_of(quality::prove_cells(listed.nodes, all_hexes(listed))) == "quality.coincident_nodes");
+    CHECK(code_of(test::prove_cells(listed.nodes, all_hexes(listed))) == "quality.coincident_nodes");
 }
 
 TEST_CASE("a cell that is invalid between valid corners is refused")
@@ -280,7 +281,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     auto nodes = mesh.nodes;
     auto hexes = all_hexes(mesh);
     auto skin = all_skin(mesh);
-    const auto code = [&] { return code_of(quality::prove_cells(nodes, hexes, skin)); };
+    const auto code = [&] { return code_of(test::prove_cells(nodes, hexes, skin)); };
     REQUIRE(code().empty());
 
     SUBCASE("no cells")
@@ -319,7 +320,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     {
         const auto pinched = test::block(
             {.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }});
-        CHECK(code_of(quality::prove_cells(pinched.nodes, all_hexes(pinched))) == "quality.open_skin");
+        CHECK(code_of(test::prove_cells(pinched.nodes, all_hexes(pinched))) == "quality.open_skin");
     }
     SUBCASE("a hanging node")
     {

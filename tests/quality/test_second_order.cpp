@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 
 #include <doctest/doctest.h>
 

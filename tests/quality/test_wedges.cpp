@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/blocks.h"
 #include "support/check_valid.h"
+#include "support/prove_cells.h"
 
-#include <lacuna/quality/metrics.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>
 
@@ -114,7 +115,7 @@ TEST_CASE("a mesh with wedges is proved, as swept and as a list, and measured as
             CHECK_FALSE(proof.finding);
             CHECK(proof.quality.wedges == mesh.wedge_count());
             CHECK(proof.quality.volume == doctest::Approx(quality::measure(plain).volume).epsilon(0.02));
-            const quality::Proof listed = quality::prove_cells(mesh.nodes, cells_of(mesh), skin_of(mesh));
+            const quality::Proof listed = test::prove_cells(mesh.nodes, cells_of(mesh), skin_of(mesh));
             CHECK_FALSE(listed.finding);
             CHECK(listed.quality.wedges == mesh.wedge_count());
             CHECK(listed.quality.hexes == mesh.hex_count());
@@ -143,7 +144,7 @@ TEST_CASE("faults of meshes with wedges are found")
     const mesh::HexMesh larger = test::with_wedges(test::block({.columns = 4, .rows = 4, .layers = 3}), 5);
     std::vector<Hex> cells = cells_of(larger);
     cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2));
-    const quality::Proof missing = quality::prove_cells(larger.nodes, cells, skin_of(larger));
+    const quality::Proof missing = test::prove_cells(larger.nodes, cells, skin_of(larger));
     REQUIRE(missing.finding);
     CHECK(missing.finding->fault == quality::Fault::skin_differs);
 }

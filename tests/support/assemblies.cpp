@@ -2,6 +2,7 @@
 #include "support/assemblies.h"
 
 #include "support/check_valid.h"
+#include "support/prove_cells.h"
 
 #include <lacuna/closure/close.h>
 #include <lacuna/healing/split_facets.h>
@@ -97,7 +98,7 @@ void check_assembly(const sweep::SweptAssembly& whole, double volume, double sha
             hexes.push_back(hex);
         }
     }
-    const quality::Proof proof = quality::prove_cells(nodes, hexes);
+    const quality::Proof proof = prove_cells(nodes, hexes);
     // Volumes that meet along an edge or in a point alone make a skin that is no manifold there.
     if (proof.finding && proof.finding->fault != quality::Fault::pinched &&
         proof.finding->fault != quality::Fault::open_skin)

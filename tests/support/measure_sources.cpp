@@ -2,7 +2,7 @@
 #include "support/measure_sources.h"
 
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/source_mesh.h>
 
 namespace lacuna::test {
 

@@ -3,7 +3,7 @@
 
 #include "dice.h"
 
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <algorithm>
 #include <numbers>

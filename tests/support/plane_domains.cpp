@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plane_domains.h"
 
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <cmath>

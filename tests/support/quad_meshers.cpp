@@ -2,7 +2,7 @@
 #include "support/quad_meshers.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <algorithm>
 #include <array>

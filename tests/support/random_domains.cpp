@@ -3,7 +3,7 @@
 
 #include "dice.h"
 
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "support/random_sources.h"
 #include "support/plan_prism.h"
 
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/volumes.h"
 
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/healing/split_facets.h>
 
 #include <algorithm>

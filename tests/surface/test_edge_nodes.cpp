@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "surface/sealed.h"
 
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <doctest/doctest.h>
 

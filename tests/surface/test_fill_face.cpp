@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 #include <lacuna/surface/detail/fine_facets.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/fill_face.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/fill_face.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/detail/linking_map.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 
 #include <doctest/doctest.h>
 

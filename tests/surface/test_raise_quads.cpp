@@ -2,11 +2,11 @@
 #include "support/measure_sources.h"
 #include "support/source_family.h"
 
-#include <lacuna/mesh/incidence.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/mesh/shared/incidence.h>
+#include <lacuna/quads/shared/pave.h>
 #include <lacuna/surface/detail/raise_quads.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <doctest/doctest.h>
 

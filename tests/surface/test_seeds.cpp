@@ -4,11 +4,11 @@
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/surface/default_size.h>
+#include <lacuna/quads/shared/pave.h>
 #include <lacuna/surface/detail/face_sides.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/source_mesh.h>
 
 #include <doctest/doctest.h>
 

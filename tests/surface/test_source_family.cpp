@@ -4,11 +4,11 @@
 #include "support/random_sources.h"
 #include "support/source_family.h"
 
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/round_sides.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/source_mesh.h>
 
 #include <doctest/doctest.h>
 

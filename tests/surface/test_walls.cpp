@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "surface/sealed.h"
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
 
@@ -40,8 +40,10 @@ Meshed meshed(const OpenVolume& volume, const std::vector<double>& heights, int 
     Meshed result;
     result.links = surface::linking_surfaces(volume);
     for (const LinkingSurface& link : result.links) {
-        const std::vector<int> counts(link.segments.size(), sides_each);
-        result.nodes.push_back(surface::linking_nodes(link, counts));
+        std::vector<double> even;
+        for (int k = 0; k < sides_each; ++k) even.push_back(static_cast<double>(k) / sides_each);
+        const std::vector<std::vector<double>> shares(link.segments.size(), even);
+        result.nodes.push_back(surface::linking_nodes(link, shares, shares));
     }
     result.walls = surface::mesh_walls(volume, result.links, result.nodes, heights);
     return result;

@@ -3,7 +3,7 @@
 
 // Families of source meshes and of motions for the sweep tests.
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/rim_columns.h>
+#include <lacuna/sweep/shared/rim_columns.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,13 +6,13 @@
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
-#include <lacuna/closure/steps.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/closure/shared/steps.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/assembly.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <doctest/doctest.h>
 

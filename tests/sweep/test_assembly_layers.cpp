@@ -4,7 +4,7 @@
 #include "support/refusal.h"
 #include "support/volumes.h"
 
-#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/shared/boundary_layers.h>
 
 #include <doctest/doctest.h>
 

@@ -4,9 +4,9 @@
 #include "support/refusal.h"
 #include "surface/sealed.h"
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>

@@ -6,9 +6,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/io/deck_file.h>
-#include <lacuna/io/layered.h>
-#include <lacuna/io/msh.h>
-#include <lacuna/io/vtk.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -41,15 +39,11 @@ TEST_CASE("whatever stage a cancel comes in, the work stops within half a second
             const matching::Match match = ends ? matching::match(volume, {}, context) : matching::Match{};
             closure::close(volume, match, {}, context);
             const sweep::Swept swept = sweep::sweep(volume, options, context);
-            io::DeckFormat format{};
+            const io::Format& format = io::needed_mesh_format("write", path);
             if (swept.layers)
-                io::write_msh({swept.mesh, *swept.layers}, path, {}, {}, context);
-            else if (ending == ".vtu")
-                io::write_vtu(swept.mesh, path, {}, context);
-            else if (ending != ".msh" && io::find_deck_format(ending, format))
-                io::write_deck(io::deck_of(swept.mesh, {.format = format}), format, path, context);
+                io::write_mesh(format, {swept.mesh, *swept.layers}, path, {}, {}, {}, context);
             else
-                io::write_msh(swept.mesh, path, {}, context);
+                io::write_mesh(format, swept.mesh, path, {}, {}, context);
         };
         const double before = test::processor_time();
         RunContext alone;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/check_valid.h"
-#include "support/whole_families.h"
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/shape_size.h>
-#include <lacuna/sweep/detail/finer_by_default.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -145,6 +143,60 @@ TEST_CASE("more than 50 million cells are refused unless both the size and the l
     }
 }
 
+TEST_CASE("sides for a turn count among the cells to be expected, and counts of any size are readable")
+{
+    const auto volume = test::sealed({.sides = 0, .cuts = 6});
+    double before = 0;
+    for (const int curvature : {12, 100, 10000, 10000000}) {
+        sweep::KnownLinks links(volume);
+        SweepOptions options;
+        options.curvature = curvature;
+        const double now = sweep::source_size(volume, options, links, {}).expected.all;
+        CHECK(now > before);
+        before = now;
+    }
+    CHECK(before > 50e6);
+    std::string line;
+    RunContext context;
+    context.log = [&](std::string_view text) { line = text; };
+    sweep::check_cells({6.4e19, 0}, context);
+    CHECK(line == "estimate: about 6.4e+19 cells");
+}
+
+TEST_CASE("with given numbers a loss above 2 % is a note, and the numbers that it names keep the volume")
+{
+    int notes = 0;
+    for (const int sides : {0, 4}) {
+        for (const double belly : {0.6, 1.5, 2.0}) {
+            for (const int layers : {2, 4, 30}) {
+                CAPTURE(sides);
+                CAPTURE(belly);
+                CAPTURE(layers);
+                const auto volume = test::sealed({.sides = sides, .cuts = 6, .levels = 24, .belly = belly});
+                SweepOptions options;
+                options.size = [](const Vec3&) { return 0.4; };
+                options.layers.count = layers;
+                options.max_deviation = 10;
+                const auto off = [](const Swept& swept) {
+                    return std::abs(swept.fidelity.volume / swept.fidelity.sealed_volume - 1);
+                };
+                const Swept swept = sweep::sweep(volume, options);
+                const auto note = std::ranges::find_if(swept.defaults, [](const std::string& text) {
+                    return text.starts_with("note: the mesh has ");
+                });
+                REQUIRE((note != swept.defaults.end()) == (off(swept) > 0.02));
+                if (note == swept.defaults.end()) continue;
+                ++notes;
+                const double size = std::stod(note->substr(note->find("size = ") + 7));
+                options.size = [size](const Vec3&) { return size; };
+                options.layers.count = std::stoi(note->substr(note->find("layers = ") + 9));
+                CHECK(off(sweep::sweep(volume, options)) <= 0.01);
+            }
+        }
+    }
+    CHECK(notes > 3);
+}
+
 TEST_CASE("coarse facets ask for what they are, with some quads across and some layers at least")
 {
     const auto volume = test::sealed({.sides = 4, .cuts = 1});
@@ -264,64 +316,6 @@ TEST_CASE("default numbers follow faces that bend between nodes, where coarse nu
         check({.sides = 4, .height = 4, .cuts = 8, .target = test::End::saddle, .lift = lift});
     }
     CHECK(refused > 1);
-}
-
-TEST_CASE("where finer numbers that nobody asked for do not do, the refusal is that of the default and tells "
-          "of them")
-{
-    for (const double belly : test::members_to_run<double>({2.1, 2.15, 2.2}, 3)) {
-        CAPTURE(belly);
-        SweepOptions options;
-        options.size = [](const Vec3&) { return 0.5; };
-        options.max_deviation = 0.02;
-        std::string message;
-        try {
-            sweep::sweep(test::sealed({.sides = 0, .height = 0.8, .cuts = 4, .levels = 24, .belly = belly}),
-                         options);
-        } catch (const NotSweepable& error) {
-            CHECK(error.code() == "sweep.deviation");
-            message = error.what();
-        }
-        const auto advice = message.find(" layers would do instead of ");
-        const auto tried = message.find(". Tried in vain: layer count: ");
-        CHECK(advice != std::string::npos);
-        CHECK(tried != std::string::npos);
-        CHECK(advice < tried);
-    }
-}
-
-TEST_CASE("a finer size is kept though it makes fewer cells, and one that changes nothing is not tried again")
-{
-    const auto made_of = [](std::size_t quads, bool follows) {
-        Swept swept;
-        swept.mesh.quads.resize(quads);
-        swept.mesh.layers = 1;
-        sweep::FaceFidelity face;
-        face.name = "face 1";
-        if (!follows) face.misfit = sweep::Misfit::straight;
-        face.found = face.side = face.source_side = 1;
-        face.allowed = 0.5;
-        swept.fidelity.faces.push_back(face);
-        return swept;
-    };
-    for (const std::size_t quads : {80, 90, 120}) {
-        int sweeps = 0;
-        const auto again = [&](const SweepOptions& finer) {
-            CHECK(finer.size(Vec3::Zero()) < 1);
-            ++sweeps;
-            return made_of(quads + (sweeps == 2 ? 1 : 0), sweeps == 2);
-        };
-        const Swept finer = sweep::require_or_refine({}, {}, made_of(100, false), again, {});
-        CHECK(finer.mesh.quads.size() == quads + 1);
-        CHECK(finer.defaults.size() == 2);
-    }
-    int sweeps = 0;
-    const auto same = [&](const SweepOptions&) {
-        ++sweeps;
-        return made_of(100, false);
-    };
-    CHECK_THROWS_AS(sweep::require_or_refine({}, {}, made_of(100, false), same, {}), NotSweepable);
-    CHECK(sweeps == 1);
 }
 
 TEST_CASE("poor cells are told where nobody asked for a size, and only there")

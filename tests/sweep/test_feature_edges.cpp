@@ -4,8 +4,8 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/quality/quality.h>

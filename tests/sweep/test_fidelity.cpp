@@ -5,7 +5,7 @@
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/fidelity.h>
 #include <lacuna/sweep/sweep.h>

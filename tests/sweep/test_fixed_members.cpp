@@ -5,7 +5,7 @@
 #include "support/refusal.h"
 #include "support/volumes.h"
 
-#include <lacuna/io/mesh_skin.h>
+#include <lacuna/io/shared/mesh_skin.h>
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include "surface/sealed.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>

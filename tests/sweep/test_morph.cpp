@@ -2,9 +2,9 @@
 #include "families.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-#include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/morph.h>
+#include <lacuna/sweep/shared/layers.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include "support/refusal.h"
 #include "surface/sealed.h"
 
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>

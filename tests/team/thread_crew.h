@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/team.h>
-#include <lacuna/team/tasks.h>
+#include <lacuna/core/shared/team.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <atomic>
 #include <barrier>

@@ -3,8 +3,8 @@
 #include "support/volumes.h"
 
 #include <lacuna/healing/split_facets.h>
-#include <lacuna/topology/auto_walls.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/auto_walls.h>
 
 #include <doctest/doctest.h>
 

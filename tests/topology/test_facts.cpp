@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/volumes.h"
 
-#include <lacuna/topology/cone_shape.h>
-#include <lacuna/topology/face_facts.h>
-#include <lacuna/topology/face_radius.h>
-#include <lacuna/topology/gaps.h>
-#include <lacuna/topology/hollows.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_facts.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/gaps.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <doctest/doctest.h>
 

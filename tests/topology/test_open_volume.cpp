@@ -96,18 +96,6 @@ TEST_CASE("the walls of holes count as walls")
     CHECK(found.wall_free_target.size() == 4);
 }
 
-TEST_CASE("the words of the classes are read back")
-{
-    for (const auto value : {VolumeClass::closed, VolumeClass::I, VolumeClass::II, VolumeClass::III,
-                             VolumeClass::IV, VolumeClass::V}) {
-        CHECK(volume_class(to_string(value)) == value);
-    }
-    for (const char* word : {"", "VI", "i", "open", "II "}) {
-        CHECK(refusal([&] { volume_class(word); }, {std::string("\"") + word + "\""}) ==
-              "topology.unknown_class");
-    }
-}
-
 TEST_CASE(
     "an override is obeyed where the faces allow it, and refused with the reason where they contradict it")
 {
@@ -256,23 +244,4 @@ TEST_CASE("an open volume holds only what its faces use, and the model it came f
     }
     CHECK(volume.model[FaceId(0)].tag == prism.model[roles.source.front()].tag);
     CHECK(face_area(volume.model, FaceId(1)) == doctest::Approx(face_area(prism.model, roles.walls[0])));
-}
-
-TEST_CASE("a description has a line a face, with its tag and name")
-{
-    auto prism = test::prism({.sides = 3});
-    prism.model.faces[0].name = "a floor with a rather long name";
-    const std::string text = describe(prism.model);
-    CHECK(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) ==
-          prism.model.faces.size() + 1);
-    CHECK(text.find("a floor with a rather long name") != std::string::npos);
-}
-
-TEST_CASE("a description gives no normal to a face that goes all round")
-{
-    for (const bool round : {false, true}) {
-        const auto prism = test::prism({.sides = round ? 0 : 4});
-        const std::string text = describe(prism.model);
-        CHECK((text.find("  -  ") != std::string::npos) == round);
-    }
 }

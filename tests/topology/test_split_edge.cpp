@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/open_volume.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include <lacuna/cad/detail/cad_files.h>
 
 #include <lacuna/cad/detail/input_file.h>
-#include <lacuna/core/list_text.h>
+#include <lacuna/core/shared/list_text.h>
 
 #include <algorithm>
 #include <functional>

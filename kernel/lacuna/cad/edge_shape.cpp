@@ -2,10 +2,9 @@
 #include <lacuna/cad/detail/edge_shape.h>
 
 #include <lacuna/cad/detail/spline_patch.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::cad {
 
@@ -72,8 +71,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic interpolation through the four nearest samples: the error of the arc length is far below any
-/// tolerance.
+/// Cubic interpolation through the four nearest samples: the error of the arc
+/// length is far below any tolerance.
 double EdgeShape::parameter(double share) const
 {
     const std::size_t n = fine_shares_.size();

@@ -2,7 +2,7 @@
 #include <lacuna/cad/detail/import_cad.h>
 
 #include <lacuna/cad/detail/exact_geometry.h>
-#include <lacuna/healing/orient_groups.h>
+#include <lacuna/healing/shared/orient_groups.h>
 
 #include <utility>
 

@@ -119,7 +119,7 @@ bool is_iges(const std::string& head)
 [[noreturn]] void throw_not_of_kind(const std::string& path, const std::string& kind)
 {
     throw InvalidInput("cad.unreadable", path + " is not a valid " + kind +
-                                             " file; check the file, or give it the ending of what it holds");
+                                             " file; check the file, or use the ending of its format");
 }
 
 LoadFile::Format format_of(const std::string& path, const std::string& head)

@@ -3,9 +3,9 @@
 
 #include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/cad/detail/void_patch.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>

@@ -4,15 +4,14 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace lacuna::cad {
 
 namespace {
 
-/// Most intervals between the interpolated points of a spline. A full circle is then met to 3e-10 of its
-/// radius.
+/// Most intervals between the interpolated points of a spline. A full circle is
+/// then met to 3e-10 of its radius.
 constexpr std::size_t kMostSides = 256;
 /// Number of lines in each direction along which a surface is probed.
 constexpr std::size_t kProbes = 5;

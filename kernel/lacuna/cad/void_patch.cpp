@@ -2,13 +2,12 @@
 #include <lacuna/cad/detail/void_patch.h>
 
 #include <lacuna/cad/detail/edge_shape.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 
@@ -44,8 +43,8 @@ struct BreakMap {
     }
 };
 
-/// Pair the breaks of opposite sides: in order if their numbers agree, else every break is used on both
-/// sides.
+/// Pair the breaks of opposite sides: in order if their numbers agree, else
+/// every break is used on both sides.
 std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const std::vector<double>& b)
 {
     BreakMap on_a, on_b;
@@ -127,8 +126,8 @@ public:
         return places;
     }
 
-    /// Fit the patch to the facets, if their points are farther from the patch than their chords are from the
-    /// sides.
+    /// Fit the patch to the facets, if their points are farther from the patch than
+    /// their chords are from the sides.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 

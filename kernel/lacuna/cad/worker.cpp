@@ -125,8 +125,8 @@ Channel::Patience patience_of(const RunContext* context, double seconds, double 
 }
 
 /// Environment variables passed to the CAD process: the library paths. FLTK, which is part of Gmsh, writes
-/// preferences to the home folder when it starts, or to /etc if there is none; HOME below /dev/null prevents
-/// this.
+/// preferences to the home folder when it starts, or to /etc if there is none; HOME
+/// below /dev/null prevents this.
 std::vector<std::string> worker_environment()
 {
     std::vector<std::string> kept{"LC_ALL=C", "HOME=/dev/null"};

@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// Number of folders above a program or library that may be the root of its installation: four for
-/// lib/<machine>/lua/5.4.
+/// Number of folders above a program or library that may be the root of its installation:
+/// four for lib/<machine>/lua/5.4.
 constexpr int kMostLevels = 4;
 
 /// Add the folder of a binary, and libexec of its installation.
@@ -55,7 +55,7 @@ std::string find_worker_program()
     for (const fs::path& place : places)
         if (::access(place.c_str(), X_OK) == 0) return place.string();
     throw BackendError("cad.no_worker",
-                       "CAD files are read by the program lacuna-cad, which is not beside this program "
+                       "CAD files are read by the program lacuna-cad, which is not next to this program "
                        "(" +
                            places.front().string() +
                            ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");

@@ -36,7 +36,7 @@ void check_sealed(const OpenVolume& volume)
         if (open.size() > kNamedEdges) which += ", …";
     }
     throw InvalidInput("cad.not_sealed", "the volume is not sealed, so it cannot be written as a solid: " +
-                                             which + "; close() it first");
+                                             which + "; call close() first");
 }
 
 /// Set the time stamp of a STEP file to a constant.

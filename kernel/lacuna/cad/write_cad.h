@@ -30,8 +30,8 @@ struct WrittenCad {
     double tolerance = 0;    ///< used for sewing [model length]
 };
 
-/// Write a sealed volume as one CAD solid: `.step`, `.stp` (lengths of the model in mm) or `.brep`. The file
-/// appears only if everything succeeds.
+/// Write a sealed volume as one CAD solid: `.step`, `.stp` (model lengths are written as mm) or `.brep`. The
+/// file appears only if everything succeeds.
 ///
 /// Given CAD faces are copied from their source file, scaled as the model was. A planar void face becomes a
 /// plane bounded by the exact given edges, lines and splines. A void face with four logical sides becomes

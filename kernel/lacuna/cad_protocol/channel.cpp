@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/cad_protocol/channel.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_protocol/shared/messages.h>
 
 #include <cmath>
 

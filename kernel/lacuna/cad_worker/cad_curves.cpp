@@ -3,8 +3,8 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <lacuna/cad_worker/detail/face_grid.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
-#include <lacuna/geometry/delaunay.h>
-#include <lacuna/geometry/segment.h>
+#include <lacuna/geometry/shared/delaunay.h>
+#include <lacuna/geometry/shared/segment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <lacuna/cad_worker/exact_geometry.h>
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
-#include <lacuna/geometry/plain_curve.h>
+#include <lacuna/geometry/shared/plain_curve.h>
 
 #include <Eigen/LU>
 

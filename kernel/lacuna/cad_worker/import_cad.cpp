@@ -4,7 +4,7 @@
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/narrow_sides.h>
-#include <lacuna/core/default_labels.h>
+#include <lacuna/core/shared/default_labels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
 /// How often the boundary of a face is divided twice as finely because it intersects itself.
 constexpr int kDivisions = 6;
-/// Most points of all edges after refinement. It limits time and memory, as each face is triangulated over
-/// its boundary.
+/// Most points of all edges after refinement. It limits time and memory, as each face is
+/// triangulated over its boundary.
 constexpr std::size_t kMostDivided = 400'000;
 
 /// Set the options of Gmsh such that tags and coordinates are those of a plain import.

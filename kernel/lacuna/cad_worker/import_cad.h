@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_protocol/shared/messages.h>
 #include <lacuna/cad_worker/exact_geometry.h>
 
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/segment.h>
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/segment.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <algorithm>
 #include <cmath>

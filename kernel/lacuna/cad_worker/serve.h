@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <lacuna/cad_protocol/channel.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 
 #include <functional>
 #include <memory>

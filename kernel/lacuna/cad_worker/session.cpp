@@ -20,8 +20,8 @@ bool model_exists(const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Number of open sessions: the session of a solid stays open while others open and close. Gmsh allows one
-/// logger only.
+/// Number of open sessions: the session of a solid stays open while others open and
+/// close. Gmsh allows one logger only.
 int sessions = 0;
 
 } // namespace

@@ -238,8 +238,8 @@ void SolidBuilder::forget_removed()
 
 // --- faces ------------------------------------------------------------------------------------------
 
-/// Holes are cut out by boolean operations, as Gmsh's plane with holes depends on the directions of their
-/// curves.
+/// Holes are cut out by boolean operations, as Gmsh's plane with holes depends on
+/// the directions of their curves.
 int SolidBuilder::plane(const SolidFace& face)
 {
     std::vector<int> parts;
@@ -266,8 +266,8 @@ int SolidBuilder::plane(const SolidFace& face)
     return cut.front().second;
 }
 
-/// A smooth surface over the outer loop, through points of the facets and of the inner loops, which then
-/// trim it.
+/// A smooth surface over the outer loop, through points of the facets and of the
+/// inner loops, which then trim it.
 int SolidBuilder::filling(const SolidFace& face)
 {
     std::vector<int> leading;

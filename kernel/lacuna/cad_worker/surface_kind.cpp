@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Eigenvalues>
 

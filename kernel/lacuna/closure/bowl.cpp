@@ -3,12 +3,11 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/section.h>
+#include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace lacuna::closure {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/branches.h>
+#include <lacuna/closure/shared/branches.h>
 
-#include <lacuna/closure/cut.h>
+#include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/full_turn.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/union_find.h>
-#include <lacuna/topology/section.h>
-#include <lacuna/topology/side_points.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/shared/section.h>
+#include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 
 namespace lacuna::closure {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/cavities.h>
+#include <lacuna/closure/shared/cavities.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/topology/hollows.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <algorithm>
 #include <map>

@@ -3,12 +3,12 @@
 
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/names_of.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>

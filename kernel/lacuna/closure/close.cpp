@@ -13,8 +13,8 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/topology/names_of.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <array>

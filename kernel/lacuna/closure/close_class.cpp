@@ -5,7 +5,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 
 #include <algorithm>

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/cut.h>
+#include <lacuna/closure/shared/cut.h>
 
 #include <lacuna/closure/close.h>
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/plane.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/plane.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/matching/match.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/names_of.h>
-#include <lacuna/topology/section.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 #include <lacuna/closure/detail/end_holes.h>
 
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <utility>

@@ -6,11 +6,11 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

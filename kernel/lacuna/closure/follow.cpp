@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/follow.h>
+#include <lacuna/closure/shared/follow.h>
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/matching/guides.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/matching/shared/guides.h>
 
 #include <algorithm>
 #include <cmath>

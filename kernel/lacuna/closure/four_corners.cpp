@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/swept_patch.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/swept_patch.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 namespace lacuna::closure {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/full_turn.h>
+#include <lacuna/closure/detail/full_turn.h>
 
-#include <lacuna/closure/cut.h>
+#include <lacuna/closure/shared/cut.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/spread.h>
-#include <lacuna/topology/section.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,11 +6,11 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -182,8 +182,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
         if (has_many_corners(model, loop) && is_straight_sided(model, loop) &&
             is_rim_far_off_plane(model, enclosed, face, loop))
             return true;
-    return model[face].geometry == Geometry::minimal ||
-           beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
+    return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
 /// Whether a missing end was blended between four sides without two straight opposite ones.

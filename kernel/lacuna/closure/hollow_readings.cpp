@@ -7,7 +7,7 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <algorithm>
 #include <utility>

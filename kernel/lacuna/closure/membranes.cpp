@@ -3,14 +3,13 @@
 
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lacuna::closure {
 
@@ -97,7 +96,6 @@ bool is_about_flat(const Model& model, FaceId face)
 
 bool bends_off_quadratic(const Model& model, FaceId face)
 {
-    if (model[face].geometry == Geometry::minimal) return true;
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
     const Heights heights = heights_of(model, face);
     return off_quadratic(heights, heights.extent()) > kOnIt * heights.bulge();
@@ -144,8 +142,7 @@ bool bends_as_rim(const Model& model, FaceId face)
 
 bool is_membrane(const Model& model, FaceId face)
 {
-    return bends_off_quadratic(model, face) && (model[face].geometry == Geometry::minimal ||
-                                                (!is_about_flat(model, face) && !lies_as_told(model, face)));
+    return bends_off_quadratic(model, face) && !is_about_flat(model, face) && !lies_as_told(model, face);
 }
 
 std::vector<FaceId> membranes(const Model& model, const std::vector<FaceId>& void_faces)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/model_facts.h>
+#include <lacuna/closure/shared/model_facts.h>
 
 #include <algorithm>
 

@@ -4,14 +4,14 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/segment.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Geometry>
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/no_roles.h>
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/cut.h>
 #include <lacuna/closure/detail/class_five.h>
+#include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/turns.h>
-#include <lacuna/closure/full_turn.h>
-#include <lacuna/closure/piece_ends.h>
 #include <lacuna/closure/readings.h>
-#include <lacuna/closure/walls_alone.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/piece_ends.h>
+#include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/topology/cone_shape.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/face_radius.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/piece_ends.h>
+#include <lacuna/closure/shared/piece_ends.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/topology/names_of.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <bit>

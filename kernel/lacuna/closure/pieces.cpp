@@ -2,12 +2,12 @@
 #include <lacuna/closure/detail/pieces.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/auto_roles.h>
-#include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/shared/face_plane.h>
 
 #include <algorithm>
 #include <cmath>

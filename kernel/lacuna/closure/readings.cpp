@@ -7,9 +7,9 @@
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/geometry/segment.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <limits>
@@ -91,12 +91,12 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     auto floor = read_floor(model, faces, context);
     if (floor && closes_flat(*floor)) return {std::move(*floor)};
     const RoleOptions near;
-    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), kMostSealed, false,
+    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), kMostSealed,
                                     context);
-    RoleOptions far;
-    far.margin = std::numeric_limits<double>::infinity();
-    far.most = kMostTried;
     if (found.empty()) { // the likeliest do not seal; less likely ones may
+        RoleOptions far;
+        far.margin = std::numeric_limits<double>::infinity();
+        far.most = kMostTried;
         const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
         const auto seals = std::find_if(all.begin(), all.end(), [&](const RoleCandidate& candidate) {
             return seal(model, candidate.roles, context).has_value();
@@ -104,15 +104,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         const auto end = std::find_if(seals, all.end(), [&](const RoleCandidate& candidate) {
             return candidate.cost > seals->cost + near.margin;
         });
-        found = voids(model, {seals, end}, kMostSealed, false, context);
-    }
-    if (!found.empty() && leaves_open(found.front().sealed)) {
-        // The enclosed volume is a guess, unless the rims determine the void faces.
-        auto settled = settled_void(model, faces, role_candidates(model, faces, far, context), context);
-        if (settled) {
-            found.clear();
-            found.push_back(std::move(*settled));
-        }
+        found = voids(model, {seals, end}, kMostSealed, context);
     }
     if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });

@@ -65,10 +65,6 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, has that
 /// floor and the bore's mouth as source.
 ///
-/// If the likeliest void needs a membrane, a void face over a non-planar rim that leaves its shape ambiguous,
-/// unlikely candidates without steps are tried too. If all of them that close without membranes enclose one
-/// void, that one is used.
-///
 /// Free loops that flat faces close, but not with one face each (a face has a hole, or a loop lies in two
 /// planes), are a further void. So is a channel without its ends and one wall if nothing else is certain:
 /// planar parts of the free loop are its ends if they are congruent.

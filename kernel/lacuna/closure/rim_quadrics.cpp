@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/rim_quadrics.h>
 
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/spread.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>

@@ -3,17 +3,14 @@
 
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/flat_fill.h>
-#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
-#include <lacuna/closure/steps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace lacuna::closure {
@@ -22,9 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Number of candidates tried if one closes with a membrane. Limits run time, as bent faces are slow to
-/// close.
-constexpr std::size_t kMostSettled = 4;
 /// Volumes that differ by less than this share of the larger are equal: allows for the sag of round faces,
 /// and more.
 constexpr double kSameVolume = 5e-3;
@@ -160,24 +154,6 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
     }
 }
 
-/// The faces next to each non-planar free loop that does not determine its inside.
-std::vector<std::vector<FaceId>> faces_round_bent_loops(const Model& model, const std::vector<FaceId>& faces)
-{
-    OpenVolume open;
-    open.model = extract(model, faces);
-    orient_consistently(open.model);
-    open.role.assign(faces.size(), Role::wall);
-    const auto uses = edge_uses(open.model);
-    std::vector<std::vector<FaceId>> round;
-    for (const Rim& rim : free_loops(open)) {
-        if (is_flat(open.model, rim) || !four_corners(open.model, {rim.uses}).empty()) continue;
-        round.emplace_back();
-        for (const EdgeUse& use : rim.uses)
-            round.back().push_back(faces[uses[use.edge.index()].front().face.index()]);
-    }
-    return round;
-}
-
 } // namespace
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
@@ -222,7 +198,7 @@ std::vector<FaceId> as_named(const Roles& roles)
 }
 
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
-                        bool settled, const RunContext& context)
+                        const RunContext& context)
 {
     std::vector<Void> found;
     std::size_t sealed = 0;
@@ -237,32 +213,12 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
         }
         if (sealed == most) break;
         std::optional<Sealed> now = seal(model, candidate.roles, context);
-        if (now || settled) ++sealed;
-        if (!now || (settled && has_membranes(*now))) continue;
+        if (!now) continue;
+        ++sealed;
         add_sealed(found, candidate, std::move(*now), flat);
     }
     keep_likely(found);
     return found;
-}
-
-std::optional<Void> settled_void(const Model& model, const std::vector<FaceId>& faces,
-                                 std::vector<RoleCandidate> candidates, const RunContext& context)
-{
-    const std::vector<std::vector<FaceId>> open = faces_round_bent_loops(model, faces);
-    std::erase_if(candidates, [&](const RoleCandidate& candidate) {
-        const auto touches = [&](const std::vector<FaceId>& end) {
-            return std::ranges::all_of(open, [&](const std::vector<FaceId>& round) {
-                return std::ranges::any_of(
-                    end, [&](FaceId face) { return std::ranges::find(round, face) != round.end(); });
-            });
-        };
-        return !touches(candidate.roles.source) || !touches(candidate.roles.target) ||
-               connected_parts(model, candidate.roles.source).size() > 1 ||
-               connected_parts(model, candidate.roles.target).size() > 1;
-    });
-    std::vector<Void> found = voids(model, candidates, kMostSettled, true, context);
-    if (found.size() != 1 || has_steps(found.front().sealed.volume, context)) return std::nullopt;
-    return std::move(found.front());
 }
 
 void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,

@@ -2,7 +2,7 @@
 #include <lacuna/closure/detail/sealing.h>
 
 #include <lacuna/closure/close.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <iterator>

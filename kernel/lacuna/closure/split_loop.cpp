@@ -3,11 +3,11 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/face_plane.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/steps.h>
+#include <lacuna/closure/shared/steps.h>
 
-#include <lacuna/closure/cut.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <exception>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 

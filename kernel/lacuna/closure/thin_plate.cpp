@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/thin_plate.h>
 
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
 

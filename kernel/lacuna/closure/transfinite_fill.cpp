@@ -2,9 +2,9 @@
 #include <lacuna/closure/detail/transfinite_fill.h>
 
 #include <lacuna/closure/detail/outline.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/swept_patch.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/swept_patch.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>

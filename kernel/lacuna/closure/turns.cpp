@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/turns.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>

@@ -3,16 +3,14 @@
 
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 
 namespace lacuna::closure {

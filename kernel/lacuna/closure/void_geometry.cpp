@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/minimal_area.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -264,48 +262,6 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
            edge_at(crossing.loop_b, crossing.segment_b);
 }
 
-// --- not in the paper: least area ----------------------------------------------------------------------
-
-/// A face that folds in its Newell plane and does not have four sides: a membrane over its loops.
-VoidFilling fill_with_least_area(const Model& model, const std::vector<Loop>& loops,
-                                 const std::string& crossing, const std::string& name,
-                                 const RunContext& context)
-{
-    std::vector<Index> model_point;
-    std::vector<Vec3> points;
-    std::vector<std::vector<Index>> cycles;
-    for (const Loop& loop : loops) {
-        std::vector<Index>& cycle = cycles.emplace_back();
-        for (const Index p : loop_points(model, loop.uses)) {
-            cycle.push_back(static_cast<Index>(points.size()));
-            model_point.push_back(p);
-            points.push_back(model.at(p));
-        }
-    }
-    geometry::MinimalArea membrane;
-    try {
-        membrane = geometry::minimal_area(points, cycles, {}, context);
-    } catch (const InvalidInput& error) {
-        throw NotClosed("closure.outline_crosses", name + " cannot be projected to a plane: " + crossing +
-                                                       " cross there, and no minimal surface was found (" +
-                                                       error.what() +
-                                                       "); give this face, or split it by one more wall");
-    }
-    VoidFilling result;
-    const auto base = static_cast<Index>(model.points.size());
-    const auto rim = static_cast<Index>(points.size());
-    result.points.assign(membrane.points.begin() + rim, membrane.points.end());
-    for (const Triangle& t : membrane.triangles) {
-        Triangle mapped{};
-        for (std::size_t i = 0; i < 3; ++i)
-            mapped[i] = t[i] < rim ? model_point[static_cast<std::size_t>(t[i])] : base + t[i] - rim;
-        result.triangles.push_back(mapped);
-    }
-    result.geometry = Geometry::minimal;
-    result.algorithm = "least area";
-    return result;
-}
-
 } // namespace
 
 std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
@@ -373,8 +329,10 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     } else if (!crossing) {
         result = fill_on_newell_plane(model, newell, on, context);
     } else {
-        result = fill_with_least_area(model, loops, crossing_in_words(model, loops, *crossing), name,
-                                      context);
+        throw NotClosed("closure.outline_crosses",
+                        name +
+                            " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
+                            " cross there; give a face for it, or split it by one more wall");
     }
     result.loops = loops;
     return result;

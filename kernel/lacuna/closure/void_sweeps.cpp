@@ -3,9 +3,9 @@
 
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
-#include <lacuna/closure/steps.h>
+#include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <algorithm>
 #include <functional>

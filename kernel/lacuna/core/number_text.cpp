@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <charconv>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 
-#include <lacuna/core/bytes.h>
+#include <lacuna/core/shared/bytes.h>
 
 #include <algorithm>
 #include <exception>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/describe.h>
 
-#include <lacuna/closure/branches.h>
+#include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/assembly.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
 #include <sstream>
@@ -31,8 +31,6 @@ const char* word(topology::Geometry geometry)
         return "followed sides";
     case topology::Geometry::parallel:
         return "parallel to the other end";
-    case topology::Geometry::minimal:
-        return "minimal area";
     }
     return "unknown";
 }

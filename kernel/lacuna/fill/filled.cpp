@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/filled.h>
 
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/detail/members.h>
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/piece_ends.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/nearest_word.h>
+#include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/fill/detail/kept_mesh.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/volume.h>
 
-#include <lacuna/closure/walls_alone.h>
+#include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/progress.h>
-#include <lacuna/topology/auto_walls.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/core/shared/progress.h>
+#include <lacuna/topology/shared/auto_walls.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <utility>
 

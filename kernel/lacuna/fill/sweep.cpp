@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill.h>
 
-#include <lacuna/closure/branches.h>
+#include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/members.h>
-#include <lacuna/io/deck_middles.h>
+#include <lacuna/io/shared/deck_middles.h>
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/volume.h>
 
-#include <lacuna/closure/branches.h>
-#include <lacuna/closure/cut.h>
-#include <lacuna/closure/piece_ends.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/detail/members.h>
 
 #include <algorithm>

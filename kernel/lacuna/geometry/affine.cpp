@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/shared/affine.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -12,7 +12,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-// Below this part of the widest spread a direction cannot be told from the rounding of the others.
+// A spread below this part of the largest is indistinguishable from rounding.
 const double kUnresolved = std::sqrt(std::numeric_limits<double>::epsilon());
 
 Vec3 pseudo_normal(const Vec3& area)
@@ -21,13 +21,13 @@ Vec3 pseudo_normal(const Vec3& area)
     return size > 0 ? Vec3(area / std::sqrt(size)) : Vec3(Vec3::Zero());
 }
 
-/// Images of the directions the data left open, so that the map is as near a similarity as it can be.
+/// Complete the images of undetermined directions so that the map is as close to a similarity as possible.
 void complete(Eigen::Matrix3d& image, int rank)
 {
     if (rank == 0) {
         image.setIdentity();
     } else if (rank == 1) {
-        // `image` is in the frame of the axes: the first axis goes to its column 0.
+        // `image` is in the frame of the axes: the first axis is mapped to its column 0.
         const double length = image.col(0).norm();
         if (length > 0) {
             const Vec3 along = image.col(0);
@@ -83,7 +83,7 @@ AffineFit AffineFitter::fit(std::span<const Vec3> to, const Vec3& to_area) const
     result.rank = rank_;
 
     const double share = std::sqrt(static_cast<double>(std::max<std::size_t>(to.size(), 1)));
-    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // of the axes, in the axes' own frame
+    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // of the axes, in their own frame
     for (std::size_t i = 0; i < to.size(); ++i) {
         image += ((to[i] - result.to_centre) / share) * basis_.row(static_cast<Eigen::Index>(i));
     }
@@ -142,7 +142,7 @@ RigidFit fit_rigid(std::span<const Vec3> from, std::span<const Vec3> to, bool wi
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Vec3 strength = svd.singularValues();
     if (strength[0] > 0 && strength[1] > kUnresolved * strength[0]) {
-        // The weakest direction takes the sign that makes the rotation proper.
+        // Choose the sign of the weakest direction such that the determinant is 1.
         const Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
         const Vec3 sign(1, 1, turn.determinant() < 0 ? -1 : 1);
         result.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();

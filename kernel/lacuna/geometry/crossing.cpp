@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// find_crossing(): segments are put in a tree of boxes along Hilbert-like order (median cuts), each segment
-// asks the tree for those after it. A tree rather than a grid, since spacings may differ a millionfold.
-#include <lacuna/geometry/triangulate.h>
+// find_crossing(): segments are stored in a tree of boxes with median cuts, and each segment queries the tree
+// for later segments. A tree and not a grid, as spacings may differ by a factor of a million.
+#include <lacuna/geometry/shared/triangulate.h>
 
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/segment.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <numeric>
@@ -22,7 +21,7 @@ struct Box {
     Vec2 low, high;
 };
 
-/// Segments in a leaf of the tree: boxes are about as dear to test as segments. A choice, not a measurement.
+/// Segments in a leaf of the tree: testing a box costs about as much as testing a segment.
 constexpr std::size_t kLeafSize = 4;
 
 class SegmentTree {
@@ -33,7 +32,7 @@ public:
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Call `visit(i)` for each box that meets `query`.
+    /// Call `visit(i)` for each box that intersects `query`.
     template <class Visit>
     void each_meeting(const Box& query, const Visit& visit) const
     {
@@ -99,7 +98,7 @@ bool within_box(const Vec2& p, const Vec2& a, const Vec2& b)
     return (p.array() >= a.cwiseMin(b).array()).all() && (p.array() <= a.cwiseMax(b).array()).all();
 }
 
-/// Closed segments with a point in common, decided exactly.
+/// Whether two closed segments share a point, decided exactly.
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
 {
     const double abc = orient2d(a, b, c), abd = orient2d(a, b, d);
@@ -110,26 +109,16 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
            (cda == 0 && within_box(a, c, d)) || (cdb == 0 && within_box(b, c, d));
 }
 
-bool segments_near(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double tolerance)
+/// Neighbouring segments share the point `common`; they overlap if the second folds back onto the first.
+bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b)
 {
-    return distance_to_segment(a, c, d) <= tolerance || distance_to_segment(b, c, d) <= tolerance ||
-           distance_to_segment(c, a, b) <= tolerance || distance_to_segment(d, a, b) <= tolerance;
-}
-
-/// Neighbours share `common`; they overlap where the second folds back onto the first.
-bool folds_back(const Vec2& common, const Vec2& a, const Vec2& b, double tolerance)
-{
-    if ((a - common).dot(b - common) <= 0) return false;
-    if (orient2d(common, a, b) == 0) return true;
-    const bool longer = (a - common).norm() > tolerance && (b - common).norm() > tolerance;
-    return tolerance > 0 && longer &&
-           (distance_to_segment(a, common, b) <= tolerance || distance_to_segment(b, common, a) <= tolerance);
+    return (a - common).dot(b - common) > 0 && orient2d(common, a, b) == 0;
 }
 
 } // namespace
 
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
-                                          std::span<const std::vector<Index>> loops, double tolerance)
+                                          std::span<const std::vector<Index>> loops)
 {
     const auto at = [&](Index i) -> const Vec2& { return points[static_cast<std::size_t>(i)]; };
     std::vector<LoopSegment> segments;
@@ -139,8 +128,7 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
         for (std::size_t k = 0; k < walk.size(); ++k) {
             const Index from = walk[k], to = walk[(k + 1) % walk.size()];
             segments.push_back({from, to, loop, k});
-            const Vec2 reach = Vec2::Constant(tolerance);
-            boxes.push_back({at(from).cwiseMin(at(to)) - reach, at(from).cwiseMax(at(to)) + reach});
+            boxes.push_back({at(from).cwiseMin(at(to)), at(from).cwiseMax(at(to))});
         }
     }
     const SegmentTree tree(boxes);
@@ -148,13 +136,10 @@ std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
     const auto bad = [&](const LoopSegment& s, const LoopSegment& r) {
         const std::size_t count = loops[s.loop].size();
         if (s.loop == r.loop && count > 2) {
-            if ((s.segment + 1) % count == r.segment)
-                return folds_back(at(s.to), at(s.from), at(r.to), tolerance);
-            if ((r.segment + 1) % count == s.segment)
-                return folds_back(at(r.to), at(r.from), at(s.to), tolerance);
+            if ((s.segment + 1) % count == r.segment) return folds_back(at(s.to), at(s.from), at(r.to));
+            if ((r.segment + 1) % count == s.segment) return folds_back(at(r.to), at(r.from), at(s.to));
         }
-        return segments_meet(at(s.from), at(s.to), at(r.from), at(r.to)) ||
-               (tolerance > 0 && segments_near(at(s.from), at(s.to), at(r.from), at(r.to), tolerance));
+        return segments_meet(at(s.from), at(s.to), at(r.from), at(r.to));
     };
     for (std::size_t i = 0; i < segments.size(); ++i) {
         std::size_t first = segments.size();

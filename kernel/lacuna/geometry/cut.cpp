@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/cut.h>
+#include <lacuna/geometry/shared/cut.h>
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 
 #include <algorithm>
 #include <queue>
@@ -13,7 +13,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Facets and points between two looks at the context. A choice, not a measurement.
+/// Number of facets and points between checks for cancelling.
 constexpr std::size_t kStepsBetweenPolls = 4096;
 
 } // namespace
@@ -67,7 +67,7 @@ std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles,
 {
     std::vector<std::array<int, 3>> turns(triangles.size(), {0, 0, 0});
     const std::unordered_set<Index> on_cut(cut.begin(), cut.end());
-    std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle, of those at the cut
+    std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle, for triangles at the cut
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const Triangle& corner = triangles[t];
         if (std::none_of(corner.begin(), corner.end(), [&](Index p) { return on_cut.contains(p); })) continue;
@@ -82,8 +82,8 @@ std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles,
         const Triangle& triangle = triangles[t];
         return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
     };
-    // Round each point of the cut, flood the facets on its right, which hold the cut's sides against its
-    // direction.
+    // Around each point of the cut, collect the facets on its right, which contain the sides of
+    // the cut in opposite direction.
     for (std::size_t i = 0; i < cut.size(); ++i) {
         std::vector<std::size_t> front;
         const auto start_at = [&](Index a, Index b) {

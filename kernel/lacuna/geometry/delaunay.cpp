@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/delaunay.h>
+#include <lacuna/geometry/shared/delaunay.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,7 @@
 namespace lacuna::geometry {
 namespace {
 
-/// Position along Hilbert's curve through a 2^16 × 2^16 grid.
+/// Position on the Hilbert curve through a 2^16 × 2^16 grid.
 std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y)
 {
     std::uint32_t key = 0;
@@ -32,7 +32,7 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y)
     return key;
 }
 
-/// A number whose bits do not follow those of `p`.
+/// A hash, to shuffle points.
 std::uint32_t scattered(Index p)
 {
     auto x = static_cast<std::uint32_t>(p);
@@ -55,8 +55,7 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
     const Vec2 centre = (low + high) / 2;
     double extent = (high - low).maxCoeff();
     if (!(extent > 0)) extent = 1;
-    // Any triangle that holds the box does; a few times its size keeps the first triangles from being
-    // slivers.
+    // Any triangle around the box would do; at a few times its size, the first triangles are not slivers.
     points_.push_back(centre + Vec2(-8, -5) * extent);
     points_.push_back(centre + Vec2(8, -5) * extent);
     points_.push_back(centre + Vec2(0, 9) * extent);
@@ -71,10 +70,10 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
 
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
 {
-    // In rounds, each of twice as many points as those before it and each along Hilbert's curve
-    // @cite amenta_2003_order: along the curve alone, rims of many points are walked along, and each point
-    // of a line or a circle removes nearly all triangles about the last.
-    constexpr std::size_t kFirstRound = 1024; // a choice: so few are put in as they lie on the curve
+    // Insert in rounds, each with twice as many points as all before it and each along a Hilbert curve
+    // @cite amenta_2003_order. Along a single curve, walks follow rims of many points, and each point of a
+    // line or circle replaces nearly all triangles at the previous one.
+    constexpr std::size_t kFirstRound = 1024; // a small first round is inserted in Hilbert order only
     int rounds = 0;
     while (used.size() >> rounds > kFirstRound) ++rounds;
     std::vector<std::tuple<int, std::uint32_t, Index>> order;
@@ -95,7 +94,7 @@ void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, d
         const Index holder = locate(at(p), last);
         if (holder < 0 || !find_cavity(at(p), holder, cavity)) {
             throw InvalidInput("geometry.point_twice", "point " + std::to_string(p + 1) +
-                                                           " lies on a point given before; give it once");
+                                                           " coincides with an earlier point; give it once");
         }
         fan(p, cavity, fresh);
         last = fresh.front();
@@ -104,8 +103,8 @@ void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, d
 
 Index DelaunayMesh::locate(const Vec2& p, Index start) const
 {
-    // A walk towards p. Without constraints it always arrives; with them it may be barred or, rarely, go in
-    // circles, which the count of steps ends.
+    // Walk towards p. Without constraints the walk always arrives; with them it may be blocked or, rarely,
+    // cycle, so the number of steps is limited.
     Index t = start;
     std::uint32_t dice = 1;
     for (std::size_t steps = 0; steps <= triangles_.size(); ++steps) {
@@ -132,8 +131,7 @@ bool DelaunayMesh::find_cavity(const Vec2& p, Index holder, Cavity& cavity)
     cavity.triangles.clear();
     cavity.border.clear();
     ++stamp_now_;
-    // Depth first, sides in counter-clockwise order from the one entered by: so the border comes out in
-    // order.
+    // Depth first, sides in counter-clockwise order from the side of entry: this gives the border in order.
     auto& pending = cavity.pending;
     pending.clear();
     cavity.triangles.push_back(holder);
@@ -160,7 +158,7 @@ bool DelaunayMesh::find_cavity(const Vec2& p, Index holder, Cavity& cavity)
         if (orient2d(at(tri.from(side)), at(tri.to(side)), p) <= 0) return false;
         cavity.border.push_back({tri.from(side), tri.to(side), other, fixed});
     }
-    // A disc without inner points has two border sides more than triangles.
+    // A disc without inner points has two more border sides than triangles.
     return cavity.border.size() == cavity.triangles.size() + 2;
 }
 
@@ -214,7 +212,7 @@ void DelaunayMesh::fan(Index point, const Cavity& cavity, std::vector<Index>& fr
 std::pair<Index, int> DelaunayMesh::find_side(Index a, Index b) const
 {
     const Index start = triangle_of_[index(a)];
-    // Every given point is within the outer triangle, so its triangles close around it.
+    // Every given point is inside the outer triangle, so the triangles around it form a closed fan.
     for (Index t = start; t >= 0;) {
         const DelaunayTriangle& tri = (*this)[t];
         int corner = 0;
@@ -241,7 +239,7 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         mark_fixed(a, b);
         return;
     }
-    // The triangle at a that the segment leaves through, then across side after side to b.
+    // Find the triangle at a that the segment crosses first, then follow the segment to b.
     const Index start = triangle_of_[index(a)];
     Index t = start;
     int side = 0;
@@ -253,7 +251,7 @@ void DelaunayMesh::fix_segment(Index a, Index b)
             break;
         t = tri.across((side + 1) % 3);
         if (t == start || t < 0)
-            throw Error("geometry.internal", "a segment leaves its point through no triangle");
+            throw Error("geometry.internal", "no triangle at a point contains the direction of its segment");
     }
     std::vector<Index> strip{t};
     std::vector<Index> right{a, (*this)[t].from(side)};
@@ -269,9 +267,10 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         const Index apex = tri.corner[static_cast<std::size_t>(entry)];
         if (apex == b) break;
         const double turn = orient2d(at(a), at(b), at(apex));
-        if (turn == 0) throw Error("geometry.internal", "a segment runs through a point");
+        if (turn == 0) throw Error("geometry.internal", "a segment passes through a point");
         (turn > 0 ? left : right).push_back(apex);
-        // Corners are the apex, the left chain's end, the right's: it goes on between apex and the other one.
+        // The corners are the apex and the ends of the left and right chains; cross the side between the apex
+        // and one end.
         side = turn > 0 ? (entry + 1) % 3 : (entry + 2) % 3;
     }
     left.push_back(b);
@@ -283,8 +282,8 @@ void DelaunayMesh::fix_segment(Index a, Index b)
 void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<Index> left,
                                  const std::vector<Index>& right)
 {
-    // What lies across each side of the strip, by the side as its own triangle directs it. Points may come
-    // twice in a chain (a dangling side), so sides are looked up rather than counted on.
+    // For each side of the strip, find the triangle on its other side. A chain may contain a point twice (a
+    // dangling side), so sides are looked up instead of counted.
     std::map<std::pair<Index, Index>, std::tuple<Index, bool>> across;
     const bool inside = (*this)[strip.front()].inside;
     for (const Index t : strip) stamp_[index(t)] = -2;
@@ -300,8 +299,9 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
     }
     for (const Index t : strip) stamp_[index(t)] = -1;
 
-    // Each side of the segment is a polygon over a base; the chain's point whose circle with the base holds
-    // no other makes the Delaunay triangle on it and leaves two smaller polygons (Anglada 1997).
+    // On each side of the segment there is a polygon with the segment as base. The chain point whose circle
+    // through the base contains no other point forms the Delaunay triangle on the base, and leaves two
+    // smaller polygons (Anglada 1997).
     std::reverse(left.begin(), left.end());
     std::vector<Triangle> made;
     const auto fill = [&](const std::vector<Index>& chain) {
@@ -318,16 +318,16 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
                     best = i;
                 }
             }
-            if (best == 0) throw Error("geometry.internal", "a cut strip cannot be triangulated");
+            if (best == 0) throw Error("geometry.internal", "a strip along a segment cannot be triangulated");
             made.push_back({chain[last], chain[first], chain[best]});
             pending.emplace_back(first, best);
             pending.emplace_back(best, last);
         }
     };
-    fill(left);  // b … a, the base runs a → b
-    fill(right); // a … b, the base runs b → a
+    fill(left);  // b … a; the base is a → b
+    fill(right); // a … b; the base is b → a
     if (made.size() != strip.size())
-        throw Error("geometry.internal", "a cut strip changed its count of triangles");
+        throw Error("geometry.internal", "retriangulating a strip changed its number of triangles");
 
     std::map<std::pair<Index, Index>, Index> owner;
     for (std::size_t i = 0; i < made.size(); ++i) {
@@ -354,9 +354,9 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
     }
 }
 
-std::vector<Index> DelaunayMesh::mark_inside()
+void DelaunayMesh::mark_inside()
 {
-    // Breadth first, one constraint deeper at a time; triangle_of_ of an outer corner is outside.
+    // Breadth first in order of depth. The triangle at an outer corner is outside.
     std::vector<Index> depth(triangles_.size(), -1);
     std::vector<Index> level{triangle_of_[index(given_)]};
     for (Index now = 0; !level.empty(); ++now) {
@@ -375,7 +375,6 @@ std::vector<Index> DelaunayMesh::mark_inside()
         }
         level = std::move(deeper);
     }
-    return depth;
 }
 
 } // namespace lacuna::geometry

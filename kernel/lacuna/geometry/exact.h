@@ -8,29 +8,29 @@
 
 namespace lacuna::geometry {
 
-/// The surface a face was faceted from, as something that can be projected on. The kernel never asks what
-/// it is; `cad/` implements it, and so may a host with a CAD kernel of its own.
+/// The exact surface of a face, onto which points can be projected. The kernel does not know its type; `cad/`
+/// implements it, and a host may do so with its own CAD kernel.
 class ExactSurface {
 public:
     virtual ~ExactSurface() = default;
 
-    /// Move each point to the closest point of the surface near its start parameter.
+    /// Project each point to the surface, near its start parameters.
     ///
-    /// @param points  in: near the surface; out: on it to rounding [model length].
-    /// @param uv      in: a start parameter for each point (as that of the closest facet); out: the point's
-    ///         own.
+    /// @param points  in: near the surface; out: on it up to rounding [model length].
+    /// @param uv      in: start parameters of each point, such as those of the closest facet; out: the
+    ///         parameters of the projected point.
     /// @pre  points.size() == uv.size().
-    /// @throw BackendError where the projection does not converge; Cancelled.
+    /// @throw BackendError  the projection does not converge; Cancelled.
     virtual void project(std::span<Vec3> points, std::span<Vec2> uv,
                          const RunContext& context = {}) const = 0;
 };
 
-/// The curve an edge was faceted from.
+/// The exact curve of an edge.
 class ExactCurve {
 public:
     virtual ~ExactCurve() = default;
 
-    /// Points of the curve at its own parameters. @pre params.size() == points.size().
+    /// Evaluate the curve at parameters. @pre params.size() == points.size().
     virtual void evaluate(std::span<const double> params, std::span<Vec3> points,
                           const RunContext& context = {}) const = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +17,18 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vec3, 3>;
 
-/// Triangles a leaf holds at most.
+/// Most triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees of fewer triangles are made, and as many pairs of boxes compared, without a look at the context.
-/// A choice: a few milliseconds.
+/// Subtrees with fewer triangles are built, and as many pairs of boxes compared, between checks for
+/// cancelling: a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
-/// Halves of fewer triangles are made on one thread: 1 ms. A choice.
+/// Subtrees with fewer triangles are built on one thread: 1 ms.
 constexpr std::uint32_t kShared = 4096;
-/// The tree halves its triangles at each level, so 2^31 of them need at most 31 levels, and a walk down
-/// leaves one sibling a level behind.
+/// Each level halves the triangles, so 2^31 triangles need at most 31 levels; a depth-first traversal stores
+/// one sibling per level.
 constexpr std::size_t kMaxDepth = 64;
 
-/// Squared distance to a box. No corner in the box comes out nearer than this, rounding included.
+/// Squared distance to a box, rounded down: no point in the box is closer.
 double distance2(const Box& box, const Vec3& p)
 {
     double sum = 0;
@@ -45,10 +45,10 @@ bool near(const Box& a, const Box& b, double margin)
            ((b.min().array() - margin) <= a.max().array()).all();
 }
 
-/// Componentwise inverse with +∞ for both zeros, so that the sides of a box keep their order.
+/// Componentwise inverse; +∞ for both zeros, which keeps the two sides of a box in order.
 Vec3 inverse_of(const Vec3& direction) { return (direction.array() + 0.0).inverse(); }
 
-/// Does the ray, up to t_max, meet the box? `inverse` may hold infinities.
+/// Whether the ray intersects the box before t_max. `inverse` may contain infinities.
 bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max)
 {
     double enter = 0, leave = t_max;
@@ -56,16 +56,16 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max
         double t0 = (box.min()[axis] - origin[axis]) * inverse[axis];
         double t1 = (box.max()[axis] - origin[axis]) * inverse[axis];
         if (t0 > t1) std::swap(t0, t1);
-        // 0 · ∞, for a ray in the plane of a side, is no bound: comparisons with it are false.
+        // 0 · ∞ (NaN), for a ray in the plane of a side, must not be a bound: comparisons with it are false.
         if (t0 > enter) enter = t0;
         if (t1 < leave) leave = t1;
     }
-    // The crossing with a facet on the box's side may round to just beyond it.
+    // An intersection with a facet on a side of the box may be rounded to just beyond it.
     const double slack = 4 * std::numeric_limits<double>::epsilon();
     return enter <= leave * (1 + slack) + std::numeric_limits<double>::min();
 }
 
-/// Möller and Trumbore 1997.
+/// Intersection of a ray with a triangle (Möller and Trumbore 1997).
 FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3& direction)
 {
     const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
@@ -83,7 +83,7 @@ FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3&
     return hit;
 }
 
-/// Bring the triangles to the front whose centres are in the lower half along the longest side of their box.
+/// Partition the triangles by their centres at the median along the longest side of the bounding box.
 void halve(std::span<Index> ids, std::span<const Vec3> centres)
 {
     Box box;
@@ -97,13 +97,13 @@ void halve(std::span<Index> ids, std::span<const Vec3> centres)
     std::vector<Keyed> keyed;
     keyed.reserve(ids.size());
     for (const Index id : ids) keyed.push_back({centres[index(id)][axis], id});
-    // Equal centres are told apart by index: the tree depends on nothing but the triangles.
+    // Break ties by index, so that the tree depends only on the triangles.
     std::nth_element(keyed.begin(), keyed.begin() + static_cast<std::ptrdiff_t>(ids.size() / 2), keyed.end(),
                      [](const Keyed& a, const Keyed& b) { return a.at != b.at ? a.at < b.at : a.id < b.id; });
     std::transform(keyed.begin(), keyed.end(), ids.begin(), [](const Keyed& k) { return k.id; });
 }
 
-/// Nodes over so many triangles.
+/// Number of nodes over a number of triangles.
 std::uint32_t node_count(std::uint32_t triangles)
 {
     if (triangles <= kLeaf) return 1;
@@ -134,9 +134,9 @@ FacetTree::Hit closest_on_sides(const Vec3& p, const Corners& c)
 
 FacetTree::Hit closest_on_triangle(const Vec3& p, const Corners& c)
 {
-    // Over the inside when the foot on the plane has three positive weights (areas of the parts it cuts the
-    // triangle into, signed along the normal); otherwise on a side. A triangle so thin that rounding decides
-    // the signs is its sides.
+    // The closest point is inside if the projection has three positive weights (areas of the parts of the
+    // triangle, signed along the normal); otherwise it is on a side. For a triangle so thin that rounding
+    // decides the signs, only the sides are used.
     const Vec3 ab = c[1] - c[0], ac = c[2] - c[0];
     const Vec3 normal = ab.cross(ac);
     const double area2 = normal.squaredNorm();
@@ -157,7 +157,7 @@ FacetTree::Hit closest_on_triangle(const Vec3& p, const Corners& c)
     return closest_on_sides(p, c);
 }
 
-/// What a tree is built from.
+/// Input of the construction of a tree.
 struct FacetTree::Parts {
     std::span<const Vec3> centre;
     std::span<const Box> box;
@@ -193,8 +193,9 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     bounds_ = node_.front().box;
 }
 
-/// The nodes over triangles [begin, end), from node `self` on; those of the lower half come before those of
-/// the upper. @return  the first node behind them.
+/// Build the nodes over triangles [begin, end), starting at node `self`; the
+/// lower half precedes the upper half.
+/// @return  the node after them.
 std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                                int threads, const RunContext& context)
 {
@@ -283,7 +284,7 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
         for (std::uint32_t i = a.begin; i < a.end; ++i) {
             const Box own = box_of(corner_[i]);
             for (std::uint32_t j = b.begin; j < b.end; ++j) {
-                // Within one tree both (i, j) and (j, i) come by.
+                // Within one tree, both (i, j) and (j, i) are reached.
                 if (itself && id_[i] >= other.id_[j]) continue;
                 if (!near(own, box_of(other.corner_[j]), margin)) continue;
                 if (!visit(id_[i], other.id_[j])) return false;
@@ -291,7 +292,7 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
         }
         return true;
     };
-    // A pair splits the larger of its nodes, so each step adds one to a path of at most two tree heights.
+    // A pair is replaced by splitting the larger node, so the depth is at most twice the height of a tree.
     std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * kMaxDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = {0, 0};
@@ -377,7 +378,7 @@ bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
 
 double FacetTree::winding_number(const Vec3& p) const
 {
-    // Solid angle of a triangle seen from the origin (van Oosterom and Strackee 1983).
+    // Solid angle of a triangle at the origin (van Oosterom and Strackee 1983).
     double sum = 0;
     for (const Corners& c : corner_) {
         const Vec3 a = c[0] - p, b = c[1] - p, d = c[2] - p;
@@ -391,12 +392,12 @@ double FacetTree::winding_number(const Vec3& p) const
 
 namespace {
 
-/// Heights of a triangle's corners over another's plane; those within tolerance count as on it.
+/// Heights of a triangle's corners over the plane of another; heights within the tolerance are set to zero.
 Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, double tolerance)
 {
     Vec3 result;
     for (int i = 0; i < 3; ++i) {
-        // A shared corner is on the plane whatever rounding says.
+        // A shared corner is on the plane exactly, without rounding.
         const bool shared = of[i] == plane[0] || of[i] == plane[1] || of[i] == plane[2];
         const double h = (of[i] - plane[0]).dot(normal);
         result[i] = shared || std::abs(h) <= tolerance ? 0 : h;
@@ -404,8 +405,8 @@ Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, d
     return result;
 }
 
-/// The stretch of a line that a triangle covers where it passes through another's plane: the line's
-/// parameter at the corners on the plane and at the sides that pass through.
+/// The interval in which a triangle intersects the line of intersection of two planes: the parameters of
+/// corners on the plane and of sides that cross it.
 std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
 {
     std::pair<double, double> range{std::numeric_limits<double>::infinity(),
@@ -421,7 +422,7 @@ std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const V
     return range;
 }
 
-/// Do triangles of one plane overlap by more than `tolerance` whichever way they are pushed apart?
+/// Whether two coplanar triangles overlap by more than `tolerance` in every separating direction.
 bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, double tolerance)
 {
     for (const Corners* triangle : {&a, &b}) {
@@ -445,10 +446,10 @@ bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, do
 bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
 {
     const Vec3 area_a = (a[1] - a[0]).cross(a[2] - a[0]), area_b = (b[1] - b[0]).cross(b[2] - b[0]);
-    // A triangle of no area has no sides to be on; what it is part of is crossed by its neighbours.
+    // Degenerate triangles are skipped; if they are part of an intersection, their neighbours are too.
     if (area_a.isZero(0) || area_b.isZero(0)) return false;
     const Vec3 normal_a = area_a.normalized(), normal_b = area_b.normalized();
-    // Heights and lengths come out wrong by a few bits of the triangles' extent, whatever the tolerance.
+    // Heights and lengths have rounding errors of a few bits of the extent of the triangles.
     Box extent;
     for (const Vec3& corner : a) extent.extend(corner);
     for (const Vec3& corner : b) extent.extend(corner);

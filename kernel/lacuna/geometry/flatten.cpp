@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/flatten.h>
+#include <lacuna/geometry/shared/flatten.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <lacuna/geometry/detail/flatten_maps.h>
 
@@ -24,7 +24,7 @@ namespace {
 using flat::Facets;
 using flat::Positions;
 
-/// Half the digits of a double: what rounding leaves of a quantity that is squared on the way.
+/// Half the digits of a double: precision of quantities whose squares are computed.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 [[noreturn]] void fail(const std::string& what)
@@ -32,14 +32,15 @@ const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
     throw InvalidInput("geometry.not_flattenable", "facets cannot be flattened: " + what);
 }
 
-/// The points in use, numbered densely.
+/// Number the points in use consecutively.
 Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles, std::vector<Index>& used)
 {
     std::vector<Index> local(points.size(), -1);
     for (const Triangle& triangle : triangles)
         for (const Index corner : triangle) {
             if (corner < 0 || index(corner) >= points.size())
-                fail("one names point " + std::to_string(corner) + " of " + std::to_string(points.size()));
+                fail("a triangle has point number " + std::to_string(corner) + " of " +
+                     std::to_string(points.size()));
             local[index(corner)] = 0;
         }
     Facets facets;
@@ -56,8 +57,8 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
 
 // --- the boundary ---------------------------------------------------------------------------------
 
-/// Directed sides of the triangles that no other triangle runs along the other way, in rising order.
-/// @param twice  set to a side that two triangles run along the same way, if there is one.
+/// Directed sides without an oppositely directed partner, in ascending order.
+/// @param twice  set to a side that two triangles have in the same direction, if there is one.
 std::vector<Segment> boundary_sides(std::span<const Triangle> triangles, std::vector<Segment>& twice)
 {
     std::vector<Segment> sides, boundary;
@@ -72,7 +73,7 @@ std::vector<Segment> boundary_sides(std::span<const Triangle> triangles, std::ve
     return boundary;
 }
 
-/// Chain directed sides, sorted by their first point, into cycles.
+/// Chain directed sides, sorted by their first point, to cycles.
 std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
 {
     std::vector<std::vector<Index>> loops;
@@ -124,19 +125,18 @@ void check_disc(const Facets& facets, const std::vector<Segment>& boundary, cons
                 const std::vector<Index>& used)
 {
     if (!twice.empty())
-        fail("two run along the side from point " + std::to_string(used[index(twice.front()[0])]) +
+        fail("two triangles have the side from point " + std::to_string(used[index(twice.front()[0])]) +
              " to point " + std::to_string(used[index(twice.front()[1])]) +
-             " the same way; expected an oriented manifold");
-    if (boundary.empty()) fail("they are closed; expected at least one boundary, so cut them open");
+             " in the same direction; expected an oriented manifold");
+    if (boundary.empty()) fail("they form a closed surface without boundary; cut it open");
     const Index parts = count_parts(facets);
     if (parts != 1)
-        fail("they fall into " + std::to_string(parts) + " parts; expected one, so flatten each by itself");
+        fail("they have " + std::to_string(parts) + " connected parts; flatten each part separately");
     const auto v = static_cast<long>(facets.points.size()), f = static_cast<long>(facets.triangles.size());
     const auto b = static_cast<long>(boundary.size()), loops = static_cast<long>(facets.loops.size());
     const long edges = (3 * f + b) / 2, euler = v - edges + f + loops;
-    // Each handle takes 2 from a sphere's 2. A boundary that meets itself in a point is let pass.
-    if (euler <= 0)
-        fail("they have " + std::to_string((2 - euler) / 2) + " handles; expected none, so cut them open");
+    // Each handle reduces the Euler number by 2. A boundary that touches itself at a point is accepted.
+    if (euler <= 0) fail("they have " + std::to_string((2 - euler) / 2) + " handles; cut them open");
 }
 
 // --- how well it went -----------------------------------------------------------------------------
@@ -162,7 +162,7 @@ bool boundary_crosses(const std::vector<Segment>& boundary, const Positions& pos
     });
 }
 
-/// Fill in what is to be said about a map.
+/// Compute the quality measures of a map.
 void judge(const Facets& facets, const std::vector<Segment>& boundary, Flattened& flat)
 {
     flat.flips = 0;
@@ -170,7 +170,7 @@ void judge(const Facets& facets, const std::vector<Segment>& boundary, Flattened
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
         const auto [large, small] = flat::stretches(flat::jacobian(facets, t, flat.position));
         if (facets.shapes[t].thin) {
-            // Its sign is rounding's, unless it has grown.
+            // The sign of a collapsed triangle is rounding, unless the triangle has grown.
             if (small * large < -1) ++flat.flips;
             continue;
         }
@@ -199,13 +199,13 @@ bool is_planar(const Facets& facets, const Plane& plane, double tolerance)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& point : facets.points) box.extend(point);
-    // A billionth: six digits more than a drawing has, six more than a double needs.
+    // 1e-9: six digits better than a drawing, six digits above double precision.
     if (!(tolerance > 0)) tolerance = 1e-9 * box.diagonal().norm();
     return std::all_of(facets.points.begin(), facets.points.end(),
                        [&](const Vec3& p) { return std::abs(height(plane, p)) <= tolerance; });
 }
 
-/// Turn and shift about the means so that the map agrees best with `model`.
+/// Rotate and translate the map to agree best with `model`.
 void align(Positions& positions, const Positions& model)
 {
     const auto count = static_cast<double>(positions.size());
@@ -225,9 +225,9 @@ void align(Positions& positions, const Positions& model)
     for (Vec2& p : positions) p = model_mean + turn * (p - mean);
 }
 
-/// Whether facets close round between two loops: walked within them, the outer loop turns by less than half
-/// of what the outline of a flat ring does. Of a cylinder it does not turn at all, of a cone by half where
-/// its side is 60° steep. A sheet that is rolled up and has a hole is no tube.
+/// Whether facets form a tube, closed between two loops: the turning of the outer loop, measured within the
+/// facets, is less than half of that of a flat ring. It is zero for a cylinder, and half for a cone with a
+/// slope of 60°. A rolled-up sheet with a hole is not a tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;
@@ -244,7 +244,7 @@ bool is_tube(const Facets& facets)
     return turning < std::numbers::pi;
 }
 
-/// Try the maps in order of stretch until one is one to one; else keep the one with the fewest flips.
+/// Try maps in order of distortion until one is one-to-one; else keep the one with the fewest flips.
 void choose_map(const Facets& facets, const std::vector<Segment>& boundary, const FlattenOptions& options,
                 Flattened& flat)
 {
@@ -280,7 +280,7 @@ void choose_map(const Facets& facets, const std::vector<Segment>& boundary, cons
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options)
 {
-    if (triangles.empty()) fail("there are none");
+    if (triangles.empty()) fail("there are no triangles");
     Flattened flat;
     Facets facets = densely(points, triangles, flat.used);
     flat.triangles = facets.triangles;
@@ -296,7 +296,7 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
     if (is_planar(facets, plane, options.planar_tolerance)) {
         flat.position = projected;
         judge(facets, boundary, flat);
-        // Facets folded over within their plane are unfolded as curved ones are.
+        // Facets folded over in their plane are unfolded like curved ones.
         if (!flat.folded) return flat;
     }
     check_disc(facets, boundary, twice, flat.used);
@@ -322,11 +322,11 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
         all.extend(boxes[t]);
         const Vec2 &o = points[index(triangles[t][0])], a = points[index(triangles[t][1])] - o,
                    b = points[index(triangles[t][2])] - o;
-        // One of no area has infinite weights or none, and so no inside.
+        // A degenerate triangle has infinite or undefined weights, so it contains no point.
         const double area = a.x() * b.y() - a.y() * b.x();
         weights_.push_back({o, Vec2(b.y(), -b.x()) / area, Vec2(-a.y(), a.x()) / area});
     }
-    // About two bins a triangle.
+    // About two bins per triangle.
     const Vec2 sides = all.sizes();
     const double most = static_cast<double>(2 * triangles.size());
     bin_ = std::max(std::sqrt(sides.prod() / most), sides.maxCoeff() / most);
@@ -373,17 +373,6 @@ PlanarLocator::FacetPosition PlanarLocator::locate(const Vec2& place) const
     if (const FacetPosition inside = in_bins(place); inside.triangle >= 0) return inside;
     const FacetTree::Hit hit = tree_.closest(in_space(place));
     return {hit.triangle, hit.barycentric, hit.triangle >= 0 ? std::sqrt(hit.distance2) : 0.0};
-}
-
-Vec3 lift(const Flattened& flat, std::span<const Vec3> points, const PlanarLocator::FacetPosition& place)
-{
-    const Triangle& triangle = flat.triangles[index(place.triangle)];
-    // From one corner out, points far from the origin lose no digits.
-    const auto corner = [&](std::size_t i) -> const Vec3& {
-        return points[index(flat.used[index(triangle[i])])];
-    };
-    return corner(0) + place.barycentric[1] * (corner(1) - corner(0)) +
-           place.barycentric[2] * (corner(2) - corner(0));
 }
 
 } // namespace lacuna::geometry

@@ -2,8 +2,8 @@
 #include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
@@ -22,7 +22,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Matrix2d;
 
-/// Half the digits of a double: triangles thinner than this have no shape to speak of.
+/// Half the digits of a double: triangles thinner than this are degenerate.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 template <class Solver>
@@ -31,8 +31,8 @@ void check_solved(const Solver& solver)
     if (solver.info() != Eigen::Success)
         throw BackendError("geometry.singular",
                            "facets cannot be flattened: the equations of the map have no "
-                           "single solution; look for facets that hang together in a "
-                           "point alone, or coordinates that are not numbers");
+                           "unique solution; check for facets that are connected at "
+                           "one point only, or for coordinates that are not numbers");
 }
 
 double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
@@ -41,7 +41,8 @@ double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
     return 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
 }
 
-/// A triangle in its own plane, its longest side along x; as wide and as high as rounding asks for.
+/// A triangle in its own plane, with its longest side along x; width and height are
+/// limited from below, against rounding.
 std::array<Vec2, 3> own_plane(const std::array<Vec3, 3>& p, double extent, bool& thin)
 {
     std::size_t base = 0;
@@ -83,7 +84,7 @@ void measure_shapes(Facets& facets)
         const std::array<Vec2, 3> q = own_plane(p, extent, shape.thin);
         shape.area = signed_area(q[0], q[1], q[2]);
         for (std::size_t i = 0; i < 3; ++i) {
-            // The side that faces a corner, turned inward.
+            // The side opposite the corner, rotated inwards.
             const Vec2 side = q[(i + 2) % 3] - q[(i + 1) % 3];
             shape.gradient[i] = Vec2(-side.y(), side.x()) / (2 * shape.area);
         }
@@ -123,7 +124,7 @@ void scale_to_area(const Facets& facets, Positions& positions)
 
 Positions conformal(const Facets& facets)
 {
-    // Two points of the outer boundary, far apart, hold the map; their distance is corrected by scaling.
+    // Two points of the outer boundary that are far apart are fixed; their distance is corrected by scaling.
     const std::vector<Index>& rim = facets.loops.front();
     const auto farthest = [&](const Vec3& from) {
         return *std::max_element(rim.begin(), rim.end(), [&](Index a, Index b) {
@@ -143,8 +144,8 @@ Positions conformal(const Facets& facets)
         if (i != first && i != second) unknown[index(i)] = size++;
     if (size == 0) return Positions(facets.points.size(), Vec2::Zero());
 
-    // With places u and gradients g as complex numbers, the map's derivative by the conjugate variable is
-    // ½ Σ g_i u_i. It vanishes where the map is a rotation and a scale; the sum of its squares is the energy.
+    // With positions u and gradients g as complex numbers, the derivative of the map by the conjugate
+    // variable is ½ Σ g_i u_i. It vanishes for rotations with scaling; the energy is the sum of its squares.
     std::vector<Eigen::Triplet<Complex>> entries;
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(size);
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -181,7 +182,7 @@ Positions conformal(const Facets& facets)
 
 namespace {
 
-/// The rotation nearest to a matrix.
+/// The rotation closest to a matrix.
 Matrix2d rotation_of(const Matrix2d& j)
 {
     const double c = j(0, 0) + j(1, 1), s = j(1, 0) - j(0, 1), size = std::hypot(c, s);
@@ -194,7 +195,7 @@ Matrix2d rotation_of(const Matrix2d& j)
 
 Positions as_rigid_as_possible(const Facets& facets, Positions positions, int max_iterations, double settled)
 {
-    // The stiffness of the hat functions never changes: factored once, point 0 held.
+    // The stiffness matrix is constant: factor it once, with point 0 fixed.
     const auto size = static_cast<Index>(positions.size()) - 1;
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -238,7 +239,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, int ma
 
 namespace {
 
-/// Symmetric Dirichlet energy; infinite where a triangle has no area or is turned over.
+/// Symmetric Dirichlet energy; infinite if a triangle is degenerate or flipped.
 double symmetric_dirichlet(const Facets& facets, const Positions& positions)
 {
     double energy = 0;
@@ -251,14 +252,15 @@ double symmetric_dirichlet(const Facets& facets, const Positions& positions)
     return energy;
 }
 
-/// The step at which the first triangle loses its area, at most `limit`.
+/// The step length at which the first triangle degenerates, at most `limit`.
 double step_to_flip(const Facets& facets, const Positions& from, const Positions& step, double limit)
 {
     for (const Triangle& c : facets.triangles) {
         const Vec2 a = from[index(c[1])] - from[index(c[0])], b = from[index(c[2])] - from[index(c[0])];
         const Vec2 da = step[index(c[1])] - step[index(c[0])], db = step[index(c[2])] - step[index(c[0])];
         const auto cross = [](const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); };
-        // Area along the step: k0 + k1 s + k2 s², k0 > 0. Its least positive root, free of cancellation.
+        // Area along the step: k0 + k1 s + k2 s², k0 > 0. Smallest positive root,
+        // computed without cancellation.
         const double k0 = cross(a, b), k1 = cross(a, db) + cross(da, b), k2 = cross(da, db);
         const double inside = k1 * k1 - 4 * k2 * k0;
         if (inside < 0) continue;
@@ -269,12 +271,12 @@ double step_to_flip(const Facets& facets, const Positions& from, const Positions
     return limit;
 }
 
-/// The quadratic that stands in for the symmetric Dirichlet energy about `positions`: Σ area |W (J − R)|².
+/// Quadratic approximation of the symmetric Dirichlet energy at `positions`: Σ area |W (J − R)|².
 class Proxy {
 public:
     explicit Proxy(const Facets& facets) : facets_(facets), size_(2 * (Index(facets.points.size()) - 1)) {}
 
-    /// Where the proxy about `positions` is least, point 0 held.
+    /// The minimum of the approximation at `positions`, with point 0 fixed.
     Positions minimiser(const Positions& positions)
     {
         entries_.clear();
@@ -299,7 +301,7 @@ private:
         const Triangle& c = facets_.triangles[t];
         const Shape& shape = facets_.shapes[t];
         const Matrix2d j = jacobian(facets_, t, positions), r = rotation_of(j);
-        // J = (J Rᵀ) R, the first factor symmetric and positive: the weights go with its own axes.
+        // J = (J Rᵀ) R, where J Rᵀ is symmetric and positive; the weights are defined in its principal axes.
         const auto [large, small] = stretches(j);
         const auto weight = [](double s) { return 2 * (s + 1) * (s * s + 1) / (s * s * s); };
         const Matrix2d stretch = j * r.transpose();
@@ -339,7 +341,7 @@ Positions injective(const Facets& facets, Positions positions, int max_iteration
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         Positions step = proxy.minimiser(positions);
         for (std::size_t i = 0; i < step.size(); ++i) step[i] -= positions[i];
-        // Short of the first flip by a fifth, then halved until the energy falls.
+        // Start at 80 % of the step to the first flip, and halve until the energy decreases.
         double length = std::min(1.0, 0.8 * step_to_flip(facets, positions, step, 2.0));
         Positions trial(positions.size());
         double found = energy;
@@ -362,7 +364,7 @@ Positions injective(const Facets& facets, Positions positions, int max_iteration
 
 Positions convex(const Facets& facets)
 {
-    // A fan about a point of its own closes each hole, so that all is one disc.
+    // Close each hole by triangles around an additional point, so that the facets form a disc.
     std::vector<Vec3> points = facets.points;
     std::vector<Triangle> triangles = facets.triangles;
     for (std::size_t hole = 1; hole < facets.loops.size(); ++hole) {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/cut.h>
 #include <lacuna/geometry/detail/flatten_maps.h>
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/cut.h>
+#include <lacuna/geometry/shared/harmonic.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 namespace lacuna::geometry::flat {
 namespace {
 
-/// Running lengths of a loop's points, and its whole.
+/// Arc length at the points of a loop, and its total length.
 struct Lengths {
     std::vector<double> at;
     double whole = 0;
@@ -30,8 +29,8 @@ Lengths lengths_of(const Facets& facets, const std::vector<Index>& loop)
 
 double share(double turns) { return turns - std::floor(turns); }
 
-/// How far the inner loop is to be turned so that the strip is sheared least [turns]: the coordinate round
-/// the strip plus this share of the one across it has the least Dirichlet energy.
+/// Rotation of the inner loop that minimises the shear of the strip [turns]: the coordinate around the strip
+/// plus this multiple of the one across it has the least Dirichlet energy.
 double least_shear(const Facets& facets, const HarmonicProblem& problem, const Eigen::MatrixXd& strip)
 {
     double both = 0, across = 0;
@@ -63,11 +62,12 @@ Positions ring(const Facets& facets)
     problem.points = facets.points;
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
-    // The loop has the facets on its left, so that it leaves the cut to the right, where a turn less is seen.
+    // The facets are on the left of the loop, so the loop leaves the cut to the right, where the branch is
+    // one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round.at[i] / round.whole; };
-    // The inner loop runs the other way, and is turned afterwards: what it is turned by is harmonic too. Its
-    // points are seen on the branch that the cut's end is on.
+    // The inner loop has the opposite direction. It is rotated later, which adds a harmonic function. Its
+    // points are on the branch of the end of the cut.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
     const double branch = -within.at[end] / within.whole;
@@ -79,7 +79,7 @@ Positions ring(const Facets& facets)
         problem.fixed_values.row(static_cast<Eigen::Index>(i)) << round_at(i), 0;
     for (std::size_t i = 0; i < inner.size(); ++i) {
         const double s = -within.at[i] / within.whole;
-        // Back from the cut, up to a turn.
+        // Going back from the cut, up to one turn.
         const double own = i == end ? branch : branch - share(branch - s);
         problem.fixed_values.row(static_cast<Eigen::Index>(outer.size() + i)) << own, 1;
     }
@@ -94,7 +94,7 @@ Positions ring(const Facets& facets)
         energy += facets.shapes[t].area * slope.squaredNorm();
     }
     const double decay = 2 * std::numbers::pi / energy;
-    constexpr double kMostDecay = 8; // of the radii: wider rings have no size that the paver can work with
+    constexpr double kMostDecay = 8; // limit of log(outer / inner radius), so that the paver can work
     if (!(decay <= kMostDecay)) return {};
     Positions positions;
     for (Eigen::Index p = 0; p < strip.rows(); ++p) {

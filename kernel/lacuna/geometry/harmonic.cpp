@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/harmonic.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/detail/multigrid.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
@@ -20,18 +20,18 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Half the digits of a double. A weight smaller than this beside its fellows could not be told from rounding
-/// once the system is solved, so none is let below it: the system stays solvable, and all weights positive.
+/// Half the digits of a double. Smaller weights, relative to the others of a point, are lost to rounding in
+/// the solution, so this is their lower limit: the system stays regular, and all weights positive.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 constexpr Index kFree = -1, kUnused = -2;
 
-/// tan(angle / 2) between two sides, kept away from 0 and from infinity.
+/// tan(angle / 2) between two sides, limited from below and above.
 /// @param product  of their lengths
 double half_tangent(const Vec3& a, const Vec3& b, double product)
 {
     const double cosine = a.dot(b), sine = a.cross(b).norm();
-    // Two forms of one function, each free of cancellation on its own side.
+    // Two equivalent formulas, each without cancellation in its range.
     const double numerator = cosine > 0 ? sine : product - cosine;
     const double denominator = cosine > 0 ? product + cosine : sine;
     if (!(product > 0)) return 1;
@@ -39,7 +39,7 @@ double half_tangent(const Vec3& a, const Vec3& b, double product)
     return std::max(numerator / denominator, kHalfDigits);
 }
 
-/// cot(angle) between two sides, kept away from infinity.
+/// cot(angle) between two sides, limited.
 double cotangent(const Vec3& a, const Vec3& b)
 {
     const double product = a.norm() * b.norm();
@@ -47,17 +47,17 @@ double cotangent(const Vec3& a, const Vec3& b)
     return a.dot(b) / std::max(a.cross(b).norm(), kHalfDigits * product);
 }
 
-/// One neighbour's part in a point's mean.
+/// Weight of a neighbour in the mean of a point.
 struct Weight {
     Index from, to;
-    int turns; ///< of the neighbour as seen from the point
+    int turns; ///< branch of the neighbour relative to the point
     double value;
 };
 
-/// Of each point, whether it lies on a border of the triangles: there a neighbour is met once, not twice.
+/// Whether each point is on a border: there, some neighbour occurs in one triangle only.
 std::vector<bool> on_border(const HarmonicProblem& problem)
 {
-    std::vector<std::uint32_t> met(problem.points.size(), 0); // every neighbour met twice leaves nothing
+    std::vector<std::uint32_t> met(problem.points.size(), 0); // those that occur twice cancel
     for (const Triangle& t : problem.triangles) {
         for (std::size_t i = 0; i < 3; ++i)
             met[index(t[i])] ^= static_cast<std::uint32_t>(t[(i + 1) % 3]) ^
@@ -69,10 +69,9 @@ std::vector<bool> on_border(const HarmonicProblem& problem)
     return border;
 }
 
-/// The weights of every corner of every triangle, as they come: mean value weights, and at borders
-/// cotangents.
-/// The mean of what lies on one side of a border would lean as the facets' diagonals do there; with
-/// cotangents nothing flows over it.
+/// The weights of all corners of all triangles, unordered: mean value weights, and cotangents at borders. On
+/// a border, mean value weights would be biased by the diagonals of the facets, as all neighbours are on one
+/// side; with cotangents there is no flux across the border.
 std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::vector<bool>& border)
 {
     std::vector<Weight> weights;
@@ -81,7 +80,7 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::ve
         const Triangle& triangle = problem.triangles[t];
         const std::array<int, 3> turns = problem.corner_turns.empty() ? std::array<int, 3>{}
                                                                       : problem.corner_turns[t];
-        std::array<double, 3> side{}; // side i faces corner i
+        std::array<double, 3> side{}; // side i is opposite corner i
         std::array<Vec3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = problem.points[index(triangle[i])];
         for (std::size_t i = 0; i < 3; ++i) side[i] = (p[(i + 1) % 3] - p[(i + 2) % 3]).norm();
@@ -96,7 +95,7 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::ve
                 continue;
             }
             const double tangent = half_tangent(p[j] - p[i], p[k] - p[i], side[k] * side[j]);
-            // Three points in one place are as near to each other as to anything.
+            // Coincident points get equal weights.
             const auto add = [&](std::size_t to, double distance) {
                 const double length = longest > 0 ? std::max(distance, kHalfDigits * longest) : 1;
                 weights.push_back({triangle[i], triangle[to], turns[to] - turns[i], tangent / length});
@@ -117,23 +116,25 @@ void check(const HarmonicProblem& problem)
     for (const Triangle& triangle : problem.triangles)
         for (const Index corner : triangle)
             if (corner < 0 || corner >= count)
-                fail("a triangle names point " + std::to_string(corner) + " of " + std::to_string(count));
+                fail("a triangle has point number " + std::to_string(corner) + " of " +
+                     std::to_string(count));
     for (const Index point : problem.fixed)
         if (point < 0 || point >= count)
-            fail("point " + std::to_string(point) + " is fixed, but there are " + std::to_string(count));
+            fail("point " + std::to_string(point) + " is fixed, but the number of points is " +
+                 std::to_string(count));
     if (problem.fixed_values.rows() != static_cast<Eigen::Index>(problem.fixed.size()))
         fail(std::to_string(problem.fixed.size()) + " points are fixed, but there are values for " +
              std::to_string(problem.fixed_values.rows()));
     if (problem.corner_turns.empty()) return;
     if (problem.corner_turns.size() != problem.triangles.size())
-        fail("expected turns for each of " + std::to_string(problem.triangles.size()) + " triangles, found " +
+        fail("expected turns for " + std::to_string(problem.triangles.size()) + " triangles, found " +
              std::to_string(problem.corner_turns.size()));
     if (problem.period.size() != problem.fixed_values.cols())
         fail("the period has " + std::to_string(problem.period.size()) + " numbers, the values have " +
              std::to_string(problem.fixed_values.cols()));
 }
 
-/// Every point's role: kUnused, kFree, or, for a fixed one, its row of fixed_values.
+/// The role of each point: kUnused, kFree or, for a fixed point, its row of fixed_values.
 std::vector<Index> roles(const HarmonicProblem& problem)
 {
     std::vector<Index> role(problem.points.size(), kUnused);
@@ -144,7 +145,7 @@ std::vector<Index> roles(const HarmonicProblem& problem)
     return role;
 }
 
-/// @throw BackendError where triangles hang together with no fixed point among them.
+/// @throw BackendError  a connected part has no fixed point.
 void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
 {
     UnionFind parts(problem.points.size());
@@ -157,13 +158,13 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
     for (std::size_t i = 0; i < role.size(); ++i)
         if (role[i] == kFree && !anchored[parts.find(i)])
             throw BackendError("geometry.singular",
-                               "harmonic values are not determined: the facets about point " +
+                               "harmonic values are not determined: the facets connected to point " +
                                    std::to_string(i) +
-                                   " hang together with no point whose value is known; "
+                                   " contain no point with a known value; "
                                    "fix at least one point of each connected part");
 }
 
-/// Bring the weights of each point together; they keep their order.
+/// Group the weights by point, keeping their order.
 std::vector<Weight> by_point(const std::vector<Weight>& weights, std::size_t points)
 {
     std::vector<std::size_t> next(points + 1, 0);
@@ -174,9 +175,9 @@ std::vector<Weight> by_point(const std::vector<Weight>& weights, std::size_t poi
     return sorted;
 }
 
-/// Scale each point's weights, which are together, to the sum 1.
-/// @param positive  none is left below what rounding can bear
-/// @return  what the sum was, of each point
+/// Normalise the weights of each point, which are grouped, to the sum 1.
+/// @param positive  limit weights from below, against rounding
+/// @return  the sum for each point before
 std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, bool positive)
 {
     std::vector<double> sums(points, 1);
@@ -196,9 +197,9 @@ std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, 
     return sums;
 }
 
-/// Factors of each point's row that all but even out the two directions of a side, which multigrid needs.
-/// @param sums  of the weights before they were normalised: mean values came over a length, and so must the
-///              cotangents at a border beside them
+/// Row factors that make the matrix nearly symmetric, as multigrid needs.
+/// @param sums  of the weights before normalising. Mean value weights are divided by a length; the cotangents
+///              of neighbouring border points must be scaled likewise.
 std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bool>& border,
                             std::span<const Weight> weights, std::vector<double> sums)
 {
@@ -214,15 +215,14 @@ std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bo
     return sums;
 }
 
-/// So many unknowns are solved for by multigrid, fewer by a factorisation. Measured on walls of cylinders,
-/// factorising and solving takes 0.06 s here and grows by the power 1.5, multigrid 0.03 s and linearly; below
-/// it results keep the bits they had.
+/// From this number of unknowns on, multigrid is used instead of a factorisation. Measured on walls of
+/// cylinders, at this size: factorisation 0.06 s, growing with power 1.5; multigrid 0.03 s, growing linearly.
 constexpr Eigen::Index kMany = 20000;
-/// The same where only nine digits of the values count. Measured: 0.012 s for 6,000 against 0.04 s.
+/// The same limit if nine digits suffice. Measured: 0.012 s against 0.04 s for 6,000 unknowns.
 constexpr Eigen::Index kManyForNineDigits = 2000;
 
-/// The unknowns of a large system; nothing where multigrid does not settle.
-/// @param factors  of each row, from evening()
+/// Solve a large system; nothing if multigrid does not converge.
+/// @param factors  row factors from evening()
 std::optional<Eigen::MatrixXd> solve_by_multigrid(const std::vector<Eigen::Triplet<double>>& entries,
                                                   const Eigen::MatrixXd& right,
                                                   const Eigen::VectorXd& factors, const RunContext& context)
@@ -255,17 +255,18 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     if (solver.info() != Eigen::Success)
         throw BackendError("geometry.singular",
                            "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
-                               "; look for coordinates that are not numbers");
+                               "; check for coordinates that are not numbers");
     return solver.solve(right);
 }
 
-/// Values that are an affine function of place, where that has the fixed ones and every other point is the
-/// mean that it is to be: those of walls that lead straight up. No system need be solved then.
+/// If an affine function of position has the fixed values and satisfies all means, its values: true for walls
+/// that extend straight up. No system need be solved then.
 /// @param weights  normalised
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)
 {
-    // Of the range of the fixed values: a hundred layers from the next fixed one nine digits are right then.
+    // Relative to the range of the fixed values: nine digits are then correct a hundred
+    // layers from the next fixed point.
     constexpr double kOff = 1e-13;
     const Eigen::Index columns = problem.fixed_values.cols();
     if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;
@@ -290,7 +291,7 @@ std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, s
     return values;
 }
 
-/// What does not quite settle must not leave the range of the fixed values, fixed × k, either.
+/// Clamp values to the range of the fixed values (fixed × k), as iterative solutions are not exact.
 void keep_in_range(const Eigen::MatrixXd& fixed, Eigen::MatrixXd& values)
 {
     for (Eigen::Index k = 0; k < values.cols(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/minimal_frame.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 
 #include <Eigen/Geometry>
 

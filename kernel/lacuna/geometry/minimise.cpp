@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/minimise.h>
+#include <lacuna/geometry/shared/minimise.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,16 @@ namespace lacuna::geometry {
 
 namespace {
 
-constexpr int kHalvings = 30; ///< of a step before it is given up: 2^-30 of it is below what matters
+constexpr int kHalvings = 30; ///< of a step before the search stops: 2^-30 of a step is negligible
 constexpr double kEnough =
-    1e-4; ///< share of the promised descent that a step must bring (Armijo), the usual value
+    1e-4; ///< required fraction of the predicted decrease (Armijo condition), the usual value
 
 struct Pair {
     Eigen::VectorXd step, change;
     double inverse;
 };
 
-/// The two loops of L-BFGS.
+/// The two-loop recursion of L-BFGS.
 Eigen::VectorXd direction_of(const std::deque<Pair>& memory, const Eigen::VectorXd& gradient)
 {
     Eigen::VectorXd direction = -gradient;
@@ -64,7 +64,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
         }
         if (!won) {
             if (memory.empty() || !options.start_anew) break;
-            memory.clear(); // What it learnt elsewhere misleads here: once more, straight down.
+            memory.clear(); // stored steps may mislead here: restart with steepest descent
             continue;
         }
         Pair pair{tried - x, next_gradient - gradient, 0};

@@ -13,23 +13,24 @@ namespace {
 using Matrix = Multigrid::Matrix;
 using Vector = Eigen::VectorXd;
 
-/// Neighbours weaker than this beside the diagonals are not aggregated over: Vaněk's 0.08.
+/// Couplings weaker than this, relative to the diagonals, are not used for
+/// aggregation: 0.08 as in Vaněk et al.
 constexpr double kStrong = 0.08;
-/// The step of damped Jacobi that smooths the aggregates: 4/3 over the largest eigenvalue of D⁻¹A, which is
-/// 2 at most where the rows are diagonally dominant.
+/// Damped Jacobi step that smooths the aggregates: 4/3 divided by the largest eigenvalue of D⁻¹A, which is at
+/// most 2 for diagonally dominant rows.
 constexpr double kSmoothing = 2.0 / 3.0;
-/// A level of so many rows is solved densely. A choice: a millisecond.
+/// Levels with at most this number of rows are solved directly: one millisecond.
 constexpr Eigen::Index kCoarsest = 200;
-/// Aggregation that leaves more than this share of the rows does not help. A choice.
+/// If aggregation keeps more than this part of the rows, multigrid is not used.
 constexpr double kLeastGain = 0.7;
-/// Residual at which the solution has settled, of the right side's. Measured on walls of 10,000 to 700,000
-/// facets: values in [0, 1] are then off by less than 1e-9.
+/// Relative residual at which the iteration stops. Measured on walls of 10,000 to 700,000 facets: the error
+/// of values in [0, 1] is then below 1e-9.
 constexpr double kSettled = 1e-11;
-/// More steps than this are not taken; five to eight are usual. A choice.
+/// Limit on the number of iterations; five to eight are usual.
 constexpr int kMostSteps = 60;
 
-/// Rows of one level that become a row of the next: the number of each row's aggregate, -1 for rows that no
-/// strong neighbour has, which a sweep solves by itself.
+/// Aggregate rows to the rows of the next level: the number of each row's aggregate; -1 for rows without
+/// strong couplings, which a sweep solves.
 std::vector<Index> aggregates(const Matrix& matrix, Index& count)
 {
     const Eigen::Index rows = matrix.rows();
@@ -43,7 +44,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    for (Eigen::Index row = 0; row < rows; ++row) { // whole neighbourhoods
+    for (Eigen::Index row = 0; row < rows; ++row) { // complete neighbourhoods first
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;
         each_strong(row, [&](Index other, double) {
@@ -55,7 +56,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         each_strong(row, [&](Index other, double) { of[index(other)] = count; });
         ++count;
     }
-    std::vector<Index> joined = of; // what is left beside one
+    std::vector<Index> joined = of; // then single rows join a neighbour's aggregate
     for (Eigen::Index row = 0; row < rows; ++row) {
         if (of[std::size_t(row)] >= 0) continue;
         double strongest = 0;
@@ -66,7 +67,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         });
     }
     of = std::move(joined);
-    for (Eigen::Index row = 0; row < rows; ++row) { // and by itself
+    for (Eigen::Index row = 0; row < rows; ++row) { // then the rest
         if (of[std::size_t(row)] >= 0) continue;
         bool any = false;
         each_strong(row, [&](Index other, double) {
@@ -78,7 +79,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     return of;
 }
 
-/// The smoothed aggregates, a column each. Weak entries count to the diagonal.
+/// The smoothed aggregates, one column for each. Weak couplings are added to the diagonal.
 Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index count)
 {
     const Vector diagonal = matrix.diagonal();
@@ -115,12 +116,11 @@ Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index co
     return up;
 }
 
-/// One sweep over the rows from the first to the last, where `x` was 0 before: columns behind the row count
-/// nothing, so they are left out.
+/// A forward Gauss-Seidel sweep from x = 0: columns after the diagonal are skipped, as x is still zero there.
 void first_sweep(const Matrix& matrix, const Vector& right, Vector& x)
 {
     const auto* start = matrix.outerIndexPtr();
-    const auto* column = matrix.innerIndexPtr(); // rising in each row
+    const auto* column = matrix.innerIndexPtr(); // ascending in each row
     const double* value = matrix.valuePtr();
     x.resize(matrix.rows());
     for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
@@ -131,7 +131,7 @@ void first_sweep(const Matrix& matrix, const Vector& right, Vector& x)
     }
 }
 
-/// What the first sweep left: the columns behind each row, which it took for 0.
+/// The residual after the first sweep: only the columns after the diagonal contribute.
 void residual_of_first(const Matrix& matrix, const Vector& x, Vector& residual)
 {
     const auto* start = matrix.outerIndexPtr();
@@ -146,7 +146,7 @@ void residual_of_first(const Matrix& matrix, const Vector& x, Vector& residual)
     }
 }
 
-/// One sweep over the rows from the last to the first.
+/// A backward Gauss-Seidel sweep.
 void sweep_back(const Matrix& matrix, const Vector& right, Vector& x)
 {
     const auto* start = matrix.outerIndexPtr();
@@ -233,7 +233,7 @@ bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context)
         direction = residual + product / before * along / damped * (direction - damped * change);
         if (!std::isfinite(size) || product == 0) return false;
     }
-    // Sums drift: what counts is how well the values fit.
+    // Recursively updated residuals drift, so compute the residual.
     return (right - matrix * x).norm() <= 10 * wanted;
 }
 

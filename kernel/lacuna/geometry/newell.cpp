@@ -2,7 +2,7 @@
 #include <lacuna/geometry/newell.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Unit normal of the plane with the least sum of squared distances.
+/// Unit normal of the least-squares plane.
 Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
 {
     std::vector<Vec3> points;
@@ -34,7 +34,7 @@ Vec3 newell_vector(std::span<const Vec3> closed_loop)
 {
     Vec3 sum = Vec3::Zero();
     if (closed_loop.size() < 3) return sum;
-    // Seen from one of its own points, a small loop far from the origin loses no digits.
+    // Relative to one of its points, to keep precision for a small loop far from the origin.
     const Vec3 origin = closed_loop.front();
     for (std::size_t i = 1; i + 1 < closed_loop.size(); ++i)
         sum += (closed_loop[i] - origin).cross(closed_loop[i + 1] - origin);
@@ -48,7 +48,7 @@ Plane plane_across(const Vec3& origin, const Vec3& normal)
     plane.normal = normal.normalized();
     int thinnest = 0;
     plane.normal.cwiseAbs().minCoeff(&thinnest);
-    // The coordinate axis furthest from the normal makes the best conditioned product.
+    // The coordinate axis farthest from the normal gives the best conditioned cross product.
     plane.v = plane.normal.cross(Vec3::Unit(thinnest)).normalized();
     plane.u = plane.v.cross(plane.normal);
     return plane;
@@ -63,13 +63,13 @@ Plane newell_plane(std::span<const std::vector<Vec3>> loops)
         if (!first && !loop.empty()) first = &loop;
     }
     if (!first)
-        throw InvalidInput("geometry.no_points", "a plane was asked for of loops without any point; "
+        throw InvalidInput("geometry.no_points", "the plane of loops needs points; "
                                                  "expected at least one loop of three points or more");
     Vec3 origin = Vec3::Zero();
     for (const Vec3& point : *first) origin += point - first->front();
     origin = first->front() + origin / static_cast<double>(first->size());
 
-    // Below the rounding of the products that it sums, the vector's direction means nothing.
+    // Below the rounding error of the summed products, the direction is undefined.
     const double size = extent(loops, origin);
     const double noise = std::sqrt(std::numeric_limits<double>::epsilon()) * size * size;
     if (normal.norm() <= noise) normal = least_squares_normal(loops);

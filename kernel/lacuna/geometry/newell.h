@@ -9,11 +9,11 @@
 namespace lacuna::geometry {
 
 /// Area vector of a closed loop (Newell): half the sum of the cross products of successive points. Its
-/// direction is that from which the loop encloses most, counter-clockwise; its length is that area
-/// [model length²]. The first point is not repeated. It does not depend on where the loop lies.
+/// direction is that from which the projected loop has the largest area, counter-clockwise; its length is
+/// this area [model length²]. Independent of translation. The first point is not repeated.
 Vec3 newell_vector(std::span<const Vec3> closed_loop);
 
-/// A plane with axes: `u`, `v` and `normal` are orthonormal and right-handed.
+/// A plane with an orthonormal, right-handed frame `u`, `v`, `normal`.
 struct Plane {
     Vec3 origin = Vec3::Zero();
     Vec3 u = Vec3::UnitX();
@@ -21,23 +21,24 @@ struct Plane {
     Vec3 normal = Vec3::UnitZ();
 };
 
-/// The plane through `origin` across `normal`, with axes of its own choice that depend on the normal alone.
+/// The plane through `origin` with the given normal; its axes depend on the normal only.
 /// @pre normal is finite and not zero; its length does not matter.
 Plane plane_across(const Vec3& origin, const Vec3& normal);
 
-/// The plane on which a face bounded by `loops` shows its largest area (the paper's Newell domain).
+/// The plane in which the projection of a face bounded by `loops` has the largest
+/// area (the paper's Newell domain).
 ///
-/// The normal is the sum of the loops' Newell vectors: inner loops run against the outer one, so they take
-/// their holes away. The origin is the mean of the outer loop's points. Where the sum vanishes (a slit,
-/// collinear points, a figure of eight) it is the least-squares plane of all points instead, either way up.
+/// The normal is the sum of the loops' Newell vectors; inner loops are directed oppositely, so holes are
+/// subtracted. The origin is the mean of the points of the outer loop. If the sum vanishes (a slit, collinear
+/// points, a figure of eight), the least-squares plane of all points is used, with either orientation.
 /// @param loops  the outer first; first points not repeated.
-/// @throw InvalidInput "geometry.no_points"  there is no point at all.
+/// @throw InvalidInput "geometry.no_points"  there are no points.
 Plane newell_plane(std::span<const std::vector<Vec3>> loops);
 
-/// Coordinates of a point's foot along `u` and `v` [model length].
+/// Coordinates of the projected point along `u` and `v` [model length].
 Vec2 to_plane(const Plane& plane, const Vec3& point);
 
-/// The point `height` above the plane's place `uv`.
+/// The point at coordinates `uv` and the given height above the plane.
 Vec3 from_plane(const Plane& plane, const Vec2& uv, double height = 0);
 
 /// Signed distance along the normal [model length].

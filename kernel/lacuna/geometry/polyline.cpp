@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::geometry {
 
@@ -28,7 +27,7 @@ PolylinePlace place_at(std::span<const double> arc_lengths, double s)
     const std::size_t count = arc_lengths.size();
     if (count < 2 || !(s > arc_lengths.front())) return {};
     if (s >= arc_lengths.back()) return {count - 2, 1.0};
-    // The last point at or before s starts the segment, so the next one lies strictly beyond it.
+    // The segment starts at the last point at or before s, so the next point is strictly after s.
     const auto after = std::upper_bound(arc_lengths.begin(), arc_lengths.end(), s);
     const auto segment = static_cast<std::size_t>(after - arc_lengths.begin()) - 1;
     const double begin = arc_lengths[segment];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// An expansion is a sum of doubles that do not overlap, smallest first; its sign is that of its last term.
-// Sums and products of doubles are split into what a double can hold and the exact rest, so that whole
-// polynomials come out without rounding (Shewchuk, Adaptive precision floating-point arithmetic, 1997).
-// The build must not contract a·b + c nor reorder sums; ISO mode of the usual compilers does neither.
-#include <lacuna/geometry/predicates.h>
+// An expansion is a sum of doubles that do not overlap, smallest first; it has the sign of its last term.
+// Sums and products of doubles are split into a rounded double and the exact error, so polynomials can be
+// evaluated without rounding (Shewchuk, Adaptive precision floating-point arithmetic, 1997). The compiler
+// must not contract a·b + c or reorder sums; the usual compilers do not in ISO mode.
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <array>
 #include <cmath>
@@ -16,10 +16,11 @@ namespace {
 
 // Largest relative error of one rounded operation.
 constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
-// Bounds of the plain evaluation's error, relative to the sum of absolute terms: Shewchuk's "A" bounds.
+// Error bounds of the floating-point evaluation, relative to the sum of
+// absolute terms: Shewchuk's "A" bounds.
 constexpr double kOrientBound = (3 + 16 * kRounding) * kRounding;
 constexpr double kIncircleBound = (10 + 96 * kRounding) * kRounding;
-constexpr double kSplitter = 134217729.0; // 2^27 + 1 cuts a double in two halves of 26 bits
+constexpr double kSplitter = 134217729.0; // 2^27 + 1 splits a double into two halves of 26 bits
 
 struct Exact {
     double high, low;
@@ -49,7 +50,7 @@ Exact two_product(double a, double b)
     return {product, as.low * bs.low - rest};
 }
 
-/// Non-overlapping terms, smallest first, zeros left out.
+/// Non-overlapping terms, smallest first, without zeros.
 template <std::size_t Capacity>
 struct Expansion {
     std::array<double, Capacity> term;
@@ -71,7 +72,7 @@ Expansion<2> difference(double a, double b)
     return result;
 }
 
-/// Merge by size, then add up from the smallest (Shewchuk's fast expansion sum).
+/// Merge by magnitude, then sum from the smallest (Shewchuk's fast expansion sum).
 template <std::size_t N, std::size_t M>
 Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b)
 {
@@ -121,7 +122,7 @@ Expansion<2 * N> scaled(const Expansion<N>& a, double factor)
     return result;
 }
 
-/// Product term by term of b, so that the running sum stays within its bound.
+/// Multiply by the terms of b one after the other, so that the running sum stays within its capacity.
 template <std::size_t N, std::size_t M>
 Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/sparse_factor.h>
+#include <lacuna/geometry/shared/sparse_factor.h>
 
 #include <Eigen/OrderingMethods>
 
@@ -14,16 +14,16 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Multiplications between two looks at the context. A choice, not a measurement.
+/// Number of multiplications between checks for cancelling.
 constexpr long kWorkBetweenPolls = 100'000;
 
-/// Which rows of L each row of a matrix fills, found along the elimination tree.
+/// The rows of L that each row of a matrix fills, found with the elimination tree.
 class RowPattern {
 public:
     explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}
 
-    /// Columns of row k of L in an order in which each comes after those it depends on, the last part of
-    /// `row_`. @param tells  called with each entry of column k of the upper triangle.
+    /// Columns of row k of L, each after those that it depends on, as the last part of `row_`.
+    /// @param tells  called with each entry of column k of the upper triangle.
     template <class Tell>
     std::span<const int> of(const Matrix& upper, int k, const Tell& tell)
     {
@@ -46,8 +46,7 @@ public:
         return std::span(row_).subspan(top);
     }
 
-    /// Grow the tree by row k.
-    /// @return through `count`, one more for each column with an entry in row k.
+    /// Add row k to the tree. @return through `count`: incremented for each column with an entry in row k.
     void grow(const Matrix& upper, int k, std::vector<int>& count)
     {
         met_[index(k)] = k;
@@ -97,7 +96,7 @@ SparseFactor::SparseFactor(const Matrix& lower, const RunContext& context)
     diagonal_.resize(size);
 
     std::vector<double> row(index(size), 0.0);
-    std::vector<int> filled(begin, begin + size); // where the next entry of each column goes
+    std::vector<int> filled(begin, begin + size); // position of the next entry of each column
     long work = 0;
     for (int k = 0; k < size; ++k) {
         double pivot = 0;

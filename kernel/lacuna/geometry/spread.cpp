@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -8,7 +8,7 @@
 namespace lacuna::geometry {
 namespace {
 
-/// Call `use(point, its share of the whole)` for each.
+/// Call `use(point, normalised weight)` for each point.
 template <class Use>
 void for_each_share(std::span<const Vec3> points, std::span<const double> weights, const Use& use)
 {
@@ -32,7 +32,7 @@ Spread spread_about(const Vec3& centre, std::span<const Vec3> points, std::span<
     for_each_share(points, weights, [&](const Vec3& p, double share) {
         moments += share * (p - centre) * (p - centre).transpose();
     });
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments); // values rise
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments); // eigenvalues are ascending
     return {centre, axes.eigenvalues(), axes.eigenvectors()};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/swept_patch.h>
+#include <lacuna/geometry/shared/swept_patch.h>
 
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,13 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// A chord shorter than this share of the bottom's and top's length says little about how the patch lies.
-/// A choice, not a measurement.
+/// A chord shorter than this part of the length of bottom and top does not define a reliable frame.
 constexpr double kShortChord = 0.1;
-/// How far along a side its direction is looked for, as a share of its length.
-/// A choice, not a measurement.
+/// Length over which the direction of a side is measured, relative to the length of the side.
 constexpr double kReach = 0.02;
-/// Frames moved along a seam: a half turn in steps of 3°. A choice, not a measurement.
+/// Number of frames along a seam: steps of 3° for half a turn.
 constexpr int kFrames = 64;
-/// A seam that strays less from its chord, as a share of its length, is straight.
+/// A seam that deviates less from its chord, relative to its length, is straight.
 constexpr double kStraight = 1e-9;
 
 } // namespace
@@ -135,9 +133,9 @@ double SweptPatch::unlike() const
     double most = 0;
     for (int i = 1; i < kFrames; ++i) {
         const double s = static_cast<double>(i) / kFrames;
-        most = std::max(most, (deviation(bottom_, turns_ ? first_ : none, s) -
-                               deviation(top_, turns_ ? last_ : none, s))
-                                  .norm());
+        most = std::max(
+            most, (deviation(bottom_, turns_ ? first_ : none, s) - deviation(top_, turns_ ? last_ : none, s))
+                      .norm());
     }
     return most;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/tips.h>
+#include <lacuna/geometry/shared/tips.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <vector>
@@ -12,11 +11,11 @@ namespace lacuna::geometry {
 
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
-    // Both a choice, not a measurement.
+    // A tenth of a full turn (see tips.h), and a limit against coarse facets.
     constexpr double kLack = 0.2 * std::numbers::pi;
     constexpr std::size_t kMostTips = 64;
     std::vector<double> angle(points.size(), 0);
-    // Inside, every neighbour comes once before the point and once after it.
+    // At an inner point, every neighbour occurs once before the point and once after it in a triangle.
     std::vector<std::int64_t> turn(points.size(), 0);
     for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <lacuna/core/error.h>
 
@@ -11,17 +11,16 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Position of each point of a side in [0, 1].
+/// Position of each point of a side in [0, 1], by running length.
 template <class Point>
-std::vector<double> parameters(std::span<const Point> side, bool by_arc_length)
+std::vector<double> parameters(std::span<const Point> side)
 {
     std::vector<double> result(side.size(), 0.0);
-    for (std::size_t i = 1; by_arc_length && i < side.size(); ++i)
-        result[i] = result[i - 1] + (side[i] - side[i - 1]).norm();
+    for (std::size_t i = 1; i < side.size(); ++i) result[i] = result[i - 1] + (side[i] - side[i - 1]).norm();
     const double total = result.back();
     const auto last = static_cast<double>(side.size() - 1);
     for (std::size_t i = 0; i < side.size(); ++i)
-        result[i] = by_arc_length && total > 0 ? result[i] / total : static_cast<double>(i) / last;
+        result[i] = total > 0 ? result[i] / total : static_cast<double>(i) / last;
     return result;
 }
 
@@ -30,10 +29,10 @@ void check_sides(std::span<const Point> bottom, std::span<const Point> right, st
                  std::span<const Point> left)
 {
     const auto fail = [](const std::string& what) {
-        throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be laid: " + what);
+        throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be made: " + what);
     };
     if (bottom.size() != top.size() || left.size() != right.size())
-        fail("opposite sides must have as many points as each other; found bottom " +
+        fail("opposite sides must have equal numbers of points; found bottom " +
              std::to_string(bottom.size()) + ", top " + std::to_string(top.size()) + ", left " +
              std::to_string(left.size()) + ", right " + std::to_string(right.size()) +
              "; give opposite sides the same number of divisions");
@@ -47,11 +46,10 @@ void check_sides(std::span<const Point> bottom, std::span<const Point> right, st
 /// `transfinite()`, in the plane or in space.
 template <class Point>
 std::vector<Point> coons_grid(std::span<const Point> bottom, std::span<const Point> right,
-                              std::span<const Point> top, std::span<const Point> left,
-                              const TransfiniteOptions& options)
+                              std::span<const Point> top, std::span<const Point> left)
 {
     check_sides(bottom, right, top, left);
-    const CoonsPatch<Point> patch(bottom, right, top, left, options);
+    const CoonsPatch<Point> patch(bottom, right, top, left);
     const std::size_t n = bottom.size() - 1, m = left.size() - 1;
     std::vector<Point> grid((n + 1) * (m + 1));
     for (std::size_t i = 0; i <= n; ++i) {
@@ -71,7 +69,7 @@ std::vector<Point> coons_grid(std::span<const Point> bottom, std::span<const Poi
     return grid;
 }
 
-/// The point at a share of a side's length.
+/// The point at a relative arc length of a side.
 template <class Point>
 Point point_on(std::span<const Point> side, const std::vector<double>& at, double share)
 {
@@ -85,12 +83,11 @@ Point point_on(std::span<const Point> side, const std::vector<double>& at, doubl
 
 template <class Point>
 CoonsPatch<Point>::CoonsPatch(std::span<const Point> bottom, std::span<const Point> right,
-                              std::span<const Point> top, std::span<const Point> left,
-                              const TransfiniteOptions& options)
-    : bottom_{bottom, parameters(bottom, options.by_arc_length)},
-      right_{right, parameters(right, options.by_arc_length)},
-      top_{top, parameters(top, options.by_arc_length)},
-      left_{left, parameters(left, options.by_arc_length)}
+                              std::span<const Point> top, std::span<const Point> left)
+    : bottom_{bottom, parameters(bottom)},
+      right_{right, parameters(right)},
+      top_{top, parameters(top)},
+      left_{left, parameters(left)}
 {
 }
 
@@ -100,7 +97,7 @@ Vec2 CoonsPatch<Point>::crossing(std::size_t i, std::size_t k, std::size_t l, st
     const double s0 = bottom_.at[i], s1 = top_.at[k], t0 = left_.at[l], t1 = right_.at[j];
     const double ds = s1 - s0, dt = t1 - t0;
     const double determinant = 1 - ds * dt;
-    // It vanishes only where both lines are the same diagonal; any point of it will do, the middle is fair.
+    // Zero only if both lines are the same diagonal; any point of it is a solution, so take the middle.
     if (determinant <= std::numeric_limits<double>::epsilon()) return {0.5 * (s0 + s1), 0.5 * (t0 + t1)};
     return {(s0 + t0 * ds) / determinant, (t0 + s0 * dt) / determinant};
 }
@@ -109,7 +106,7 @@ template <class Point>
 Point CoonsPatch<Point>::blend(const Vec2& st, const Point& bottom, const Point& right, const Point& top,
                                const Point& left) const
 {
-    // Seen from one corner, sides far from the origin lose no digits to it.
+    // Relative to one corner, to keep precision far from the origin.
     const Point& c0 = bottom_.points.front();
     const Point c1 = bottom_.points.back() - c0, c2 = top_.points.back() - c0, c3 = top_.points.front() - c0;
     const double s = st.x(), t = st.y();
@@ -130,17 +127,15 @@ template class CoonsPatch<Vec2>;
 template class CoonsPatch<Vec3>;
 
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
-                              std::span<const Vec3> top, std::span<const Vec3> left,
-                              const TransfiniteOptions& options)
+                              std::span<const Vec3> top, std::span<const Vec3> left)
 {
-    return coons_grid(bottom, right, top, left, options);
+    return coons_grid(bottom, right, top, left);
 }
 
 std::vector<Vec2> transfinite(std::span<const Vec2> bottom, std::span<const Vec2> right,
-                              std::span<const Vec2> top, std::span<const Vec2> left,
-                              const TransfiniteOptions& options)
+                              std::span<const Vec2> top, std::span<const Vec2> left)
 {
-    return coons_grid(bottom, right, top, left, options);
+    return coons_grid(bottom, right, top, left);
 }
 
 } // namespace lacuna::geometry

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/delaunay.h>
-#include <lacuna/geometry/detail/loop_points.h>
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/delaunay.h>
+#include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,69 +22,47 @@ std::string loop_name(std::size_t loop, std::size_t count)
 
 void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index>> loops)
 {
-    if (loops.empty())
-        throw InvalidInput("geometry.no_loop", "there is no loop to triangulate; give at least one");
+    if (loops.empty()) throw InvalidInput("geometry.no_loop", "triangulate needs at least one loop");
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const std::string name = loop_name(l, loops.size());
-        check_loop_points<Vec2>(points, loops[l], name, "a region");
+        if (loops[l].size() < 3) {
+            throw InvalidInput("geometry.short_loop", name + " has " + std::to_string(loops[l].size()) +
+                                                          " points; a region needs at least 3");
+        }
+        for (const Index p : loops[l]) {
+            if (p >= 0 && index(p) < points.size() && points[index(p)].allFinite()) continue;
+            throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) + " of " +
+                                                         std::to_string(points.size()) +
+                                                         ", which does not exist or is not finite");
+        }
         const Vec2& a = points[index(loops[l][0])];
         const auto differs = [&](Index p) { return points[index(p)] != a; };
         const auto other = std::find_if(loops[l].begin(), loops[l].end(), differs);
         const bool flat = other == loops[l].end() || std::all_of(other, loops[l].end(), [&](Index p) {
                               return orient2d(a, points[index(*other)], points[index(p)]) == 0;
                           });
-        if (flat) throw InvalidInput("geometry.zero_area", name + " has all its points in line, so no area");
+        if (flat)
+            throw InvalidInput("geometry.zero_area", name + " has zero area: all its points are collinear");
     }
     if (const auto crossing = find_crossing(points, loops)) {
         const std::string where = "segment " + std::to_string(crossing->segment_a + 1) + " of " +
                                   loop_name(crossing->loop_a, loops.size()) + " crosses or touches segment " +
                                   std::to_string(crossing->segment_b + 1) + " of " +
                                   loop_name(crossing->loop_b, loops.size());
-        throw InvalidInput("geometry.loops_cross",
-                           where + "; loops must be simple and apart from each other");
-    }
-}
-
-/// How many loops lie around each loop.
-std::vector<Index> nesting(const DelaunayMesh& mesh, const std::vector<Index>& depth,
-                           std::span<const std::vector<Index>> loops)
-{
-    std::vector<Index> result;
-    for (const std::vector<Index>& loop : loops) {
-        const Index left = mesh.find_side(loop[0], loop[1]).first;
-        const Index right = mesh.find_side(loop[1], loop[0]).first;
-        result.push_back(std::min(depth[index(left)], depth[index(right)]));
-    }
-    return result;
-}
-
-void check_single_region(const std::vector<Index>& around)
-{
-    const auto outer = static_cast<std::size_t>(std::find(around.begin(), around.end(), 0) - around.begin());
-    for (std::size_t l = 0; l < around.size(); ++l) {
-        const std::string name = loop_name(l, around.size());
-        if (around[l] == 0 && l != outer) {
-            throw InvalidInput("geometry.loops_apart",
-                               name + " and " + loop_name(outer, around.size()) +
-                                   " lie outside each other; one must hold all the others");
-        }
-        if (around[l] > 1) {
-            throw InvalidInput("geometry.island_in_island",
-                               name + " lies within an island; islands must lie side by side");
-        }
+        throw InvalidInput("geometry.loops_cross", where + "; loops must be simple and disjoint");
     }
 }
 
 // --- adding points ----------------------------------------------------------------------------------
 
-// Circumradius over side: 1/√3 where equilateral. A right triangle with legs of the wanted length still
-// passes.
+// Ratio of circumradius to side: 1/√3 for an equilateral triangle. A right triangle whose legs have the
+// target length is still accepted.
 constexpr double kEquilateral = 1 / std::numbers::sqrt3;
 constexpr double kTooLarge = 1 / std::numbers::sqrt2;
-// The least ratio for which adding circumcentres is known to end with graded triangles (Ruppert 1995).
+// Smallest ratio for which inserting circumcentres provably ends, with graded triangles (Ruppert 1995).
 constexpr double kTooSkinny = std::numbers::sqrt2;
-// New points keep this part of the wanted length from all they see: the circumradius of an equilateral
-// triangle of the wanted size, within which such a triangle holds no other point.
+// Distance that new points keep from visible points, relative to the target length: the circumradius of an
+// equilateral triangle of target size, which contains no other point.
 constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
@@ -120,9 +97,9 @@ public:
 
 private:
     struct State {
-        double badness = 0;  ///< above 1 where the triangle should go
-        Index stamp = 0;     ///< tells entries of the queue that mean an earlier triangle of the same number
-        bool settled = true; ///< good, or nothing can be done
+        double badness = 0;  ///< above 1: the triangle should be refined
+        Index stamp = 0;     ///< identifies queue entries of an earlier triangle with the same number
+        bool settled = true; ///< good, or cannot be improved
         bool queued = false;
     };
     struct Waiting {
@@ -147,7 +124,7 @@ private:
         }
     }
 
-    /// Bound the sizes of rim points by each other's, along the sides of the first triangulation.
+    /// Limit the sizes of rim points by those of others, along the sides of the first triangulation.
     void grade_rim()
     {
         if (!std::isfinite(options_.grading)) return;
@@ -182,7 +159,7 @@ private:
         if (!options_.size) return std::numeric_limits<double>::infinity();
         const double value = options_.size(p);
         if (value > 0) return value;
-        throw InvalidInput("geometry.bad_size", "the wanted edge length at (" + std::to_string(p.x()) + ", " +
+        throw InvalidInput("geometry.bad_size", "the target edge length at (" + std::to_string(p.x()) + ", " +
                                                     std::to_string(p.y()) + ") is " + std::to_string(value) +
                                                     "; it must be above 0");
     }
@@ -229,7 +206,7 @@ private:
         state.settled = !(state.badness > 1);
     }
 
-    /// A triangle waits for its turn until a side of it is final: so points advance from the rim in rows.
+    /// A triangle is enqueued once one of its sides is final, so that points advance from the rim in rows.
     void enqueue(Index t)
     {
         State& state = state_[index(t)];
@@ -265,7 +242,7 @@ private:
         const Vec2 middle = (a + b) / 2;
         const Vec2 inward = Vec2(a.y() - b.y(), b.x() - a.x()) / base_length;
         const Vec2 apex = mesh_.at(tri.corner[static_cast<std::size_t>(base)]) - middle;
-        // The circle through a, b and the apex has its centre at this height over the middle of the base.
+        // The centre of the circle through a, b and the apex is at this height over the middle of the base.
         const double half = base_length / 2;
         const double height = (apex.squaredNorm() - half * half) / (2 * apex.dot(inward));
         const double wanted = std::min(kEquilateral * mean_size(tri.corner), kTooSkinny * shortest);
@@ -286,7 +263,7 @@ private:
             const Vec2 to_from = mesh_.at(side.from) - p;
             const Vec2 to_to = mesh_.at(side.to) - p;
             if (to_from.norm() < keep_away) return false;
-            if (side.fixed && to_from.dot(to_to) < 0) return false; // within the segment's diametral circle
+            if (side.fixed && to_from.dot(to_to) < 0) return false; // inside the segment's diametral circle
         }
         mesh_.fill_cavity(p, cavity_, fresh_);
         size_.push_back(wanted);
@@ -301,8 +278,8 @@ private:
 
     DelaunayMesh& mesh_;
     const TriangulateOptions& options_;
-    std::vector<double> size_; ///< wanted edge length at each point
-    std::vector<State> state_; ///< of each triangle
+    std::vector<double> size_; ///< target edge length at each point
+    std::vector<State> state_; ///< state of each triangle
     std::priority_queue<Waiting> queue_;
     DelaunayMesh::Cavity cavity_;
     std::vector<Index> fresh_;
@@ -339,8 +316,7 @@ Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vec
     for (const std::vector<Index>& loop : loops) {
         for (std::size_t k = 0; k < loop.size(); ++k) mesh.fix_segment(loop[k], loop[(k + 1) % loop.size()]);
     }
-    const std::vector<Index> depth = mesh.mark_inside();
-    if (options.single_region) check_single_region(nesting(mesh, depth, loops));
+    mesh.mark_inside();
     if (options.interior_points) Refinement(mesh, loops, options).run(context);
     return take_inside(mesh);
 }

@@ -2,7 +2,7 @@
 #include <lacuna/healing/detail/coincident_faces.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <vector>

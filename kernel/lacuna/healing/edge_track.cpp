@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/edge_track.h>
 
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <cmath>

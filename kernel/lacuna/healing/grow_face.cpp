@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/healing/grow_face.h>
+#include <lacuna/healing/shared/grow_face.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/open_volume.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/healing/orient_groups.h>
+#include <lacuna/healing/shared/orient_groups.h>
 
 #include <map>
 

@@ -3,10 +3,10 @@
 #include <lacuna/healing/split_facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/repeated_cells.h>
 #include <lacuna/healing/detail/t_junctions.h>
-#include <lacuna/healing/weld.h>
+#include <lacuna/healing/shared/weld.h>
 
 #include <algorithm>
 #include <limits>

@@ -6,7 +6,7 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/soup_facets.h>
 
 #include <algorithm>

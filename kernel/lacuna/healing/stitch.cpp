@@ -3,10 +3,10 @@
 // stitch(): merge vertices, collapse short edges, split T-junctions, merge coincident edges with all their
 // points, and remove duplicates. Each step collects its changes before it makes them, so that the order of
 // entities decides only which tag is kept.
-#include <lacuna/healing/stitch.h>
+#include <lacuna/healing/shared/stitch.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/healing/detail/loose_model.h>
 #include <lacuna/healing/detail/surplus_faces.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/surplus_faces.h>
 
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/coincident_faces.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/topology/open_volume.h>

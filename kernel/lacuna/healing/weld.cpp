@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/healing/weld.h>
+#include <lacuna/healing/shared/weld.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace lacuna::healing {
 namespace {

@@ -272,10 +272,9 @@ private:
             if (of_instance_ < 0) fail("*" + keyword.name + ": no instance " + shown(instance));
         }
         set_ = open_set(kind, name);
-        // All nodes of the elements of a set.
         if (const std::string* elements = keyword.find("ELSET");
             elements != nullptr && kind == DeckSet::Kind::nodes)
-            fail("*NSET: ELSET= is not read; list the nodes");
+            add_nodes_of(*elements);
     }
 
     void begin_surface(const Keyword& keyword, const std::string& raw)
@@ -351,6 +350,25 @@ private:
         const std::vector<DeckTag> copy = found->members; // it may be the set that is read
         spend(copy.size());
         for (const DeckTag tag : copy) members.push_back(tag + offset);
+    }
+
+    /// Put all nodes of the elements of a set, which stands above, into the set that is read.
+    void add_nodes_of(const std::string& elements)
+    {
+        constexpr auto kElements = DeckSet::Kind::elements;
+        std::vector<DeckTag> cells;
+        members_of(elements, kElements, cells);
+        std::ranges::sort(cells);
+        const bool of_instance = of_instance_ >= 0 || (elements.find('.') != std::string::npos &&
+                                                       find_set(*scope_, kElements, elements) == nullptr);
+        const Deck& deck = of_instance ? into_.deck() : scope_->builder.deck();
+        spend(deck.element_count());
+        for (const DeckBlock& block : deck.blocks)
+            for (std::size_t e = 0; e < block.count(); ++e) {
+                if (!std::ranges::binary_search(cells, block.tags[e])) continue;
+                for (const Index node : block.element(e)) // of a part that is read by its number
+                    if (node >= 0) set().members.push_back(of_instance ? deck.point_tags[index(node)] : node);
+            }
     }
 
     // --- data ----------------------------------------------------------------------------------------------
@@ -514,12 +532,7 @@ private:
     {
         if (std::exchange(scope.placed, true)) return;
         Deck& deck = scope.builder.deck();
-        for (DeckSet& set : deck.sets) {
-            std::sort(set.members.begin(), set.members.end());
-            set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
-            std::sort(set.sides.begin(), set.sides.end());
-            set.sides.erase(std::unique(set.sides.begin(), set.sides.end()), set.sides.end());
-        }
+        for (DeckSet& set : deck.sets) tidy(set);
         const TagPlaces nodes(deck.point_tags, [&](Index, Index second) {
             main_.fail((scope.name.empty() ? "" : "part " + scope.name + ": ") + "a second node " +
                        std::to_string(deck.point_tags[index(second)]));

@@ -2,7 +2,7 @@
 #include <lacuna/io/cell_field.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/marks.h>
+#include <lacuna/core/shared/marks.h>
 #include <lacuna/io/detail/node_reader.h>
 
 #include <algorithm>

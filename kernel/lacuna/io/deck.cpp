@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_formats.h>
+#include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
@@ -15,26 +15,6 @@
 
 namespace lacuna::io {
 namespace {
-
-constexpr DeckShapeInfo kInfos[kDeckShapes] = {
-    {1, 2, 2}, {1, 2, 3},  {2, 3, 3},  {2, 3, 6}, {2, 4, 4},  {2, 4, 8},  {2, 4, 9}, {3, 4, 4},  {3, 4, 10},
-    {3, 5, 5}, {3, 5, 13}, {3, 5, 14}, {3, 6, 6}, {3, 6, 15}, {3, 6, 18}, {3, 8, 8}, {3, 8, 20}, {3, 8, 27}};
-
-using Side = std::pair<int, int>;
-constexpr Side kLineSides[] = {{0, 1}};
-constexpr Side kTriangleSides[] = {{0, 1}, {1, 2}, {2, 0}};
-constexpr Side kQuadSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-constexpr Side kTetSides[] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-constexpr Side kPyramidSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
-constexpr Side kWedgeSides[] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
-constexpr Side kHexSides[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-
-constexpr Quad kTetFaces[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
-constexpr Quad kPyramidFaces[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
-constexpr Quad kWedgeFaces[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
-constexpr Quad kHexFaces[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 /// What some kinds of file cannot but begin with, for the error that names what a file really is.
 struct Beginning {
@@ -97,7 +77,7 @@ std::string_view ending_by_content(std::string_view bytes)
     return {};
 }
 
-void check_content(const std::string& name, const DeckFileFormat& format, std::string_view bytes)
+void check_content(const std::string& name, const FormatRow& format, std::string_view bytes)
 {
     if (format.read == read_stl && is_binary_stl(bytes)) return;
     if (const std::string_view unread = unread_by_content(bytes); !unread.empty())
@@ -106,8 +86,8 @@ void check_content(const std::string& name, const DeckFileFormat& format, std::s
                                                 ", which is not read; export it as .vtu, .unv or .msh");
     const std::string_view found = ending_by_content(bytes);
     if (found.empty() || found == format.ending) return;
-    const DeckFileFormat* other = deck_file_format(found);
-    if (other != nullptr && other->read == format.read) return; // several endings mean the same
+    const Format* const other = find_format(std::string(found));
+    if (other != nullptr && row_of(*other).read == format.read) return; // several endings mean the same
     throw InvalidInput("io.unreadable",
                        "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
                            (other != nullptr ? std::string(other->name)
@@ -116,52 +96,6 @@ void check_content(const std::string& name, const DeckFileFormat& format, std::s
 }
 
 } // namespace
-
-const DeckShapeInfo& shape_info(DeckShape shape) { return kInfos[static_cast<std::size_t>(shape)]; }
-
-bool find_shape(int dimension, int corners, int nodes, DeckShape& shape)
-{
-    for (std::size_t s = 0; s < kDeckShapes; ++s) {
-        if (kInfos[s].dimension != dimension || kInfos[s].corners != corners || kInfos[s].nodes != nodes)
-            continue;
-        shape = static_cast<DeckShape>(s);
-        return true;
-    }
-    return false;
-}
-
-std::span<const std::pair<int, int>> side_corners(DeckShape shape)
-{
-    const DeckShapeInfo& info = shape_info(shape);
-    if (info.dimension == 1) return kLineSides;
-    if (info.dimension == 2) return info.corners == 3 ? std::span<const Side>(kTriangleSides) : kQuadSides;
-    switch (info.corners) {
-    case 4:
-        return kTetSides;
-    case 5:
-        return kPyramidSides;
-    case 6:
-        return kWedgeSides;
-    default:
-        return kHexSides;
-    }
-}
-
-std::span<const Quad> face_corners(DeckShape shape)
-{
-    const DeckShapeInfo& info = shape_info(shape);
-    if (info.dimension < 3) return {};
-    switch (info.corners) {
-    case 4:
-        return kTetFaces;
-    case 5:
-        return kPyramidFaces;
-    case 6:
-        return kWedgeFaces;
-    default:
-        return kHexFaces;
-    }
-}
 
 std::size_t Deck::element_count() const
 {
@@ -214,49 +148,12 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
     return found;
 }
 
-std::span<const DeckFileFormat> deck_file_formats()
-{
-    static constexpr DeckFileFormat kFormats[] = {
-        {".stl", "an STL file", DeckFormat::stl, read_stl},
-        {".obj", "a Wavefront OBJ file", DeckFormat::obj, read_obj},
-        {".msh", "an MSH file", DeckFormat::msh, read_msh},
-        {".unv", "a universal file", DeckFormat::unv, read_unv},
-        {".bdf", "a Nastran deck", DeckFormat::nastran, read_nastran},
-        {".nas", "a Nastran deck", DeckFormat::nastran, read_nastran},
-        {".dat", "a Nastran deck", DeckFormat::nastran, read_nastran},
-        {".inp", "an Abaqus deck", DeckFormat::abaqus, read_abaqus},
-        {".vtk", "a legacy VTK file", DeckFormat::vtk, read_vtk},
-        {".vtu", "a VTU file", DeckFormat::vtu, read_vtu},
-        {".mesh", "a Medit file", DeckFormat::medit, read_medit},
-        {".exo", "an Exodus file", DeckFormat::exodus, read_exodus},
-        {".e", "an Exodus file", DeckFormat::exodus, read_exodus}};
-    return kFormats;
-}
-
-const DeckFileFormat* deck_file_format(std::string_view ending)
-{
-    const auto formats = deck_file_formats();
-    const auto found = std::ranges::find(formats, ending, &DeckFileFormat::ending);
-    return found == formats.end() ? nullptr : &*found;
-}
-
-const DeckFileFormat& needed_deck_format(const std::string& path, std::string_view others)
-{
-    const std::string ending = ending_of(path);
-    if (const DeckFileFormat* format = deck_file_format(ending)) return *format;
-    std::string known(others);
-    for (const DeckFileFormat& format : deck_file_formats())
-        known += (known.empty() ? "" : " ") + std::string(format.ending);
-    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending +
-                                                "\" is unknown; files are read that end in " + known);
-}
-
 Deck read_deck(const std::string& name, std::string_view bytes)
 {
-    const DeckFileFormat& format = needed_deck_format(name, {});
+    const FormatRow& format = needed_reader(name, {});
     check_content(name, format, bytes);
     Cursor cursor(name, bytes);
-    DeckBuilder builder(format.format);
+    DeckBuilder builder(format.deck);
     format.read(cursor, builder);
     Deck deck = builder.take(name);
     if (deck.format == DeckFormat::vtk || deck.format == DeckFormat::vtu) turn_vtk_wedges(deck);
@@ -268,7 +165,7 @@ Deck read_deck(const std::string& path, const RunContext& context)
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
         if (ending_of(path) == cad)
             throw InvalidInput("io.no_mesh", path + " is CAD, which has no mesh; `lacuna info` lists faces");
-    needed_deck_format(path, {});
+    needed_reader(path, {});
     Deck deck = read_deck(path, read_file(path));
     for (const std::string& warning : deck.warnings) log_line(context, "note: " + warning);
     return deck;

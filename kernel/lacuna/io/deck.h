@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
+#include <lacuna/mesh/cell_shape.h>
 
 #include <cstdint>
 #include <map>
@@ -20,45 +21,13 @@ using DeckTag = std::int64_t;
 
 enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj, exodus };
 
-/// What an element is, by its dimension and nodes.
-///
-/// Nodes are in the order of VTK, which is Abaqus's too: the corners, as in `mesh::Hex`, then the middles of
-/// the sides in the order of `side_corners()`, those of the faces and that of the whole. Nastran, UNV and
-/// Exodus put the middles of upright sides before those of the top, Gmsh has an order of its own: readers and
-/// writers turn one into the other.
-enum class DeckShape : std::uint8_t {
-    line2,
-    line3,
-    tri3,
-    tri6,
-    quad4,
-    quad8,
-    quad9,
-    tet4,
-    tet10,
-    pyramid5,
-    pyramid13,
-    pyramid14,
-    wedge6,
-    wedge15,
-    wedge18,
-    hex8,
-    hex20,
-    hex27,
-};
-inline constexpr std::size_t kDeckShapes = 18;
-
-struct DeckShapeInfo {
-    int dimension, corners, nodes;
-};
-/// @return by value of the enumeration.
-const DeckShapeInfo& shape_info(DeckShape shape);
-/// The shape of these counts. @return false  there is none.
-bool find_shape(int dimension, int corners, int nodes, DeckShape& shape);
-/// The corners of each side a middle node lies on, in the order of these nodes.
-std::span<const std::pair<int, int>> side_corners(DeckShape shape);
-/// The corners of each face of a solid, seen from outside counter-clockwise; the fourth is -1 in triangles.
-std::span<const Quad> face_corners(DeckShape shape);
+using DeckShape = mesh::CellShape;
+using DeckShapeInfo = mesh::CellShapeInfo;
+inline constexpr std::size_t kDeckShapes = mesh::kCellShapes;
+using mesh::face_corners;
+using mesh::find_shape;
+using mesh::shape_info;
+using mesh::side_corners;
 
 /// Elements of one shape and one word of the file, in the file's order. Element e has the nodes
 /// [e · n, (e + 1) · n) of `nodes`, where n is shape_info(shape).nodes.

@@ -2,9 +2,9 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <algorithm>
 #include <limits>

@@ -3,12 +3,12 @@
 // facets_of(): sides of solids are matched in heaps by their least node, together with the shells.
 #include <lacuna/io/detail/deck_facets.h>
 
-#include <lacuna/core/default_labels.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
-#include <lacuna/healing/weld.h>
+#include <lacuna/core/shared/default_labels.h>
+#include <lacuna/core/shared/large_pages.h>
+#include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_entities.h>
+#include <lacuna/io/detail/deck_view.h>
 
 #include <algorithm>
 #include <map>

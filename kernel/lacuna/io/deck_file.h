@@ -3,6 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/deck.h>
+#include <lacuna/io/formats.h>
 #include <lacuna/io/partition.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
@@ -28,10 +29,6 @@ struct MeshDeckOptions {
     /// elements beside the void, where the deck says it.
     std::string material{};
 };
-
-/// The format of an ending: .bdf .nas .dat .inp .unv .msh .vtk .vtu .exo .e, in lower case.
-/// @return false  it is none of these.
-bool find_deck_format(std::string_view ending, DeckFormat& format);
 
 /// A swept mesh as a deck of a format. Hexahedra are one region, named by the first of the volume's groups,
 /// which is property 1. Groups of the skin are sets:
@@ -129,7 +126,7 @@ struct DeckFileOptions {
     bool binary = true;                       ///< of .msh and .vtk
     double msh_version = 4.1;                 ///< or 2.2
     const DeckPartition* partition = nullptr; ///< of .msh 4.1: which part elements are of; null: they are one
-    bool all_groups = false;                  ///< of .msh: as `MshOptions::all_groups`
+    bool all_groups = false;                  ///< of .msh: as `MeshFileOptions::all_groups`
 };
 
 /// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK:
@@ -149,10 +146,12 @@ struct DeckFileOptions {
 /// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
 ///                     "io.folder" and the like as `WholeFile`.
 /// @throw BackendError  as `WholeFile`.
+void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
+                const RunContext& context = {}, const DeckFileOptions& options = {});
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
                 const DeckFileOptions& options = {});
 
-/// Write the parts of a deck as pieces, as `write_pvtu()` of a mesh does, with the arrays of its VTU file.
+/// Write the parts of a deck as pieces, as `write_mesh()` does, with the arrays of its VTU file.
 /// @throw  as `write_deck()`
 void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
                 const RunContext& context = {});

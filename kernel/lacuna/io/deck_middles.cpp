@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/deck_middles.h>
+#include <lacuna/io/shared/deck_middles.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <algorithm>

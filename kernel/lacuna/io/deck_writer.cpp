@@ -2,12 +2,9 @@
 #include <lacuna/io/detail/deck_writer.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cursor.h>
-#include <lacuna/io/detail/deck_formats.h>
-#include <lacuna/io/detail/mesh_deck.h>
-#include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/texts.h>
 #include <lacuna/io/detail/unv.h>
 
 #include <algorithm>
@@ -56,17 +53,8 @@ bool is_number_start(std::string_view text)
 /// Field 2 of a Nastran line.
 std::string_view second_field(std::string_view line)
 {
-    const std::size_t comma = line.find(',');
-    if (comma != std::string_view::npos) {
-        line.remove_prefix(comma + 1);
-        return trimmed(line.substr(0, line.find(',')));
-    }
-    if (const std::size_t tab = line.find('\t'); tab != std::string_view::npos) {
-        line = trimmed(line.substr(tab));
-        return line.substr(0, line.find_first_of(" \t"));
-    }
-    if (line.size() <= 8) return {};
-    return trimmed(line.substr(8, line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16));
+    const std::vector<std::string_view> fields = nastran_fields(line);
+    return fields.size() > 1 ? fields[1] : std::string_view();
 }
 
 void nastran_numbers(std::string_view line, TextNumbers& numbers)
@@ -142,6 +130,25 @@ void unv_numbers(std::string_view text, TextNumbers& numbers)
 }
 
 } // namespace
+
+std::vector<std::string_view> nastran_fields(std::string_view line)
+{
+    line = line.substr(0, line.find('$'));
+    std::vector<std::string_view> fields;
+    const bool free = line.find(',') != std::string_view::npos;
+    const bool tabs = line.find('\t') != std::string_view::npos;
+    const std::size_t width = line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16;
+    while (!line.empty()) {
+        const std::size_t end = std::min(free             ? line.find(',')
+                                         : tabs           ? line.find('\t')
+                                         : fields.empty() ? 8
+                                                          : width,
+                                         line.size());
+        fields.push_back(trimmed(line.substr(0, end)));
+        line.remove_prefix(std::min(end + (free || tabs ? 1 : 0), line.size()));
+    }
+    return fields;
+}
 
 char* put_real(char* out, double value, std::size_t width, RealForm form)
 {
@@ -220,11 +227,10 @@ TextNumbers numbers_in_text(const Deck& deck)
             if (text.place == DeckText::Place::tail) unv_numbers(text.text, numbers);
             continue;
         }
-        for (std::string_view rest = text.text; !rest.empty();) {
-            const std::size_t end = std::min(rest.find('\n'), rest.size());
-            const std::string_view line = trimmed(rest.substr(0, end));
+        each_line(text.text, [&](std::string_view whole) {
+            const std::string_view line = trimmed(whole);
             if (deck.format == DeckFormat::nastran) {
-                nastran_numbers(rest.substr(0, end), numbers);
+                nastran_numbers(whole, numbers);
             } else if (deck.format == DeckFormat::abaqus && line.starts_with('*')) {
                 if (!line.starts_with("**")) elements = same_word(line.substr(0, 8), "*ELEMENT");
                 if (const Keyword keyword = parse_keyword(line); keyword.name == "SURFACE")
@@ -233,8 +239,7 @@ TextNumbers numbers_in_text(const Deck& deck)
                 const auto tag = parse_integer<DeckTag>(trimmed(line.substr(0, line.find(','))));
                 if (tag) numbers.cells.insert(*tag);
             }
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-        }
+        });
     }
     return numbers;
 }
@@ -252,16 +257,13 @@ std::vector<std::string> materials_in_text(const Deck& deck)
                 return true;
             });
         if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
-        for (std::string_view rest = text.text; !rest.empty();) {
-            const std::size_t end = std::min(rest.find('\n'), rest.size());
-            const std::string_view line = rest.substr(0, end);
-            rest.remove_prefix(std::min(end + 1, rest.size()));
+        each_line(text.text, [&](std::string_view line) {
             // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like add to a material of the same number.
-            if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) continue;
+            if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) return;
             if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
-                continue;
+                return;
             if (const auto tag = parse_integer<DeckTag>(second_field(line))) add(std::to_string(*tag));
-        }
+        });
     }
     return found;
 }
@@ -301,41 +303,39 @@ void add_model_cards(Deck& deck, const std::string& cards)
     deck.texts.push_back({DeckText::Place::cards, "", cards});
 }
 
-void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)
+void refuse_element(std::size_t count, std::string_view type, DeckShape shape, std::string_view format,
+                    std::string_view why)
 {
-    throw InvalidInput("io.no_such_element", std::to_string(block.count()) + " elements " +
-                                                 (block.type.empty() ? "" : block.type + " ") + "of " +
-                                                 std::to_string(shape_info(block.shape).nodes) +
-                                                 " nodes cannot be written as " + std::string(format) + ": " +
-                                                 std::string(why));
+    throw InvalidInput("io.no_such_element",
+                       std::to_string(count) + " elements " + std::string(type) + (type.empty() ? "" : " ") +
+                           "of " + std::to_string(shape_info(shape).nodes) + " nodes cannot be written as " +
+                           std::string(format) + ": " + std::string(why));
 }
 
 LayeredBulk::LayeredBulk(const Deck& deck, std::vector<BulkPart> own)
-    : parts(std::move(own)), sets(deck.sets.size()), set_size(deck.sets.size(), 0)
+    : parts(std::move(own)), sets(deck.sets.size()), parts_of_set(deck.sets.size())
 {
     for (const BulkPart& part : parts) {
         points += part.points();
         hexes.push_back(hexes.back() + part.count(true));
         wedges.push_back(wedges.back() + part.count(false));
+        for (const std::size_t s : part.place.sets) parts_of_set[s].push_back(&part);
     }
-    // Numbers rise: those held that are lower than a part's come before its cells.
-    std::vector<std::size_t> taken(sets.size(), 0);
-    const auto take_held = [&](std::size_t s, std::size_t until) {
-        if (until == taken[s]) return;
-        sets[s].push_back({set_size[s], nullptr, taken[s]});
-        set_size[s] += until - taken[s];
-        taken[s] = until;
-    };
-    for (const BulkPart& part : parts)
-        for (const std::size_t s : part.place.sets) {
-            const std::vector<DeckTag>& held = deck.sets[s].members;
-            take_held(s, static_cast<std::size_t>(std::ranges::lower_bound(held, part.place.first_cell) -
-                                                  held.begin()));
-            sets[s].push_back({set_size[s], &part});
-            set_size[s] += part.mesh.cell_count();
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        if (parts_of_set[s].empty()) continue;
+        // Numbers rise: those held that are lower than a part's come before its cells.
+        auto held = deck.sets[s].members.begin();
+        const auto take_held = [&](DeckTag below) {
+            for (; held != deck.sets[s].members.end() && *held < below; ++held)
+                sets[s].add(static_cast<std::size_t>(*held), static_cast<std::size_t>(*held) + 1);
+        };
+        for (const BulkPart* part : parts_of_set[s]) {
+            take_held(part->place.first_cell);
+            const auto first = static_cast<std::size_t>(part->place.first_cell);
+            sets[s].add(first, first + part->mesh.cell_count());
         }
-    for (std::size_t s = 0; s < sets.size(); ++s)
-        if (!sets[s].empty()) take_held(s, deck.sets[s].members.size());
+        take_held(std::numeric_limits<DeckTag>::max());
+    }
 }
 
 std::size_t BulkReader::made_cell(const BulkPart& part, bool hex, std::size_t e) const
@@ -343,19 +343,6 @@ std::size_t BulkReader::made_cell(const BulkPart& part, bool hex, std::size_t e)
     const auto at = static_cast<std::size_t>(&part - layered_->parts.data());
     return hex ? part.kinds.cell(e - layered_->hexes[at])
                : part.kinds.cell(part.kinds.hexes() + (e - layered_->wedges[at]));
-}
-
-DeckTag BulkReader::tag(const DeckBlock& block, std::size_t e) const
-{
-    if (!is_made(block)) return block.tags[e];
-    const bool hex = is_of_hexes(block);
-    const BulkPart& part = layered_->part_of(hex, e);
-    return part.tag(made_cell(part, hex, e));
-}
-
-Index BulkReader::region(const DeckBlock& block, std::size_t e) const
-{
-    return is_made(block) ? layered_->part_of(is_of_hexes(block), e).place.region : block.regions[e];
 }
 
 std::vector<BulkReader::MadeRun> BulkReader::made_runs(const DeckBlock& block) const
@@ -369,21 +356,20 @@ std::vector<BulkReader::MadeRun> BulkReader::made_runs(const DeckBlock& block) c
     return runs;
 }
 
-std::pair<DeckTag, DeckTag> BulkReader::tags(const DeckBlock& block) const
+mesh::Numbers BulkReader::tag_ranges(const DeckBlock& block) const
 {
-    if (!is_made(block)) {
-        const auto [low, high] = std::ranges::minmax(block.tags);
-        return {low, high};
-    }
-    std::pair<DeckTag, DeckTag> all{std::numeric_limits<DeckTag>::max(), 0};
+    if (!is_made(block)) return mesh::Numbers(block.tags);
     const bool hex = is_of_hexes(block);
+    mesh::Ranges tags;
     for (const BulkPart& part : layered_->parts) {
-        const std::size_t count = part.count(hex), first = hex ? 0 : part.kinds.hexes();
-        if (count == 0) continue;
-        all.first = std::min(all.first, part.tag(part.kinds.cell(first)));
-        all.second = std::max(all.second, part.tag(part.kinds.cell(first + count - 1)));
+        const std::size_t first = hex ? 0 : part.kinds.hexes(), count = part.count(hex);
+        const std::size_t in_layer = count / std::max<std::size_t>(index(part.mesh.layers), 1);
+        for (std::size_t i = first; i < first + count; i += in_layer) {
+            const auto tag = static_cast<std::size_t>(part.tag(part.kinds.cell(i)));
+            tags.add(tag, tag + in_layer);
+        }
     }
-    return all;
+    return mesh::Numbers(std::move(tags));
 }
 
 std::vector<const BulkPart*> BulkReader::parts_of(Index region) const
@@ -397,158 +383,14 @@ std::vector<const BulkPart*> BulkReader::parts_of(Index region) const
 
 std::vector<const BulkPart*> BulkReader::parts_of(const DeckSet& set) const
 {
-    std::vector<const BulkPart*> found;
-    for (const LayeredBulk::Run& run : runs(set))
-        if (run.part != nullptr) found.push_back(run.part);
-    return found;
+    if (layered_ == nullptr) return {};
+    return layered_->parts_of_set[place_of(set)];
 }
 
 std::size_t BulkReader::count(const DeckBlock& block) const
 {
     if (!is_made(block)) return block.count();
     return is_of_hexes(block) ? layered_->hexes.back() : layered_->wedges.back();
-}
-
-DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options,
-                 const LayeredBulk* layered)
-{
-    switch (format) {
-    case DeckFormat::nastran:
-        return nastran_file(deck, layered);
-    case DeckFormat::abaqus:
-        return abaqus_file(deck, layered);
-    case DeckFormat::exodus:
-        return exodus_file(deck, layered);
-    case DeckFormat::msh:
-        return msh_of_deck(deck, options, layered);
-    case DeckFormat::vtu:
-        return vtu_of_deck(deck, layered);
-    case DeckFormat::vtk:
-        return vtk_of_deck(deck, options.binary, layered);
-    default:
-        return unv_file(deck, layered);
-    }
-}
-
-namespace {
-
-/// The options, with all groups only where the format holds them.
-DeckFileOptions options_for(DeckFormat format, DeckFileOptions options, const OutputPath& path,
-                            const RunContext& context)
-{
-    options.all_groups = format == DeckFormat::msh &&
-                         holds_all_groups(options.all_groups, options.msh_version, path, context);
-    return options;
-}
-
-void write_bulk(const Deck& deck, const LayeredBulk& bulk, DeckFormat format, const DeckFileOptions& options,
-                const OutputPath& path, const RunContext& context, const Team* team)
-{
-    const DeckFile file = file_of(deck, format, options_for(format, options, path, context), &bulk);
-    if (team == nullptr || team->rank == 0)
-        for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
-    write_file(path, file.sections, file.sizes, context, team);
-}
-
-} // namespace
-
-bool is_layered_of_parts(DeckFormat format)
-{
-    return is_layered(format)
-               ? format != DeckFormat::exodus
-               : format == DeckFormat::msh || format == DeckFormat::vtu || format == DeckFormat::vtk;
-}
-
-bool is_layered(DeckFormat format)
-{
-    return format == DeckFormat::nastran || format == DeckFormat::abaqus || format == DeckFormat::unv ||
-           format == DeckFormat::exodus;
-}
-
-void write_deck(const mesh::LayeredMesh& layered, const MeshDeckOptions& options, const OutputPath& path,
-                const RunContext& context, const Team* team)
-{
-    BulkPlace place;
-    const Deck deck = deck_without_bulk(layered.mesh, options, place, context);
-    std::vector<BulkPart> parts;
-    parts.push_back(
-        {layered.mesh, std::make_unique<NodeReader>(layered, context), nullptr, std::move(place)});
-    write_bulk(deck, LayeredBulk(deck, std::move(parts)), options.format, {}, path, context, team);
-}
-
-void write_parts(std::span<const mesh::LayeredPart> parts, DeckFormat format, const DeckFileOptions& file,
-                 const OutputPath& path, const RunContext& context, const Team* team)
-{
-    MeshDeckOptions options;
-    options.format = format;
-    std::vector<BulkPlace> places;
-    const Deck deck = deck_without_bulk(parts, options, false, places, context);
-    std::vector<BulkPart> bulk;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        const mesh::HexMesh& mesh = parts[p].mesh;
-        auto nodes = parts[p].nodes != nullptr
-                         ? std::make_unique<NodeReader>(mesh::LayeredMesh{mesh, *parts[p].nodes}, context)
-                         : std::make_unique<NodeReader>(mesh);
-        bulk.push_back({mesh, std::move(nodes), &parts[p].numbers, std::move(places[p])});
-    }
-    write_bulk(deck, LayeredBulk(deck, std::move(bulk)), format, file, path, context, team);
-}
-
-bool find_deck_format(std::string_view ending, DeckFormat& format)
-{
-    const DeckFileFormat* found = deck_file_format(ending);
-    using enum DeckFormat;
-    constexpr DeckFormat kWritten[] = {nastran, abaqus, unv, msh, vtk, vtu, exodus};
-    if (found == nullptr || std::ranges::find(kWritten, found->format) == std::end(kWritten)) return false;
-    format = found->format;
-    return true;
-}
-
-namespace {
-
-bool holds_lines(DeckFormat format)
-{
-    return format == DeckFormat::msh || format == DeckFormat::vtk || format == DeckFormat::vtu;
-}
-
-/// The deck without its lines, which sets do not name either.
-Deck without_lines(const Deck& deck)
-{
-    Deck less = deck;
-    std::vector<DeckTag> lines;
-    std::erase_if(less.blocks, [&](const DeckBlock& block) {
-        if (shape_info(block.shape).dimension != 1) return false;
-        lines.insert(lines.end(), block.tags.begin(), block.tags.end());
-        return true;
-    });
-    std::ranges::sort(lines);
-    for (DeckSet& set : less.sets)
-        if (set.kind == DeckSet::Kind::elements)
-            std::erase_if(set.members, [&](DeckTag tag) { return std::ranges::binary_search(lines, tag); });
-    std::erase_if(less.sets, [](const DeckSet& set) {
-        return set.kind == DeckSet::Kind::elements && set.members.empty();
-    });
-    return less;
-}
-
-} // namespace
-
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
-                const DeckFileOptions& options)
-{
-    if (const std::size_t lines = deck.element_count(1); lines > 0 && !holds_lines(format)) {
-        log_line(context, path.text() + ": " + std::to_string(lines) + " lines are not written");
-        return write_deck(without_lines(deck), format, path, context, options);
-    }
-    DeckFile file = file_of(deck, format, options_for(format, options, path, context));
-    const bool texts = std::ranges::any_of(
-        deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
-    if (format != deck.format && texts)
-        file.notes.push_back("materials, loads and other cards of " + deck.path +
-                             " are of another format and not carried over");
-    if (!file.changed.empty()) file.notes.push_back(file.changed);
-    for (const std::string& note : file.notes) log_line(context, "note: " + path.text() + ": " + note);
-    write_file(path, file.sections, file.sizes, context);
 }
 
 } // namespace lacuna::io

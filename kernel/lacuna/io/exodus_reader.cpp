@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/exodus.h>
-#include <lacuna/core/large_pages.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -397,12 +397,7 @@ private:
                 else if (shapes_[at])
                     set.sides.push_back({tags[at], side_of(*shapes_[at], sides[i], "side_ss" + number)});
             }
-            const auto tidy = [](auto& values) {
-                std::ranges::sort(values);
-                values.erase(std::unique(values.begin(), values.end()), values.end());
-            };
-            tidy(set.members);
-            tidy(set.sides);
+            tidy(set);
             if (!set.members.empty() || !set.sides.empty()) into_.deck().sets.push_back(std::move(set));
         }
     }

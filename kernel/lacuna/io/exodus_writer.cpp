@@ -5,7 +5,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/exodus.h>
-#include <lacuna/io/detail/vtk_file.h>
+#include <lacuna/io/detail/sections.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
-#include <lacuna/topology/skin_groups.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@ namespace lacuna::io {
 
 struct FacetFileOptions {
     bool binary = true;      ///< of .stl and .msh; .obj is always text
-    bool all_groups = false; ///< of .msh: as `MshOptions::all_groups`
+    bool all_groups = false; ///< of .msh: as `MeshFileOptions::all_groups`
 };
 
 /// Write the facets of a sealed volume, oriented outward, whole or not at all. The ending says the format:

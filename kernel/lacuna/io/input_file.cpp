@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/input_file.h>
 
-
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 
 #include <cerrno>
 #include <cstdint>

@@ -270,9 +270,8 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
     Joiner joiner(deck, model, scale, mesh);
     const std::vector<Index> points = joiner.points(was_there);
-    using enum DeckFormat;
     AddedMesh added{.points = points, .scale = scale, .joins = true};
-    added.skin_cells = options.format == msh || options.format == vtk || options.format == vtu;
+    added.skin_cells = !format_of(options.format).is_numbered;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;

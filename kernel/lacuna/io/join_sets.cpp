@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/join_sets.h>
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/io/detail/cursor.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/leave_out.h>
 #include <lacuna/mesh/second_order.h>
 
@@ -19,8 +19,7 @@ template <class Value>
 void add(std::vector<Value>& to, const std::vector<Value>& values)
 {
     to.insert(to.end(), values.begin(), values.end());
-    std::ranges::sort(to);
-    to.erase(std::unique(to.begin(), to.end()), to.end());
+    tidy(to);
 }
 
 bool holds(const std::vector<DeckTag>& set, const std::vector<DeckTag>& all)

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,56 +18,16 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kMostListed = 20; // what still reads as a list
-
-/// Whether regions of the format are properties that people know by their numbers.
-bool has_numbers(DeckFormat format)
-{
-    using enum DeckFormat;
-    return format == nastran || format == unv || format == medit || format == exodus;
-}
-
 bool is_part(const Deck& deck, const DeckRegion& region, std::string_view name)
 {
     if (same_word(region.name, name) || same_word(region.part, name)) return true;
     const auto number = parse_integer<int>(name);
-    return number && has_numbers(deck.format) && region.tag == *number;
+    return number && format_of(deck.format).numbers_regions && region.tag == *number;
 }
 
 bool is_part(const DeckSet& set, std::string_view name)
 {
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
-}
-
-/// Call `take(line)` for every line of a text, without its end.
-template <class Take>
-void each_line(std::string_view text, const Take& take)
-{
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        take(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-}
-
-/// Fields of a line apart by commas or, where it has none, columns; the first is the card's name.
-std::vector<std::string_view> nastran_fields(std::string_view line)
-{
-    line = line.substr(0, line.find('$'));
-    std::vector<std::string_view> fields;
-    const bool free = line.find(',') != std::string_view::npos;
-    const bool tabs = line.find('\t') != std::string_view::npos;
-    const std::size_t width = line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16;
-    while (!line.empty()) {
-        const std::size_t end = std::min(free             ? line.find(',')
-                                         : tabs           ? line.find('\t')
-                                         : fields.empty() ? 8
-                                                          : width,
-                                         line.size());
-        fields.push_back(trimmed(line.substr(0, end)));
-        line.remove_prefix(std::min(end + (free || tabs ? 1 : 0), line.size()));
-    }
-    return fields;
 }
 
 /// Cards beside the mesh as far as they name nodes and elements by their numbers.
@@ -191,8 +152,7 @@ public:
     LeftOut leave_out()
     {
         for (const std::string& part : parts_) mark(part);
-        using enum DeckFormat;
-        if (deck_.format == msh || deck_.format == vtk || deck_.format == vtu || deck_.format == unv)
+        if (const Format& of = format_of(deck_.format); of.is_written && of.skin == Format::Skin::quads)
             mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
@@ -385,10 +345,7 @@ private:
         std::string text = deck_.path + ": without " + list() + ": " + std::to_string(elements) +
                            " elements are left out, and " + std::to_string(nodes) +
                            " nodes that only they use";
-        for (std::size_t s = 0; s < std::min(sets_.size(), kMostListed); ++s)
-            text += (s == 0 ? "; " : ", ") + sets_[s];
-        if (sets_.size() > kMostListed)
-            text += " and " + std::to_string(sets_.size() - kMostListed) + " more sets lose some";
+        if (!sets_.empty()) text += "; " + listed(sets_);
         found_.kept.notes.push_back(std::move(text));
         std::map<std::string, std::size_t> cards;
         const auto count = [&](const std::string& card, DeckTag node, DeckTag element) {
@@ -453,13 +410,9 @@ void refuse_part(std::span<const Deck> decks, const std::string& name)
         for (const DeckSet& set : deck.sets)
             if (set.kind == DeckSet::Kind::elements) add(set.name);
     }
-    std::string list;
-    for (std::size_t k = 0; k < std::min(known.size(), kMostListed); ++k)
-        list += (k > 0 ? ", " : "") + known[k];
-    if (known.size() > kMostListed) list += " and " + std::to_string(known.size() - kMostListed) + " more";
     throw InvalidInput("io.no_such_part",
                        "without: " + name + " is no region, property or set of " + paths +
-                           (known.empty() ? ", which has none with a name" : ", which has " + list));
+                           (known.empty() ? ", which has none with a name" : ", which has " + listed(known)));
 }
 
 std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name)
@@ -471,8 +424,7 @@ std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name)
                 cells.push_back(block.tags[e]);
     for (const DeckSet& set : deck.sets)
         if (is_part(set, name)) cells.insert(cells.end(), set.members.begin(), set.members.end());
-    std::ranges::sort(cells);
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    tidy(cells);
     return cells;
 }
 
@@ -485,18 +437,14 @@ void close_gap(Deck& deck, const RunContext& context)
 {
     // Chords of 60 degrees lack 4.5 % of an arc: another mesh of the same surface.
     constexpr double kSameArea = 0.05;
-    std::string lost;
-    std::size_t count = 0;
+    std::vector<std::string> lost;
     for (const auto& gone : deck.gap.gone)
-        for (const DeckSet& set : gone->sets) {
-            if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) <= kSameArea || ++count > kMostListed)
-                continue;
-            lost += (count > 1 ? ", " : "") + set.name;
-        }
-    if (count > kMostListed) lost += " and " + std::to_string(count - kMostListed) + " more";
-    if (count > 0)
-        log_line(context, "note: " + deck.path +
-                              ": what was left out of these sets is not replaced, or in part: " + lost);
+        for (const DeckSet& set : gone->sets)
+            if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
+    if (!lost.empty())
+        log_line(context,
+                 "note: " + deck.path +
+                     ": what was left out of these sets is not replaced, or in part: " + listed(lost));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return;
     std::vector<std::string> empty; // of elements, whose sections go

@@ -2,9 +2,9 @@
 #include <lacuna/io/load_facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/healing/stitch.h>
+#include <lacuna/healing/shared/stitch.h>
 #include <lacuna/io/detail/deck_facets.h>
-#include <lacuna/io/detail/deck_formats.h>
+#include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/leave_out.h>
 
@@ -270,7 +270,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
     for (const std::string& path : paths) {
         check_file(path);
         const bool is_other = is_among(others.endings, ending_of(path));
-        if (!is_other) needed_deck_format(path, others.endings);
+        if (!is_other) needed_reader(path, others.endings);
         (is_other ? other : facets).push_back(path);
     }
     if (facets.empty() && !options.without.empty())

@@ -4,6 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/join_sets.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <limits>
@@ -59,7 +61,9 @@ public:
         const auto first_region = static_cast<Index>(all_.regions.size());
         add_regions();
         add_blocks(first_region);
+        const std::size_t first_set = all_.sets.size();
         add_sets();
+        for (const std::size_t s : sets_of_all(more_)) of_all_.push_back(all_.sets[first_set + s].name);
         add_texts();
         all_.path += ", " + more_.path;
         all_.gap.names.insert(all_.gap.names.end(), more_.gap.names.begin(), more_.gap.names.end());
@@ -73,6 +77,9 @@ public:
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
         all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());
     }
+
+    /// Sets that hold all of the deck, as they are called now.
+    [[nodiscard]] const std::vector<std::string>& of_all() const { return of_all_; }
 
 private:
     /// Refuse, or mark, what both decks have.
@@ -224,6 +231,7 @@ private:
     bool same_, clashes_ = false;
     DeckTag node_offset_ = 0, cell_offset_ = 0;
     Index first_point_ = 0;
+    std::vector<std::string> of_all_;
 };
 
 } // namespace
@@ -232,8 +240,17 @@ Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options
 {
     if (decks.empty()) throw InvalidInput("io.no_file", "no deck was given");
     Deck all = *decks.front().deck;
-    for (const DeckInScale& more : decks.subspan(1))
-        Merger(all, *more.deck, options, context).merge(more.scale / decks.front().scale);
+    std::vector<std::string> of_one; // sets of all of one of the decks
+    for (const std::size_t s : sets_of_all(all)) of_one.push_back(all.sets[s].name);
+    for (const DeckInScale& more : decks.subspan(1)) {
+        Merger merger(all, *more.deck, options, context);
+        merger.merge(more.scale / decks.front().scale);
+        of_one.insert(of_one.end(), merger.of_all().begin(), merger.of_all().end());
+    }
+    for (const std::size_t s : sets_of_all(all)) std::erase(of_one, all.sets[s].name);
+    if (decks.size() > 1 && !of_one.empty())
+        log_line(context, "note: " + listed(of_one) +
+                              ": these sets hold all of one deck alone, and get no new nodes or cells");
     return all;
 }
 

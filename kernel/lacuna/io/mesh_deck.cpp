@@ -4,10 +4,11 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/cell_field.h>
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
-#include <lacuna/io/detail/msh_content.h>
+#include <lacuna/io/detail/swept_view.h>
+#include <lacuna/io/detail/texts.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/mesh/mesh_part.h>
 
@@ -18,12 +19,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// Formats with hexahedra of 27 nodes.
-bool has_hex27(DeckFormat format)
-{
-    return format != DeckFormat::abaqus && format != DeckFormat::nastran && format != DeckFormat::unv;
-}
 
 /// The first of `count` numbers that none has. @param highest  of those that are not in use any more.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
@@ -77,7 +72,7 @@ public:
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (cell_shape(mesh_) == DeckShape::hex27 && !has_hex27(options_.format))
+        if (cell_shape(mesh_) == DeckShape::hex27 && !format_of(options_.format).has_hex27)
             throw InvalidInput("io.no_such_element",
                                "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
                                "sweep with order = 2, serendipity = true for those of 20");
@@ -280,13 +275,11 @@ private:
     /// to one that lost all members, or as a new one.
     const DeckSet& add_set(DeckSet& set, const std::string& group, const std::string& wanted)
     {
-        tidy(set.members);
-        tidy(set.sides);
+        tidy(set);
         const auto put = [&](DeckSet& into) -> const DeckSet& {
             into.members.insert(into.members.end(), set.members.begin(), set.members.end());
             into.sides.insert(into.sides.end(), set.sides.begin(), set.sides.end());
-            tidy(into.members);
-            tidy(into.sides);
+            tidy(into);
             into.listed |= set.listed;
             return into;
         };
@@ -329,8 +322,7 @@ private:
     void tell_kept_sets() const
     {
         if (!added_.joins || deck_.format != DeckFormat::nastran) return;
-        std::string list;
-        std::size_t count = 0;
+        std::vector<std::string> cards;
         for (const DeckText& text : deck_.texts) {
             std::istringstream lines(text.text);
             for (std::string line; std::getline(lines, line);) {
@@ -339,23 +331,20 @@ private:
                     line, [](char c) { return c == ',' || c == '=' || c == '*'; }, ' ');
                 std::istringstream(line) >> word >> number;
                 if (!same_word(word, "SET") && !same_word(word, "SET1") && !same_word(word, "SET3")) continue;
-                if (++count <= kMostListed) list += (count > 1 ? ", " : "") + word + " " + number;
+                cards.push_back(word + " " + number);
             }
         }
-        if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
-        if (count > 0)
-            log_line(context_, "note: the numbers of " + list + " stay as they are: no node and no cell of " +
-                                   volume_ + " is added to them");
+        if (!cards.empty())
+            log_line(context_, "note: the numbers of " + listed(cards) +
+                                   " stay as they are: no node and no cell of " + volume_ +
+                                   " is added to them");
     }
 
     void tell_names() const
     {
-        std::string list;
-        std::size_t count = 0;
-        for (const auto& [wanted, name] : renamed_)
-            if (++count <= kMostListed) list += (count > 1 ? ", " : "") + wanted + " is called " + name;
-        if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
-        if (count > 0) log_line(context_, "note: names that other sets have: " + list);
+        std::vector<std::string> names;
+        for (const auto& [wanted, name] : renamed_) names.push_back(wanted + " is called " + name);
+        if (!names.empty()) log_line(context_, "note: names that other sets have: " + listed(names));
     }
 
     void add_skin_cells()
@@ -460,7 +449,7 @@ private:
 
     [[nodiscard]] bool has_sides() const
     {
-        return options_.format == DeckFormat::abaqus || options_.format == DeckFormat::exodus;
+        return format_of(options_.format).skin == Format::Skin::nodes_and_sides;
     }
 
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
@@ -484,13 +473,6 @@ private:
         }
         if (options_.format == DeckFormat::abaqus) add_set(cells, name + kSkin, name + "_cells");
         add_set(sides, name, name);
-    }
-
-    template <class Value>
-    static void tidy(std::vector<Value>& values)
-    {
-        std::sort(values.begin(), values.end());
-        values.erase(std::unique(values.begin(), values.end()), values.end());
     }
 
     /// The one that is asked for, else that of the elements beside the mesh.
@@ -520,16 +502,11 @@ private:
             material_ = *found;
             return;
         }
-        std::string list;
-        for (std::size_t m = 0; m < std::min(known.size(), kMostListed); ++m)
-            list += (m > 0 ? ", " : "") + known[m];
-        if (known.size() > kMostListed)
-            list += " and " + std::to_string(known.size() - kMostListed) + " more";
-        throw InvalidInput("io.no_material", "material = " + material_ + ": " + deck_.path + " has " +
-                                                 (known.empty() ? "no materials" : "the materials " + list));
+        throw InvalidInput("io.no_material",
+                           "material = " + material_ + ": " + deck_.path + " has " +
+                               (known.empty() ? "no materials" : "the materials " + listed(known)));
     }
-    static constexpr std::size_t kMostListed = 20; // what still reads as a list
-    static constexpr const char* kSkin = "\n";     // tells groups of the skin from the volume's: in no name
+    static constexpr const char* kSkin = "\n"; // tells groups of the skin from the volume's: in no name
 
     [[nodiscard]] std::string volume() const
     {
@@ -593,11 +570,7 @@ Deck empty_deck(DeckFormat format)
     return deck;
 }
 
-bool has_skin_cells(DeckFormat format)
-{
-    return format == DeckFormat::unv || format == DeckFormat::msh || format == DeckFormat::vtk ||
-           format == DeckFormat::vtu;
-}
+bool has_skin_cells(DeckFormat format) { return format_of(format).skin == Format::Skin::quads; }
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/mesh_skin.h>
+#include <lacuna/io/shared/mesh_skin.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/split_facets.h>

@@ -1,432 +1,626 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh.h>
+//
+// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block, of one
+// entity; elements lie entity after entity. In files in parts $Entities are those of the whole, and each has
+// an entity in $PartitionedEntities for every part that has some of it; nodes and elements are of these.
+#include <lacuna/io/detail/msh_file.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/msh_elements.h>
+#include <lacuna/io/detail/msh_shapes.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-
-// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of the volume
-// and are numbered from 1 as in the mesh. Elements are numbered from 1, the skin's quads and triangles patch
-// after patch, then the hexahedra and the wedges.
+#include <limits>
+#include <map>
+#include <set>
+#include <type_traits>
 
 namespace lacuna::io {
 namespace {
 
-std::uint64_t node_tag(Index node) { return static_cast<std::uint64_t>(node) + 1; }
+using mesh::MeshView;
+using mesh::Numbers;
+using mesh::Ranges;
+using mesh::ViewParts;
 
-// ---- Version 4.1, binary
+// ---- Physical groups
 
-void put_list(std::string& text, const std::vector<int>& tags)
+constexpr std::size_t kLongestName = 127; // what Gmsh reads
+
+/// A name the format can hold: it knows no escape for a quote, and a name ends with its line.
+std::string printable(const std::string& name)
 {
-    put(text, static_cast<std::uint64_t>(tags.size()));
-    for (const int tag : tags) put(text, tag);
-}
-
-void put_box(std::string& text, const Eigen::AlignedBox3d& box)
-{
-    for (const double value : box.min()) put(text, value);
-    for (const double value : box.max()) put(text, value);
-}
-
-std::vector<int> surface_tags(const MshContent& content)
-{
-    std::vector<int> tags;
-    for (const MshSurface& surface : content.surfaces) tags.push_back(surface.tag);
-    return tags;
-}
-
-std::string binary_entities(const MshContent& content)
-{
-    std::string text = "$Entities\n";
-    for (const std::size_t count : {std::size_t(0), std::size_t(0), content.surfaces.size(), std::size_t(1)})
-        put(text, static_cast<std::uint64_t>(count));
-    for (const MshSurface& surface : content.surfaces) {
-        put(text, surface.tag);
-        put_box(text, surface.box);
-        put_list(text, surface.physical);
-        put_list(text, std::vector<int>{});
+    std::string result;
+    for (const char c : name) {
+        if (c == '"')
+            result += '\'';
+        else if (static_cast<unsigned char>(c) < 32 || c == 127)
+            result += ' ';
+        else
+            result += c;
     }
-    put(text, kVolumeTag);
-    put_box(text, content.box);
-    put_list(text, content.volume_physical);
-    put_list(text, surface_tags(content));
-    return text + "\n$EndEntities\n";
+    return result;
 }
 
-/// Number of a cell and its nodes, each eight bytes.
-char* put_element(char* out, std::uint64_t number, const mesh::CellNodes& nodes)
+/// The first bytes of a name, no UTF-8 character cut in two.
+std::string shortened(const std::string& name, std::size_t bytes)
 {
-    std::array<std::uint64_t, 28> record;
-    record[0] = number;
-    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 1] = node_tag(nodes.node[i]);
-    const std::size_t bytes = (nodes.count + 1) * sizeof(std::uint64_t);
-    std::memcpy(out, record.data(), bytes);
-    return out + bytes;
+    if (name.size() <= bytes) return name;
+    while (bytes > 0 && (static_cast<unsigned char>(name[bytes]) & 0xC0) == 0x80) --bytes;
+    return name.substr(0, bytes);
 }
 
-/// Cells of eight nodes alone, [begin, end) of those of a mesh, with the numbers from `number` on: as many
-/// columns of them as the source has quads, which come before its triangles.
-char* put_hexes(char* out, const mesh::HexMesh& mesh, std::size_t columns, std::size_t begin, std::size_t end,
-                std::uint64_t number)
-{
-    while (begin < end) {
-        const std::size_t layer = begin / columns, stop = std::min(end, (layer + 1) * columns);
-        const std::uint64_t low = node_tag(static_cast<Index>(layer) * mesh.nodes_per_layer);
-        const std::uint64_t high = low + static_cast<std::uint64_t>(mesh.nodes_per_layer);
-        for (const Quad* quad = mesh.quads.data() + begin % columns; begin < stop; ++begin, ++quad) {
-            std::array<std::uint64_t, 9> record{number++};
-            for (std::size_t k = 0; k < 4; ++k) {
-                const auto own = static_cast<std::uint64_t>((*quad)[k]);
-                record[1 + k] = low + own;
-                record[5 + k] = high + own;
+struct PhysicalName {
+    int dimension;
+    int tag;
+    std::string name;
+};
+
+/// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
+class GroupTags {
+public:
+    /// Give a group the tag it has in a file; its name is not written where that is `unnamed_group()`. Of two
+    /// groups that want the same tag in one dimension the first has it. Before any other is asked for.
+    void keep(int dimension, const std::string& group, int tag)
+    {
+        if (tag < 1 || tag == std::numeric_limits<int>::max() || tags_.contains({dimension, group}) ||
+            !kept_.insert({dimension, tag}).second)
+            return;
+        tags_[{dimension, group}] = tag;
+        next_ = std::max(next_, tag + 1);
+        if (group != unnamed_group(tag)) names_.push_back({dimension, tag, unique_name(dimension, group)});
+    }
+    /// Of several groups, rising.
+    std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups)
+    {
+        std::set<int> tags;
+        for (const std::string& group : groups) {
+            const auto [at, fresh] = tags_.try_emplace({dimension, group}, next_);
+            if (fresh) names_.push_back({dimension, next_++, unique_name(dimension, group)});
+            tags.insert(at->second);
+        }
+        return {tags.begin(), tags.end()};
+    }
+    std::vector<PhysicalName> take() { return std::move(names_); }
+
+private:
+    /// Two groups stay two, even where shortening makes their names alike.
+    std::string unique_name(int dimension, const std::string& group)
+    {
+        const std::string whole = printable(group);
+        std::string name = shortened(whole, kLongestName);
+        for (int i = 2; !written_.insert({dimension, name}).second; ++i) {
+            const std::string mark = "~" + std::to_string(i);
+            name = shortened(whole, kLongestName - mark.size()) + mark;
+        }
+        return name;
+    }
+
+    std::map<std::pair<int, std::string>, int> tags_;
+    std::set<std::pair<int, std::string>> written_;
+    std::vector<PhysicalName> names_;
+    std::set<std::pair<int, int>> kept_; ///< dimensions and tags
+    int next_ = 1;
+};
+
+// ---- Numbers as text or as they lie in memory
+
+struct MshNumbers {
+    bool binary;
+
+    template <class Value>
+    [[nodiscard]] char* add(char* out, Value value) const
+    {
+        if (binary) return put(out, value);
+        if constexpr (std::is_integral_v<Value>)
+            out = put_text(out, static_cast<long long>(value));
+        else
+            out = put_text(out, value);
+        *out++ = ' ';
+        return out;
+    }
+    /// End a line, which holds a number at least.
+    [[nodiscard]] char* end(char* out) const
+    {
+        if (!binary) out[-1] = '\n';
+        return out;
+    }
+    template <class... Value>
+    [[nodiscard]] std::string line(Value... values) const
+    {
+        std::string text(sizeof...(values) * kNumberBytes + 1, '\0');
+        char* out = text.data();
+        ((out = add(out, values)), ...);
+        text.resize(static_cast<std::size_t>(end(out) - text.data()));
+        return text;
+    }
+    /// A box, then lists of tags with their lengths, on the line that `text` ends with.
+    void add_lists(std::string& text, const Eigen::AlignedBox3d& box,
+                   std::initializer_list<std::vector<int>> lists) const
+    {
+        const auto go_on = [&] {
+            if (!binary) text.back() = ' ';
+        };
+        go_on();
+        const Vec3 low = box.min(), high = box.max();
+        text += line(low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+        for (const std::vector<int>& list : lists) {
+            go_on();
+            text += line(size_of(list.size()));
+            for (const int tag : list) {
+                go_on();
+                text += line(tag);
             }
-            out = put(out, record);
         }
     }
-    return out;
-}
-
-std::string block_head(int dimension, int tag, int third, std::size_t count)
-{
-    std::string text;
-    put(text, dimension);
-    put(text, tag);
-    put(text, third);
-    put(text, static_cast<std::uint64_t>(count));
-    return text;
-}
-
-std::string counts_of(std::size_t blocks, std::size_t count)
-{
-    std::string text;
-    for (const std::size_t value : {blocks, count, std::size_t(1), count})
-        put(text, static_cast<std::uint64_t>(value));
-    return text;
-}
-
-void add_binary_elements(std::vector<Section>& sections, const MshElements& elements)
-{
-    const std::vector<MshBlock> blocks = elements.blocks();
-    std::string head = "$Elements\n" + counts_of(blocks.size(), elements.count());
-    for (const MshBlock& block : blocks) {
-        const bool volume = block.surface == nullptr;
-        head += block_head(volume ? 3 : 2, volume ? kVolumeTag : block.surface->tag, block.type(),
-                           block.count);
-        sections.push_back({head, block.count, (block.nodes() + 1) * sizeof(std::uint64_t),
-                            [elements, block](std::size_t begin, std::size_t end, char* out) {
-                                const mesh::HexMesh& mesh = elements.mesh;
-                                if (block.shape == DeckShape::hex8)
-                                    return put_hexes(out, mesh, block.count / index(mesh.layers), begin, end,
-                                                     block.first + begin + 1);
-                                for (std::size_t i = block.first + begin; i < block.first + end; ++i)
-                                    out = put_element(out, i + 1, elements.nodes(i));
-                                return out;
-                            }});
-        head.clear();
+    [[nodiscard]] std::size_t room(std::size_t numbers, std::size_t bytes) const
+    {
+        return binary ? bytes : numbers * kNumberBytes + 1;
     }
-    sections.push_back({"\n$EndElements\n", 0, 0, {}});
-}
+    /// What stands before the end of a section of numbers.
+    [[nodiscard]] std::string gap() const { return binary ? "\n" : ""; }
+    static std::uint64_t size_of(std::size_t count) { return count; }
+};
 
-std::vector<Section> binary_41(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
-{
-    const std::size_t nodes = reader.count();
-    std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "4.1", true) + binary_entities(content) + "$Nodes\n" +
-                            counts_of(1, nodes) + block_head(3, kVolumeTag, 0, nodes),
-                        nodes, sizeof(std::uint64_t), [](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i)
-                                out = put(out, static_cast<std::uint64_t>(i + 1));
-                            return out;
-                        }});
-    sections.push_back({{}, nodes, sizeof(Vec3), [&reader](std::size_t begin, std::size_t end, char* out) {
-                            return reader.copy(begin, end, out);
-                        }});
-    sections.push_back({"\n$EndNodes\n", 0, 0, {}});
-    add_binary_elements(sections, {mesh, content});
-    return sections;
-}
+// ---- What a file says
 
-// ---- Version 4.1, text
+/// Elements of one entity, part and block.
+struct Row {
+    std::size_t entity;
+    Index part;
+    std::size_t block;
+    Ranges cells;
+    int tag = 0; ///< of the entity they are written under
+};
 
-/// Numbers, a blank before each.
-std::string spaced(std::initializer_list<std::size_t> numbers)
-{
-    std::string text;
-    for (const std::size_t number : numbers) text.append(1, ' ').append(std::to_string(number));
-    return text;
-}
+/// An entity of one part: a part of another, whose groups it has.
+struct PartEntity {
+    int dimension, tag;
+    int parent; ///< of the same dimension
+    Index part;
+};
 
-std::string list_text(const std::vector<int>& tags)
-{
-    std::string text = spaced({tags.size()});
-    for (const int tag : tags) text.append(1, ' ').append(std::to_string(tag));
-    return text;
-}
-
-std::string box_text(const Eigen::AlignedBox3d& box)
-{
-    std::string text;
-    for (const double value : box.min()) text.append(1, ' ').append(text_of(value));
-    for (const double value : box.max()) text.append(1, ' ').append(text_of(value));
-    return text;
-}
-
-std::string text_entities(const MshContent& content)
-{
-    std::string text = "$Entities\n0 0 " + std::to_string(content.surfaces.size()) + " 1\n";
-    for (const MshSurface& surface : content.surfaces)
-        text += std::to_string(surface.tag) + box_text(surface.box) + list_text(surface.physical) + " 0\n";
-    text += std::to_string(kVolumeTag) + box_text(content.box) + list_text(content.volume_physical) +
-            list_text(surface_tags(content)) + "\n";
-    return text + "$EndEntities\n";
-}
-
-char* put_nodes(char* out, const mesh::CellNodes& nodes)
-{
-    for (const Index node : nodes.all()) {
-        *out++ = ' ';
-        out = put_text(out, static_cast<long long>(node) + 1);
+class MshFile {
+public:
+    MshFile(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
+            const ViewParts* parts)
+        : view_(view), numbers_{options.binary}, parts_(parts)
+    {
+        rows_ = rows_of(nullptr);
+        if (parts != nullptr) part_rows_ = rows_of(parts);
+        used_.assign(view->entities.size(), 0);
+        for (const Row& row : rows_) used_[row.entity] = 1;
+        number_cells();
+        name_groups(options.all_groups);
+        if (view->point_tags.given() && view->points > 0)
+            nodes_ = view->point_tags.bounds(view->points);
+        else if (view->points > 0)
+            nodes_ = {1, static_cast<std::int64_t>(view->points)};
+        if (view->is_deck && std::min(nodes_.first, elements_.first) < 1)
+            throw InvalidInput("io.number_taken", view->source +
+                                                      " has a node or an element of number 0, which an MSH "
+                                                      "file cannot hold; write another format");
     }
-    *out++ = '\n';
-    return out;
-}
 
-char* put_point(char* out, const Vec3& point)
-{
-    out = put_text(out, point.x());
-    *out++ = ' ';
-    out = put_text(out, point.y());
-    *out++ = ' ';
-    out = put_text(out, point.z());
-    *out++ = '\n';
-    return out;
-}
-
-std::string words(std::initializer_list<std::size_t> numbers) { return spaced(numbers).substr(1) + "\n"; }
-
-/// Elements as lines: number, `middle(block)`, nodes.
-template <class Head, class Middle>
-void add_text_elements(std::vector<Section>& sections, const MshElements& elements, const std::string& start,
-                       const Head& head, const Middle& middle)
-{
-    std::string text = start;
-    for (const MshBlock& block : elements.blocks()) {
-        const std::string between = middle(block);
-        sections.push_back({text + head(block), block.count,
-                            (block.nodes() + 1) * kNumberBytes + between.size() + 2,
-                            [elements, block, between](std::size_t begin, std::size_t end, char* out) {
-                                for (std::size_t i = block.first + begin; i < block.first + end; ++i) {
-                                    out = put_text(out, static_cast<long long>(i) + 1);
-                                    out = between.copy(out, between.size()) + out;
-                                    out = put_nodes(out, elements.nodes(i));
-                                }
-                                return out;
-                            }});
-        text.clear();
+    DeckFile write_41()
+    {
+        boxes_ = view_->boxes();
+        open("4.1");
+        add_entities();
+        if (parts_ != nullptr) add_part_entities();
+        add_nodes();
+        text_ = numbers_.gap() + "$EndNodes\n$Elements\n";
+        const std::vector<Row>& rows = parts_ != nullptr ? part_rows_ : rows_;
+        text_ += numbers_.line(size_of(rows.size()), size_of(view_->cells()), size_of(elements_.first),
+                               size_of(elements_.second));
+        for (const Row& row : rows) {
+            const DeckShape shape = view_->blocks[row.block].shape;
+            text_ += numbers_.line(shape_info(shape).dimension, row.tag, gmsh_type(shape),
+                                   size_of(row.cells.count()));
+            add_elements<std::uint64_t>(row, {});
+        }
+        text_ += numbers_.gap() + "$EndElements\n";
+        add_ghosts();
+        return take();
     }
-    sections.push_back({"$EndElements\n", 0, 0, {}});
-}
 
-std::vector<Section> text_41(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
-{
-    const std::size_t nodes = reader.count();
-    std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "4.1", false) + text_entities(content) + "$Nodes\n" +
-                            words({1, nodes, 1, nodes}) + words({3, kVolumeTag, 0, nodes}),
-                        nodes, kNumberBytes, [](std::size_t begin, std::size_t end, char* out) {
-                            for (std::size_t i = begin; i < end; ++i) {
-                                out = put_text(out, static_cast<long long>(i) + 1);
-                                *out++ = '\n';
-                            }
-                            return out;
-                        }});
-    sections.push_back(
-        {{}, nodes, 3 * kNumberBytes, [&reader](std::size_t begin, std::size_t end, char* out) {
-             reader.each(begin, end, [&](std::size_t, const Vec3& node) { out = put_point(out, node); });
-             return out;
-         }});
-    const MshElements elements{mesh, content};
-    const auto head = [](const MshBlock& block) {
-        const bool volume = block.surface == nullptr;
-        const int tag = volume ? kVolumeTag : block.surface->tag;
-        return words({volume ? 3U : 2U, static_cast<std::size_t>(tag), static_cast<std::size_t>(block.type()),
-                      block.count});
-    };
-    add_text_elements(sections, elements,
-                      "$EndNodes\n$Elements\n" +
-                          words({elements.blocks().size(), elements.count(), 1, elements.count()}),
-                      head, [](const MshBlock&) { return std::string(); });
-    return sections;
-}
-
-// ---- Version 2.2: an element carries one physical group and its entity
-
-std::vector<Section> text_22(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
-{
-    std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", false) + "$Nodes\n" + words({reader.count()}),
-                        reader.count(), 4 * kNumberBytes,
-                        [&reader](std::size_t begin, std::size_t end, char* out) {
-                            reader.each(begin, end, [&](std::size_t i, const Vec3& node) {
-                                out = put_text(out, static_cast<long long>(i) + 1);
-                                *out++ = ' ';
-                                out = put_point(out, node);
-                            });
-                            return out;
-                        }});
-    const auto middle = [&](const MshBlock& block) {
-        const MshSurface* surface = block.surface;
-        const int physical = surface != nullptr ? surface->physical.front() : content.volume_physical.front();
-        const int entity = surface != nullptr ? surface->tag : kVolumeTag;
-        const auto unsign = [](int value) { return static_cast<std::size_t>(value); };
-        return spaced({unsign(block.type()), 2, unsign(physical), unsign(entity)});
-    };
-    const MshElements elements{mesh, content};
-    add_text_elements(
-        sections, elements, "$EndNodes\n$Elements\n" + words({elements.count()}),
-        [](const MshBlock&) { return std::string(); }, middle);
-    return sections;
-}
-
-char* put_element_22(char* out, std::size_t number, int physical, int entity, const mesh::CellNodes& nodes)
-{
-    std::array<int, 30> record{static_cast<int>(number), physical, entity};
-    for (std::size_t i = 0; i < nodes.count; ++i) record[i + 3] = nodes.node[i] + 1;
-    const std::size_t bytes = (nodes.count + 3) * sizeof(int);
-    std::memcpy(out, record.data(), bytes);
-    return out + bytes;
-}
-
-/// Type, count and number of tags of the elements that follow.
-std::string head_22(int type, std::size_t count)
-{
-    std::string text;
-    for (const int value : {type, static_cast<int>(count), 2}) put(text, value);
-    return text;
-}
-
-std::vector<Section> binary_22(const mesh::HexMesh& mesh, const NodeReader& reader, const MshContent& content)
-{
-    std::vector<Section> sections;
-    sections.push_back({msh_opening(content.names, "2.2", true) + "$Nodes\n" + words({reader.count()}),
-                        reader.count(), sizeof(int) + sizeof(Vec3),
-                        [&reader](std::size_t begin, std::size_t end, char* out) {
-                            reader.each(begin, end, [&](std::size_t i, const Vec3& node) {
-                                out = put(out, static_cast<int>(i) + 1);
-                                for (const double value : node) out = put(out, value);
-                            });
-                            return out;
-                        }});
-    const MshElements elements{mesh, content};
-    std::string head = "\n$EndNodes\n$Elements\n" + words({elements.count()});
-    for (const MshBlock& block : elements.blocks()) {
-        const bool volume = block.surface == nullptr;
-        const int physical = volume ? content.volume_physical.front() : block.surface->physical.front();
-        const int entity = volume ? kVolumeTag : block.surface->tag;
-        sections.push_back(
-            {head + head_22(block.type(), block.count), block.count, (block.nodes() + 3) * sizeof(int),
-             [elements, block, physical, entity](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = block.first + begin; i < block.first + end; ++i)
-                     out = put_element_22(out, i + 1, physical, entity, elements.nodes(i));
-                 return out;
-             }});
-        head.clear();
+    /// An element carries one physical group and its entity.
+    DeckFile write_22()
+    {
+        open("2.2");
+        text_ += "$Nodes\n" + std::to_string(view_->points) + "\n";
+        add(view_->points, numbers_.room(4, 4 + sizeof(Vec3)),
+            [view = view_, to = numbers_](std::size_t begin, std::size_t end, char* out) {
+                view->each_point(begin, end, [&](std::span<const Vec3> points) {
+                    for (const Vec3& point : points) {
+                        out = to.add(out, static_cast<int>(view->point_tags[begin++]));
+                        out = put_point(to, point, out);
+                    }
+                });
+                return out;
+            });
+        text_ = numbers_.gap() + "$EndNodes\n$Elements\n" + std::to_string(view_->cells()) + "\n";
+        for (const Row& row : rows_) {
+            const int type = gmsh_type(view_->blocks[row.block].shape);
+            const std::vector<int>& physical = physical_[row.entity];
+            const int group = physical.empty() ? 0 : physical.front();
+            const int entity = view_->entities[row.entity].tag;
+            if (numbers_.binary) text_ += numbers_.line(type, static_cast<int>(row.cells.count()), 2);
+            add_elements<int>(row, numbers_.binary ? std::vector<int>{group, entity}
+                                                   : std::vector<int>{type, 2, group, entity});
+        }
+        text_ += numbers_.gap() + "$EndElements\n";
+        return take();
     }
-    sections.push_back({"\n$EndElements\n", 0, 0, {}});
-    return sections;
-}
 
-// ---- Fields of cells, alike in both versions
+private:
+    static std::uint64_t size_of(std::size_t count) { return count; }
+    static std::uint64_t size_of(std::int64_t number) { return static_cast<std::uint64_t>(number); }
 
-/// Section of one field: the skin with the values of its cells, then the cells. Gmsh and meshio
-/// both read values by number of element; meshio takes a field only where every element has one.
-void add_field(std::vector<Section>& sections, const MshContent& content, const mesh::CellKinds& kinds,
-               const std::vector<std::uint32_t>& skin_cells, std::size_t cells, const FieldReader& field,
-               bool binary)
-{
-    const auto head = [&](std::size_t elements) {
-        return "$ElementData\n1\n\"" + field.name() + "\"\n1\n0\n3\n0\n1\n" + std::to_string(elements) + "\n";
-    };
-    const auto put_value = [binary](char* out, std::size_t number, double value) {
-        if (binary) return put(put(out, static_cast<std::int32_t>(number)), value);
-        out = put_text(out, static_cast<long long>(number));
-        *out++ = ' ';
-        out = put_text(out, value);
-        *out++ = '\n';
+    /// Rows entity after entity, part after part, in the order of the blocks.
+    [[nodiscard]] std::vector<Row> rows_of(const ViewParts* parts) const
+    {
+        std::vector<Row> rows;
+        for (std::size_t b = 0; b < view_->blocks.size(); ++b) {
+            std::map<std::pair<Index, Index>, std::size_t> known;
+            const auto add_run = [&](std::size_t first, std::size_t last, Index entity, Index part) {
+                const auto [at, fresh] = known.try_emplace({entity, part}, rows.size());
+                if (fresh) rows.push_back({index(entity), part, b, {}, view_->entities[index(entity)].tag});
+                rows[at->second].cells.add(first, last);
+            };
+            const MeshView::Block& block = view_->blocks[b];
+            mesh::each_run(block.entities, 0, block.count,
+                           [&](std::size_t first, std::size_t last, Index entity) {
+                               if (parts == nullptr) return add_run(first, last, entity, 0);
+                               mesh::each_run(parts->of[b], first, last,
+                                              [&](std::size_t from, std::size_t to, Index part) {
+                                                  add_run(from, to, entity, part);
+                                              });
+                           });
+        }
+        std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::pair(row.entity, row.part); });
+        return rows;
+    }
+
+    /// Elements have the numbers that the view gives, or those of their order in a file without parts.
+    void number_cells()
+    {
+        struct Run {
+            std::size_t first, number, count;
+        };
+        std::vector<std::vector<Run>> runs(view_->blocks.size());
+        std::size_t next = 1;
+        for (const Row& row : rows_)
+            row.cells.each(0, row.cells.count(), [&](std::size_t first, std::size_t last) {
+                runs[row.block].push_back({first, next, last - first});
+                next += last - first;
+            });
+        elements_ = {next > 1 ? 1 : 0, static_cast<std::int64_t>(next) - 1};
+        bool any = false;
+        for (std::size_t b = 0; b < runs.size(); ++b) {
+            const MeshView::Block& block = view_->blocks[b];
+            if (!block.tags.given()) {
+                std::ranges::sort(runs[b], {}, &Run::first);
+                Ranges numbers;
+                for (const Run& run : runs[b]) numbers.add(run.number, run.number + run.count);
+                tags_.emplace_back(std::move(numbers));
+                continue;
+            }
+            tags_.push_back(block.tags);
+            if (block.count == 0) continue;
+            const auto [low, high] = block.tags.bounds(block.count);
+            elements_ = any ? std::pair(std::min(elements_.first, low), std::max(elements_.second, high))
+                            : std::pair(low, high);
+            any = true;
+        }
+    }
+
+    /// Physical groups of entities: all, or one each.
+    void name_groups(bool all)
+    {
+        std::set<std::string> lost;
+        GroupTags tags;
+        for (const MeshView::GroupTag& kept : view_->group_tags)
+            tags.keep(kept.dimension, kept.group, kept.tag);
+        std::set<std::pair<int, int>> used; // dimensions and tags
+        for (std::size_t e = 0; e < used_.size(); ++e) {
+            const MeshView::Entity& entity = view_->entities[e];
+            std::vector<std::string> groups = entity.groups;
+            if (groups.empty() && !view_->unnamed.empty()) groups = {view_->unnamed};
+            if (!all && groups.size() > 1) {
+                groups = {entity.groups[entity.main]};
+                lost.insert(entity.groups.begin(), entity.groups.end());
+                lost.erase(groups.front());
+            }
+            physical_.push_back(used_[e] != 0 ? tags.tags_of(entity.dimension, groups) : std::vector<int>());
+            for (const int tag : physical_.back()) used.emplace(entity.dimension, tag);
+        }
+        names_ = tags.take();
+        std::erase_if(names_, [&](const PhysicalName& name) {
+            return !used.contains({name.dimension, name.tag});
+        });
+        std::erase_if(lost, [](const std::string& name) { // what a swept mesh has by itself
+            return name == "volume" || topology::is_role_group(name) ||
+                   topology::is_role_group(name.substr(name.find(':') + 1));
+        });
+        if (view_->source.empty() || lost.empty()) return;
+        for (const std::string& name : lost) file_.changed += (file_.changed.empty() ? "" : ", ") + name;
+        file_.changed = "an element is in one group, so that " + file_.changed +
+                        (lost.size() > 1 ? " lack" : " lacks") +
+                        " elements that are in others too; groups = \"all\" keeps them";
+    }
+
+    void open(const char* version)
+    {
+        text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
+        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // tells the order of bytes
+        text_ += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
+        for (const PhysicalName& name : names_)
+            text_ += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name +
+                     "\"\n";
+        text_ += "$EndPhysicalNames\n";
+    }
+
+    template <class Visit>
+    void each_entity(int dimension, const Visit& visit) const
+    {
+        for (std::size_t e = 0; e < used_.size(); ++e)
+            if (used_[e] != 0 && view_->entities[e].dimension == dimension) visit(e, view_->entities[e]);
+    }
+
+    void add_entities()
+    {
+        std::array<std::size_t, 4> count{};
+        std::string all;
+        for (const int dimension : {0, 1, 2, 3})
+            each_entity(dimension, [&](std::size_t e, const MeshView::Entity& entity) {
+                ++count[index(dimension)];
+                all += numbers_.line(entity.tag);
+                numbers_.add_lists(all, boxes_[e], {physical_[e], entity.bounds});
+            });
+        text_ += "$Entities\n" +
+                 numbers_.line(size_of(count[0]), size_of(count[1]), size_of(count[2]), size_of(count[3])) +
+                 all + numbers_.gap() + "$EndEntities\n";
+    }
+
+    /// Give each part of an entity one of its own.
+    void add_part_entities()
+    {
+        // Where entities of all dimensions are numbered together, so are those of parts.
+        std::array<int, 4> next{};
+        for (const MeshView::Entity& entity : view_->entities)
+            for (const int dimension : {0, 1, 2, 3})
+                if (view_->is_deck || entity.dimension == dimension)
+                    next[index(dimension)] = std::max(next[index(dimension)], entity.tag);
+        int& first = next.front();
+        const auto next_tag = [&](int dimension) {
+            return ++(view_->is_deck ? first : next[index(dimension)]);
+        };
+        std::map<std::pair<std::size_t, Index>, int> tags;
+        std::array<std::size_t, 4> count{};
+        std::array<std::string, 4> all;
+        for (Row& row : part_rows_) {
+            const MeshView::Entity& of = view_->entities[row.entity];
+            int& tag = tags[{row.entity, row.part}];
+            if (tag == 0) {
+                tag = next_tag(of.dimension);
+                entities_.push_back({of.dimension, tag, of.tag, row.part});
+                std::string& text = all[index(of.dimension)];
+                ++count[index(of.dimension)];
+                text += numbers_.line(tag, of.dimension, of.tag, size_of(std::size_t(1)), row.part + 1);
+                numbers_.add_lists(text, boxes_[row.entity], {physical_[row.entity], {}});
+            }
+            row.tag = tag;
+        }
+        text_ += "$PartitionedEntities\n" + numbers_.line(size_of(std::size_t(parts_->parts))) +
+                 numbers_.line(size_of(std::size_t(parts_->has_ghosts ? parts_->parts : 0)));
+        for (int p = 0; parts_->has_ghosts && p < parts_->parts; ++p)
+            text_ += numbers_.line(next_tag(3), p + 1);
+        text_ += numbers_.line(size_of(count[0]), size_of(count[1]), size_of(count[2]), size_of(count[3])) +
+                 all[0] + all[1] + all[2] + all[3] + numbers_.gap() + "$EndPartitionedEntities\n";
+    }
+
+    /// A block of all nodes; in parts one of each that has nodes, under its first volume.
+    void add_nodes()
+    {
+        struct Block {
+            int dimension, tag;
+            Ranges points;
+        };
+        std::vector<Block> blocks;
+        if (parts_ == nullptr) {
+            const bool none = view_->entities.empty();
+            const MeshView::Entity of = none ? MeshView::Entity{.tag = 1}
+                                             : view_->entities[view_->node_entity];
+            blocks.push_back({of.dimension, of.tag, {0, view_->points}});
+        }
+        for (std::size_t p = 0; parts_ != nullptr && p < parts_->points.size(); ++p) {
+            const auto& [part, points] = parts_->points[p];
+            const auto volume = std::ranges::find_if(entities_, [part = part](const PartEntity& entity) {
+                return entity.dimension == 3 && entity.part == part;
+            });
+            blocks.push_back({3, volume == entities_.end() ? 1 : volume->tag, points});
+        }
+        text_ += "$Nodes\n" + numbers_.line(size_of(blocks.size()), size_of(view_->points),
+                                            size_of(nodes_.first), size_of(nodes_.second));
+        for (const Block& block : blocks) {
+            const std::size_t count = block.points.count();
+            text_ += numbers_.line(block.dimension, block.tag, 0, size_of(count));
+            add(count, numbers_.room(1, 8),
+                [view = view_, to = numbers_, points = block.points](std::size_t begin, std::size_t end,
+                                                                     char* out) {
+                    const auto put = [&](std::size_t, std::int64_t tag) {
+                        out = to.end(to.add(out, size_of(tag)));
+                    };
+                    points.each(begin, end, [&](std::size_t first, std::size_t last) {
+                        view->point_tags.each(first, last, put);
+                    });
+                    return out;
+                });
+            add(count, numbers_.room(3, sizeof(Vec3)),
+                [view = view_, to = numbers_, points = block.points](std::size_t begin, std::size_t end,
+                                                                     char* out) {
+                    const auto take = [&](std::span<const Vec3> own) { out = put_points(to, own, out); };
+                    points.each(begin, end, [&](std::size_t first, std::size_t last) {
+                        view->each_point(first, last, take);
+                    });
+                    return out;
+                });
+        }
+    }
+
+    static char* put_point(const MshNumbers& to, const Vec3& point, char* out)
+    {
+        for (const double x : point) out = to.add(out, x);
+        return to.end(out);
+    }
+    static char* put_points(const MshNumbers& to, std::span<const Vec3> points, char* out)
+    {
+        static_assert(sizeof(Vec3) == 3 * sizeof(double));
+        if (to.binary) {
+            std::memcpy(out, points.data(), points.size_bytes());
+            return out + points.size_bytes();
+        }
+        for (const Vec3& point : points) out = put_point(to, point, out);
         return out;
-    };
-    const std::size_t bytes = binary ? sizeof(std::int32_t) + sizeof(double) : 2 * kNumberBytes;
-    const std::size_t skin = content.skin.size();
-    sections.push_back(
-        {head(skin + cells), skin, bytes,
-         [&content, &skin_cells, &field, put_value](std::size_t begin, std::size_t end, char* out) {
-             field.each_behind_skin(
-                 begin, end, skin_cells, [&](std::size_t i) { return std::size_t(content.skin[i]); },
-                 [&](std::size_t i, double value) { out = put_value(out, i + 1, value); });
-             return out;
-         }});
-    sections.push_back(
-        {{}, cells, bytes, [&field, kinds, skin, put_value](std::size_t begin, std::size_t end, char* out) {
-             field.each_cell(
-                 begin, end, [&](std::size_t i) { return kinds.cell(i); },
-                 [&](std::size_t i, double value) { out = put_value(out, skin + 1 + i, value); });
-             return out;
-         }});
-    sections.push_back({binary ? "\n$EndElementData\n" : "$EndElementData\n", 0, 0, {}});
-}
+    }
 
-void write(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& fields,
-           const OutputPath& path, const MshOptions& options, const RunContext& context,
-           const Team* team = nullptr)
-{
-    const bool old = options.version == 2.2;
-    const MshContent content = msh_content(
-        mesh, nodes, holds_all_groups(options.all_groups, options.version, path, context));
-    std::vector<Section> sections =
-        options.partition.parts > 0 ? partitioned_msh(mesh, nodes, content, options.partition, options.binary)
-        : options.binary ? (old ? binary_22(mesh, nodes, content) : binary_41(mesh, nodes, content))
-                         : (old ? text_22(mesh, nodes, content) : text_41(mesh, nodes, content));
-    std::vector<std::uint32_t> skin_cells;
-    if (!fields.empty()) skin_cells = cells_of_skin(mesh);
-    for (const FieldReader& field : fields)
-        add_field(sections, content, mesh::CellKinds(mesh), skin_cells, mesh.cell_count(), field,
-                  options.binary);
-    write_file(path, sections, options.binary ? Sizes::exact : Sizes::varying, context, team);
-}
+    /// Elements of a row: number, `middle`, nodes. Numbers are of the type `Tag`.
+    template <class Tag>
+    void add_elements(const Row& row, const std::vector<int>& middle)
+    {
+        const MeshView::Block& block = view_->blocks[row.block];
+        const auto size = static_cast<std::size_t>(shape_info(block.shape).nodes);
+        add(row.cells.count(),
+            numbers_.room(1 + middle.size() + size, sizeof(Tag) * (1 + size) + sizeof(int) * middle.size()),
+            [view = view_, &block, tags = tags_[row.block], cells = row.cells, middle,
+             to = numbers_](std::size_t begin, std::size_t end, char* out) {
+                cells.each(begin, end, [&](std::size_t first, std::size_t last) {
+                    for (; first < last; first += MeshView::Block::kAtOnce)
+                        out = put_elements<Tag>(*view, block, tags, first,
+                                                std::min(first + MeshView::Block::kAtOnce, last), middle, to,
+                                                out);
+                });
+                return out;
+            });
+    }
 
-void check_version(const MshOptions& options)
-{
-    if (options.version != 2.2 && options.version != 4.1)
-        throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
-                                                     " cannot be written; known are 4.1 and 2.2");
-    if (options.partition.parts > 0 && options.version != 4.1)
-        throw InvalidInput("io.partition_version",
-                           "parts are written in MSH version 4.1 alone; leave out the version");
-}
+    /// At most `kAtOnce` of them.
+    template <class Tag>
+    static char* put_elements(const MeshView& view, const MeshView::Block& block, const Numbers& tags,
+                              std::size_t begin, std::size_t end, const std::vector<int>& middle,
+                              const MshNumbers& to, char* out)
+    {
+        std::array<Tag, MeshView::Block::kAtOnce> tag;
+        tags.each(begin, end,
+                  [&](std::size_t i, std::int64_t number) { tag[i - begin] = static_cast<Tag>(number); });
+        const std::span<const std::uint8_t> places = gmsh_places(block.shape);
+        const bool counted = !view.point_tags.given();
+        block.each_cell(begin, end, [&](std::size_t i, std::span<const Index> nodes) {
+            std::array<Tag, 27> own;
+            if (counted)
+                for (std::size_t k = 0; k < nodes.size(); ++k)
+                    own[places.empty() ? k : places[k]] = static_cast<Tag>(nodes[k]) + 1;
+            else
+                for (std::size_t k = 0; k < nodes.size(); ++k)
+                    own[places.empty() ? k : places[k]] = static_cast<Tag>(view.point_tags[index(nodes[k])]);
+            out = to.add(out, tag[i - begin]);
+            for (const int number : middle) out = to.add(out, number);
+            if (to.binary) {
+                std::memcpy(out, own.data(), nodes.size() * sizeof(Tag));
+                out += nodes.size() * sizeof(Tag);
+                return;
+            }
+            for (std::size_t k = 0; k < nodes.size(); ++k) out = to.add(out, own[k]);
+            out = to.end(out);
+        });
+        return out;
+    }
+
+    void add_ghosts()
+    {
+        if (parts_ == nullptr) return;
+        std::size_t all = 0;
+        for (const ViewParts::Ghosts& own : parts_->ghosts) all += own.cells.count();
+        if (all == 0) return;
+        text_ += "$GhostElements\n" + numbers_.line(size_of(all));
+        for (const ViewParts::Ghosts& own : parts_->ghosts) {
+            const std::size_t of = own.of.size();
+            add(own.cells.count(), numbers_.room(3 + of, 20 + 4 * of),
+                [own, tags = tags_[own.block], to = numbers_](std::size_t begin, std::size_t end, char* out) {
+                    const auto put = [&](std::size_t, std::int64_t number) {
+                        out = to.add(to.add(out, size_of(number)), own.part + 1);
+                        out = to.add(out, size_of(own.of.size()));
+                        for (const int part : own.of) out = to.add(out, part + 1);
+                        out = to.end(out);
+                    };
+                    own.cells.each(begin, end,
+                                   [&](std::size_t first, std::size_t last) { tags.each(first, last, put); });
+                    return out;
+                });
+        }
+        text_ += numbers_.gap() + "$EndGhostElements\n";
+    }
+
+    /// $ElementData of each field, with a value of every element: meshio takes no field that lacks one.
+    void add_fields()
+    {
+        for (std::size_t f = 0; f < view_->fields.size(); ++f) {
+            text_ += "$ElementData\n1\n\"" + view_->fields[f].name + "\"\n1\n0\n3\n0\n1\n" +
+                     std::to_string(view_->cells()) + "\n";
+            for (const Row& row : rows_)
+                add(row.cells.count(), numbers_.room(2, sizeof(std::int32_t) + sizeof(double)),
+                    [view = view_, f, b = row.block, tags = tags_[row.block], cells = row.cells,
+                     to = numbers_](std::size_t begin, std::size_t end, char* out) {
+                        cells.each(begin, end, [&](std::size_t first, std::size_t last) {
+                            view->fields[f].each(b, first, last, [&](std::size_t i, double value) {
+                                out = to.add(out, static_cast<std::int32_t>(tags[i]));
+                                out = to.end(to.add(out, value));
+                            });
+                        });
+                        return out;
+                    });
+            text_ += numbers_.gap() + "$EndElementData\n";
+        }
+    }
+
+    /// Records behind the text so far.
+    void add(std::size_t records, std::size_t bytes, decltype(Section::fill) fill)
+    {
+        file_.sections.push_back({std::exchange(text_, {}), records, bytes, std::move(fill)});
+    }
+    DeckFile take()
+    {
+        add_fields();
+        add(0, 0, {});
+        file_.sizes = numbers_.binary ? Sizes::exact : Sizes::varying;
+        return std::move(file_);
+    }
+
+    std::shared_ptr<const MeshView> view_;
+    MshNumbers numbers_;
+    const ViewParts* parts_;
+    std::vector<Row> rows_, part_rows_;
+    std::vector<char> used_;    ///< entities that have elements
+    std::vector<Numbers> tags_; ///< of the elements of each block
+    std::pair<std::int64_t, std::int64_t> elements_,
+        nodes_;                              ///< lowest and highest number
+    std::vector<std::vector<int>> physical_; ///< tags of each entity's groups, rising
+    std::vector<Eigen::AlignedBox3d> boxes_; ///< of each entity
+    std::vector<PhysicalName> names_;
+    std::vector<PartEntity> entities_;
+    std::string text_; ///< before the next section
+    DeckFile file_;
+};
 
 } // namespace
 
-std::string msh_entities(const MshContent& content, bool binary)
+DeckFile msh_file(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
+                  const ViewParts* parts)
 {
-    return binary ? binary_entities(content) : text_entities(content);
-}
-
-void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const MshOptions& options,
-               const RunContext& context)
-{
-    check_version(options);
-    write(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, options, context);
-}
-
-void write_msh(const mesh::LayeredMesh& layered, const OutputPath& path, const MshOptions& options,
-               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
-{
-    check_version(options);
-    const NodeReader nodes(layered, context);
-    write(layered.mesh, nodes, readers_of(layered, fields, context, team), path, options, context, team);
+    MshFile file(view, options, parts);
+    return options.msh_version == 2.2 ? file.write_22() : file.write_41();
 }
 
 } // namespace lacuna::io

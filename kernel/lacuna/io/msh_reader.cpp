@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh_reader.h>
+#include <lacuna/io/shared/msh_reader.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/input_file.h>
@@ -611,8 +611,7 @@ private:
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e)
                 if (held[index(block.regions[e])]) set.members.push_back(block.tags[e]);
-        if (!std::ranges::is_sorted(set.members)) std::sort(set.members.begin(), set.members.end());
-        set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+        tidy(set.members);
         // Of several groups the one with the fewest cells names a region, of these one that has a name.
         const std::pair<std::size_t, bool> rank(set.members.size(), name.empty());
         for (std::size_t r = 0; r < held.size(); ++r) {

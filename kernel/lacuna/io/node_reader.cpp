@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/node_reader.h>
 
-#include <lacuna/core/bytes.h>
+#include <lacuna/core/shared/bytes.h>
+#include <lacuna/core/shared/team.h>
 
 #include <algorithm>
 

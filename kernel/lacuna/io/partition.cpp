@@ -2,7 +2,7 @@
 #include <lacuna/io/partition.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 
 #include <lacuna/io/cell_field.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/sections.h>
 
-#include <lacuna/core/bytes.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/bytes.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/core/shared/progress.h>
 
 #include <algorithm>
 #include <atomic>

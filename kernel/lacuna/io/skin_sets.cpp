@@ -57,9 +57,9 @@ std::map<Quad, DeckSide> sides_below(const Deck& deck)
 
 Deck skin_as_sets(Deck deck, DeckFormat format)
 {
-    using enum DeckFormat;
-    const bool from = deck.format == msh || deck.format == vtk || deck.format == vtu || deck.format == medit;
-    if (!from || (format != abaqus && format != nastran && format != exodus)) return deck;
+    const Format& from = format_of(deck.format);
+    const bool has_faces = from.is_mesh && from.skin == Format::Skin::quads && deck.format != DeckFormat::unv;
+    if (!has_faces || format_of(format).skin == Format::Skin::quads) return deck;
     const std::map<Quad, DeckSide> below = sides_below(deck);
     std::unordered_map<DeckTag, std::vector<std::string>> names; // of the elements that become sets
     each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
@@ -103,7 +103,7 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
     for (const auto& [name, of] : sets) {
         deck.sets.push_back({DeckSet::Kind::nodes, 0, name, {of.first.begin(), of.first.end()}, {}});
-        if (format != nastran)
+        if (format != DeckFormat::nastran)
             deck.sets.push_back({DeckSet::Kind::sides, 0, name, {}, {of.second.begin(), of.second.end()}});
     }
     return deck;

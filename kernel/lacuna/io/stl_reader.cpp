@@ -2,7 +2,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 
 #include <algorithm>
 #include <limits>

@@ -265,8 +265,7 @@ private:
         for (const auto kind : {DeckSet::Kind::elements, DeckSet::Kind::nodes}) {
             std::vector<DeckTag>& all = members[kind == DeckSet::Kind::elements ? 0 : 1];
             if (all.empty()) continue;
-            std::sort(all.begin(), all.end());
-            all.erase(std::unique(all.begin(), all.end()), all.end());
+            tidy(all);
             into_.deck().sets.push_back({kind, number, name, std::move(all), {}});
         }
     }

@@ -1,493 +1,487 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/vtk.h>
+#include <lacuna/io/detail/vtk_writer.h>
 
-#include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/msh_content.h>
-#include <lacuna/io/detail/node_reader.h>
-#include <lacuna/io/detail/vtk_file.h>
+#include <lacuna/core/shared/team.h>
+#include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <numeric>
+#include <set>
 #include <utility>
 
 namespace lacuna::io {
 namespace {
 
-/// How the mesh that a file holds lies in the whole mesh.
-struct Window {
-    int first = 0;                ///< its first layer is this one of the whole
-    int skin_first = 0, skin = 0; ///< of its layers, those whose skin the file has, and their number
-    bool source = true, target = true;
-};
+using mesh::MeshView;
+using View = std::shared_ptr<const MeshView>;
 
-/// Cells of the file by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
-struct Cells {
-    /// Cells of one type in a row.
-    struct Kind {
-        std::size_t first = 0, count = 0, nodes = 0; ///< cells of the file before them, them, nodes of each
-        int type = 0;                                ///< VTK's
-    };
-    const mesh::HexMesh& mesh;
-    mesh::CellKinds kinds;
-    Window window;
-    std::size_t triangles = 0, quads = 0; ///< of the source
-    std::array<Kind, 4> kind;
-
-    explicit Cells(const mesh::HexMesh& cells) : Cells(cells, {0, 0, cells.layers}) {}
-    Cells(const mesh::HexMesh& cells, const Window& own)
-        : mesh(cells),
-          kinds(cells),
-          window(own),
-          triangles(cells.triangle_count()),
-          quads(cells.quads.size() - triangles)
-    {
-        const bool second = mesh.order() == 2, full = second && mesh.middles.full;
-        kind[0] = {0, kinds.hexes(), cell_size(mesh), full ? 29 : second ? 25 : 12};
-        kind[1] = {0, mesh.cell_count() - kinds.hexes(), 6, 13};
-        kind[2] = {0, ends() * quads + rims(window.skin), skin_size(mesh), full ? 28 : second ? 23 : 9};
-        kind[3] = {0, ends() * triangles, 3, 5};
-        for (std::size_t k = 1; k < kind.size(); ++k) kind[k].first = kind[k - 1].first + kind[k - 1].count;
-    }
-
-    [[nodiscard]] std::size_t solids() const { return kind[2].first; }
-    [[nodiscard]] std::size_t count() const { return kind[3].first + kind[3].count; }
-    [[nodiscard]] const Kind& kind_of(std::size_t i) const
-    {
-        std::size_t k = 0;
-        while (i >= kind[k].first + kind[k].count) ++k;
-        return kind[k];
-    }
-    /// Nodes of all cells together.
-    [[nodiscard]] std::size_t nodes() const { return nodes_to(count()); }
-    /// Nodes of all cells before cell `end`.
-    [[nodiscard]] std::size_t nodes_to(std::size_t end) const
-    {
-        std::size_t sum = 0;
-        for (const Kind& own : kind) sum += std::min(end - std::min(end, own.first), own.count) * own.nodes;
-        return sum;
-    }
-    /// The quad or triangle of the skin that cell `i` is. @pre i >= solids()
-    [[nodiscard]] std::size_t skin(std::size_t i) const
-    {
-        const bool triangle = i >= kind[3].first;
-        std::size_t at = i - kind[triangle ? 3 : 2].first;
-        const std::size_t each_end = triangle ? triangles : quads;
-        if (at >= ends() * each_end) // a quad of the walls
-            at += (2 - ends()) * each_end + rims(window.skin_first);
-        else if (!window.source)
-            at += each_end;
-        return kinds.skin(triangle ? kinds.skin_quads() + at : at);
-    }
-    /// Of cell `i`, in VTK's order, in which a wedge's triangle 0-1-2 looks away from 3-4-5.
-    [[nodiscard]] mesh::CellNodes nodes_of(std::size_t i) const
-    {
-        if (i >= solids()) return skin_nodes(mesh, skin(i));
-        mesh::CellNodes nodes = cell_nodes(mesh, kinds.cell(i));
-        if (i >= kind[1].first) {
-            std::swap(nodes.node[1], nodes.node[2]);
-            std::swap(nodes.node[4], nodes.node[5]);
-        }
-        return nodes;
-    }
-    /// Tag of the patch cell `i` lies on; 0 inside.
-    [[nodiscard]] int entity(std::size_t i) const
-    {
-        if (i < solids()) return 0;
-        const Index patch = skin_quad(mesh, skin(i)).patch;
-        return mesh.patches[static_cast<std::size_t>(patch)].tag;
-    }
-    /// A cell or a quad of the skin in the whole mesh.
-    [[nodiscard]] std::size_t whole_cell(std::size_t cell) const
-    {
-        return cell + index(window.first) * mesh.quads.size();
-    }
-    [[nodiscard]] std::size_t whole_skin(std::size_t quad) const
-    {
-        return quad < 2 * mesh.quads.size() ? quad : quad + rims(window.first);
-    }
-
-    [[nodiscard]] std::size_t ends() const { return std::size_t(window.source) + std::size_t(window.target); }
-    [[nodiscard]] std::size_t rims(int layers) const { return index(layers) * mesh.rim.size(); }
-};
-
-/// Fields of cells and skin of a whole mesh, what of the skin is looked up by the cell a quad belongs to.
-struct Fields {
-    const std::vector<FieldReader>& fields;
-    std::vector<std::uint32_t> skin_cells;
-
-    Fields(const mesh::HexMesh& mesh, const std::vector<FieldReader>& given) : fields(given)
-    {
-        if (!given.empty()) skin_cells = cells_of_skin(mesh);
-    }
-    /// Call `put_value(out, value)` for the cells [begin, end) of a file.
-    template <class PutValue>
-    char* put_values(const Cells& cells, const FieldReader& field, std::size_t begin, std::size_t end,
-                     char* out, const PutValue& put_value) const
-    {
-        const auto put_one = [&](std::size_t, double value) { out = put_value(out, value); };
-        const std::size_t solids = std::clamp(cells.solids(), begin, end);
-        field.each_cell(
-            begin, solids, [&](std::size_t i) { return cells.whole_cell(cells.kinds.cell(i)); }, put_one);
-        field.each_behind_skin(
-            solids, end, skin_cells, [&](std::size_t i) { return cells.whole_skin(cells.skin(i)); }, put_one);
-        return out;
-    }
-};
-
-/// The entities of each group.
-VtkTable groups_of(const mesh::HexMesh& mesh)
+/// The place in a cell of node `k` in VTK's order, where a wedge's triangle 0-1-2 looks away from 3-4-5.
+std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
-    VtkTable table;
-    const auto add = [&](const std::string& name, int entity) {
-        auto found = std::ranges::find(table, name, &VtkTable::value_type::first);
-        if (found == table.end()) found = table.insert(found, {name, {}});
-        found->second.push_back(entity);
-    };
-    for (const mesh::SkinPatch& patch : mesh.patches)
-        for (const std::string& name : patch.groups) add(name, patch.tag);
-    for (const std::string& name : mesh.volume_groups) add(name, 0);
-    return table;
+    constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};
+    return shape == DeckShape::wedge6 ? kWedge[k] : k;
 }
+
+std::size_t size_of(const MeshView::Block& block)
+{
+    return static_cast<std::size_t>(shape_info(block.shape).nodes);
+}
+
+/// Nodes of all cells together.
+std::size_t list_size(const MeshView& view)
+{
+    std::size_t sum = 0;
+    for (const MeshView::Block& block : view.blocks) sum += block.count * size_of(block);
+    return sum;
+}
+
+/// Fills records of the cells [begin, end) of a block.
+using FillBlock = std::function<char*(std::size_t block, std::size_t begin, std::size_t end, char* out)>;
+
+/// A section of each block. @param bytes  of a cell of a block
+std::vector<Section> by_blocks(const MeshView& view,
+                               const std::function<std::size_t(const MeshView::Block&)>& bytes,
+                               const FillBlock& fill)
+{
+    std::vector<Section> sections;
+    for (std::size_t b = 0; b < view.blocks.size(); ++b)
+        sections.push_back(
+            {{},
+             view.blocks[b].count,
+             bytes(view.blocks[b]),
+             [b, fill](std::size_t begin, std::size_t end, char* out) { return fill(b, begin, end, out); }});
+    if (sections.empty()) sections.emplace_back();
+    return sections;
+}
+
+/// The same number, `of(entity)`, for all cells of an entity.
+template <class Of, class Put>
+FillBlock by_entity(const View& view, Of of, Put put_one)
+{
+    return [=](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+        mesh::each_run(view->blocks[b].entities, begin, end,
+                       [&](std::size_t first, std::size_t last, Index entity) {
+                           const std::int32_t value = of(view->entities[index(entity)]);
+                           for (; first < last; ++first) out = put_one(out, value);
+                       });
+        return out;
+    };
+}
+
+template <class Put>
+FillBlock by_field(const View& view, std::size_t f, Put put_one)
+{
+    return [=](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+        view->fields[f].each(b, begin, end, [&](std::size_t, double value) { out = put_one(out, value); });
+        return out;
+    };
+}
+
+template <class Put>
+FillBlock by_tag(const View& view, Put put_one)
+{
+    return [=](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+        view->blocks[b].tags.each(begin, end,
+                                  [&](std::size_t, std::int64_t tag) { out = put_one(out, tag); });
+        return out;
+    };
+}
+
+template <class Put>
+Fill point_tags(const View& view, Put put_one)
+{
+    return [=](std::size_t begin, std::size_t end, char* out) {
+        view->point_tags.each(begin, end, [&](std::size_t, std::int64_t tag) { out = put_one(out, tag); });
+        return out;
+    };
+}
+
+int entity_number(const MeshView::Entity& entity) { return entity.number; }
+int region_number(const MeshView::Entity& entity) { return entity.region; }
 
 // ---- XML
 
-/// Nodes [first, second) of the whole mesh.
-using Nodes = std::pair<std::size_t, std::size_t>;
+/// An array of numbers in the order of this machine's bytes, which the head names.
+struct VtuArray {
+    enum class Place { points, cells, point_data, cell_data };
+    Place place;
+    std::string attributes;
+    std::vector<Section> sections;
 
-std::size_t count_of(const std::vector<Nodes>& ranges)
-{
-    std::size_t count = 0;
-    for (const Nodes& range : ranges) count += range.second - range.first;
-    return count;
-}
-
-/// @param points  the nodes that are the file's points.
-std::vector<VtuArray> vtu_arrays(const Cells& cells, const NodeReader& nodes,
-                                 const std::vector<Nodes>& points, const Fields& fields)
-{
-    const std::size_t count = cells.count();
-    const auto section = [](std::size_t records, std::size_t bytes, Fill fill) {
-        return Section{{}, records, bytes, std::move(fill)};
-    };
-    std::vector<Section> connectivity;
-    for (const Cells::Kind& kind : cells.kind) {
-        const auto put_nodes = [&cells, first = kind.first](std::size_t i, char* out) {
-            const mesh::CellNodes own = cells.nodes_of(first + i);
-            std::memcpy(out, own.node.data(), own.count * sizeof(Index));
-            return out + own.count * sizeof(Index);
-        };
-        connectivity.push_back(section(kind.count, kind.nodes * sizeof(Index), each(put_nodes)));
-    }
-    const auto put_offset = [&cells](std::size_t i, char* out) {
-        return put(out, static_cast<std::int64_t>(cells.nodes_to(i + 1)));
-    };
-    const auto put_type = [&cells](std::size_t i, char* out) {
-        return put(out, static_cast<std::uint8_t>(cells.kind_of(i).type));
-    };
-    const auto put_entity = [&cells](std::size_t i, char* out) {
-        return put(out, static_cast<std::int32_t>(cells.entity(i)));
-    };
-    std::vector<Section> coordinates;
-    for (const Nodes& range : points) {
-        const auto put_points = [&nodes, from = range.first](std::size_t begin, std::size_t end, char* out) {
-            return nodes.copy(from + begin, from + end, out);
-        };
-        coordinates.push_back(section(range.second - range.first, sizeof(Vec3), put_points));
-    }
-    using Place = VtuArray::Place;
-    std::vector<VtuArray> arrays{
-        {Place::points, "type=\"Float64\" NumberOfComponents=\"3\"", count_of(points) * sizeof(Vec3),
-         std::move(coordinates)},
-        {Place::cells, "type=\"Int32\" Name=\"connectivity\"", cells.nodes() * sizeof(Index),
-         std::move(connectivity)},
-        {Place::cells, "type=\"Int64\" Name=\"offsets\"", count * 8, {section(count, 8, each(put_offset))}},
-        {Place::cells, "type=\"UInt8\" Name=\"types\"", count, {section(count, 1, each(put_type))}},
-        {Place::cell_data,
-         "type=\"Int32\" Name=\"entity\"",
-         count * 4,
-         {section(count, 4, each(put_entity))}}};
-    for (const FieldReader& field : fields.fields) {
-        const auto put_values = [&cells, &fields, &field](std::size_t begin, std::size_t end, char* out) {
-            return fields.put_values(cells, field, begin, end, out,
-                                     [](char* at, double value) { return put(at, value); });
-        };
-        arrays.push_back({Place::cell_data,
-                          "type=\"Float64\" Name=\"" + field.name() + "\"",
-                          count * sizeof(double),
-                          {section(count, sizeof(double), put_values)}});
-    }
-    return arrays;
-}
-
-// ---- Pieces
-
-/// A range of layers as a mesh, with the part's ghosts. Its nodes are not held.
-mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
-{
-    mesh::HexMesh own;
-    own.nodes_per_layer = mesh.nodes_per_layer;
-    own.layers = part.with_last - part.with_first;
-    own.quads = mesh.quads;
-    own.rim = mesh.rim;
-    own.patches = mesh.patches;
-    own.source_patch = mesh.source_patch;
-    own.target_patch = mesh.target_patch;
-    const auto at = [&](int layer) {
-        return mesh.wall_patch.begin() + static_cast<std::ptrdiff_t>(index(layer) * mesh.rim.size());
-    };
-    own.wall_patch.assign(at(part.with_first), at(part.with_last));
-    own.volume_groups = mesh.volume_groups;
-    own.middles.full = mesh.middles.full;
-    own.middles.sides = mesh.middles.sides;
-    own.middles.side_of = mesh.middles.side_of;
-    own.middles.rim_side = mesh.middles.rim_side;
-    return own;
-}
-
-/// A file of a part. What its sections refer to lives as long as they do.
-struct Piece {
-    const mesh::HexMesh& whole;
-    LayerPart part;
-    mesh::HexMesh mesh;
-    Cells cells;
-    std::vector<Nodes> points;
-
-    Piece(const mesh::HexMesh& all, const LayerPart& own)
-        : whole(all),
-          part(own),
-          mesh(layers_of(all, own)),
-          cells(mesh, {own.with_first, own.first - own.with_first, own.last - own.first, own.first == 0,
-                       own.last == all.layers})
+    [[nodiscard]] std::size_t bytes() const
     {
-        const std::size_t row = index(whole.nodes_per_layer), first = index(part.with_first);
-        points.emplace_back(first * row, (index(part.with_last) + 1) * row);
-        if (whole.order() == 1) return;
-        const mesh::MiddlePlaces places(whole);
-        const std::size_t begin = mesh::corner_count(whole) + places.side(first, 0);
-        points.emplace_back(begin, begin + mesh::MiddlePlaces(mesh).count());
-    }
-
-    /// Number of a cell in the file of the whole, from 1.
-    [[nodiscard]] std::int64_t cell_number(std::size_t i, const Cells& all) const
-    {
-        std::size_t k = 0;
-        while (i >= cells.kind[k].first + cells.kind[k].count) ++k;
-        std::size_t at = i - cells.kind[k].first;
-        const std::size_t each_end = k == 2 ? cells.quads : cells.triangles;
-        if (k < 2)
-            at += index(part.with_first) * (k == 0 ? cells.quads : cells.triangles);
-        else if (const std::size_t ends = cells.ends() * each_end; at >= ends)
-            at += 2 * each_end - ends + cells.rims(part.first);
-        else if (!cells.window.source)
-            at += each_end;
-        return static_cast<std::int64_t>(all.kind[k].first + at) + 1;
-    }
-    /// Whether a cell is another part's.
-    [[nodiscard]] bool is_ghost(std::size_t i) const
-    {
-        if (i >= cells.solids()) return false;
-        const auto layer = static_cast<int>(cells.kinds.cell(i) / mesh.quads.size()) + part.with_first;
-        return layer < part.first || layer >= part.last;
-    }
-    /// Of a point that stands in several pieces the one above its level owns it, of the highest the last.
-    [[nodiscard]] bool is_ghost_point(std::size_t node) const
-    {
-        const std::size_t corners = mesh::corner_count(whole);
-        std::size_t level = node / index(whole.nodes_per_layer);
-        if (node >= corners) level = (node - corners) / mesh::MiddlePlaces(whole).side(1, 0);
-        const int at = static_cast<int>(level);
-        return at < part.first || (at >= part.last && (part.last < whole.layers || at > part.last));
+        std::size_t sum = 0;
+        for (const Section& section : sections) sum += section.records * section.record_bytes;
+        return sum;
     }
 };
 
-/// The arrays of a piece: those of the whole file, numbers in it and, where asked for, what are ghosts.
-std::vector<VtuArray> piece_arrays(const std::shared_ptr<const Piece>& piece, const Cells& whole,
-                                   const NodeReader& nodes, const Fields& fields, bool ghosts)
+std::string escaped(std::string_view name)
 {
-    using Place = VtuArray::Place;
-    std::vector<VtuArray> arrays = vtu_arrays(piece->cells, nodes, piece->points, fields);
-    const auto of_cells = [&](const char* attributes, std::size_t bytes, Fill fill) {
-        const std::size_t count = piece->cells.count();
-        arrays.push_back(
-            {Place::cell_data, attributes, count * bytes, {Section{{}, count, bytes, std::move(fill)}}});
-    };
-    const auto of_points = [&](const char* attributes, std::size_t bytes, const auto& put_node) {
-        std::vector<Section> sections;
-        for (const Nodes& range : piece->points)
-            sections.push_back({{},
-                                range.second - range.first,
-                                bytes,
-                                each([put_node, from = range.first](std::size_t i, char* out) {
-                                    return put_node(from + i, out);
-                                })});
-        arrays.push_back(
-            {Place::point_data, attributes, count_of(piece->points) * bytes, std::move(sections)});
-    };
-    of_points("type=\"Int64\" Name=\"node_number\"", 8,
-              [](std::size_t node, char* out) { return put(out, static_cast<std::int64_t>(node) + 1); });
-    of_cells("type=\"Int64\" Name=\"cell_number\"", 8, each([piece, &whole](std::size_t i, char* out) {
-                 return put(out, piece->cell_number(i, whole));
-             }));
-    if (!ghosts) return arrays;
-    of_points("type=\"UInt8\" Name=\"vtkGhostType\"", 1, [piece](std::size_t node, char* out) {
-        return put(out, static_cast<std::uint8_t>(piece->is_ghost_point(node)));
-    });
-    of_cells("type=\"UInt8\" Name=\"vtkGhostType\"", 1, each([piece](std::size_t i, char* out) {
-                 return put(out, static_cast<std::uint8_t>(piece->is_ghost(i)));
-             }));
-    return arrays;
+    std::string text;
+    for (const char c : name) {
+        if (c == '&')
+            text += "&amp;";
+        else if (c == '<')
+            text += "&lt;";
+        else if (c == '"')
+            text += "&quot;";
+        else
+            text += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    }
+    return text;
 }
 
-void write_pieces(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
-                  const OutputPath& path, const PartitionOptions& options, const RunContext& context,
-                  const Team* team = nullptr)
+/// In which order arrays lie behind the XML. meshio 5 finds each by where it begins, and takes the wrong one
+/// where that is also where one before it would begin in base64: then the order is changed.
+std::vector<std::size_t> order_behind(const std::vector<VtuArray>& arrays)
 {
-    const Fields fields(mesh, readers);
-    const Cells whole(mesh);
-    const bool ghosts = options.ghosts > 0;
-    std::vector<FileOfSet> files;
-    std::vector<std::string> names;
-    std::string head;
-    for (const LayerPart& part : layer_parts(mesh.layers, options)) {
-        names.push_back(piece_name(path.text(), names.size()));
-        files.push_back({path.beside(names.back()), [&, part] {
-                             const auto piece = std::make_shared<const Piece>(mesh, part);
-                             return vtu_file(count_of(piece->points), piece->cells.count(),
-                                             piece_arrays(piece, whole, nodes, fields, ghosts),
-                                             groups_of(mesh));
-                         }});
-        if (head.empty())
-            head = pvtu_head(
-                piece_arrays(std::make_shared<const Piece>(mesh, part), whole, nodes, fields, ghosts),
-                options.ghosts);
+    constexpr int kTries = 5000; // all orders of six arrays, and as much time as is spent
+    std::vector<std::size_t> order(arrays.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto is_clear = [&] {
+        std::set<std::size_t> in_base64;
+        std::size_t raw = 0, base64 = 0;
+        for (const std::size_t a : order) {
+            if (in_base64.contains(raw)) return false;
+            in_base64.insert(base64);
+            const std::size_t bytes = sizeof(std::uint64_t) + arrays[a].bytes();
+            raw += bytes;
+            base64 += 4 * ((bytes + 2) / 3);
+        }
+        return true;
+    };
+    const std::vector<std::size_t> first = order;
+    for (int i = 0; i < kTries; ++i) {
+        if (is_clear()) return order;
+        if (!std::ranges::next_permutation(order).found) break;
     }
-    write_files(files, path, head + pvtu_end(names), context, team);
+    return first;
+}
+
+std::string opening(const std::string& type)
+{
+    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" + order +
+           "\" header_type=\"UInt64\">\n<" + type;
+}
+
+constexpr std::array<std::pair<VtuArray::Place, std::string_view>, 4> kPlaces{
+    {{VtuArray::Place::points, "Points"},
+     {VtuArray::Place::cells, "Cells"},
+     {VtuArray::Place::point_data, "PointData"},
+     {VtuArray::Place::cell_data, "CellData"}}};
+
+std::string_view end_of_place(VtuArray::Place place)
+{
+    return place == VtuArray::Place::cell_data ? " Scalars=\"entity\">\n" : ">\n";
+}
+
+std::string pvtu_head(const std::vector<VtuArray>& arrays, int ghosts)
+{
+    std::string text = opening("PUnstructuredGrid") + " GhostLevel=\"" + std::to_string(ghosts) + "\">\n";
+    for (const auto& [place, word] : kPlaces) {
+        if (place == VtuArray::Place::cells) continue;
+        text.append("<P").append(word).append(end_of_place(place));
+        for (const VtuArray& array : arrays)
+            if (array.place == place) text.append("<PDataArray ").append(array.attributes).append("/>\n");
+        text.append("</P").append(word).append(">\n");
+    }
+    return text;
+}
+
+std::string pvtu_end(const std::vector<std::string>& pieces)
+{
+    std::string text;
+    for (const std::string& name : pieces) text += "<Piece Source=\"" + escaped(name) + "\"/>\n";
+    return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string piece_name(const std::string& path, std::size_t number)
+{
+    return std::filesystem::path(path).stem().string() + "_" + std::to_string(number) + ".vtu";
+}
+
+std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> arrays)
+{
+    std::string text = opening("UnstructuredGrid") + ">\n";
+    if (!view.lists.empty()) text += "<FieldData>\n";
+    // As text: short, and see `order_behind()`.
+    for (const auto& [name, values] : view.lists) {
+        text += "<DataArray type=\"Int32\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"" +
+                std::to_string(values.size()) + "\" format=\"ascii\">";
+        for (const int value : values) text.append(" ").append(std::to_string(value));
+        text += "</DataArray>\n";
+    }
+    if (!view.lists.empty()) text += "</FieldData>\n";
+    text.append("<Piece NumberOfPoints=\"").append(std::to_string(view.points));
+    text.append("\" NumberOfCells=\"").append(std::to_string(view.cells())).append("\">\n");
+    const std::vector<std::size_t> order_of = order_behind(arrays);
+    std::vector<std::size_t> offsets(arrays.size());
+    std::vector<Section> sections(1);
+    std::size_t offset = 0;
+    for (const std::size_t a : order_of) {
+        offsets[a] = offset;
+        const std::size_t bytes = arrays[a].bytes();
+        offset += sizeof(std::uint64_t) + bytes;
+        put(arrays[a].sections.front().text, static_cast<std::uint64_t>(bytes));
+        for (Section& section : arrays[a].sections) sections.push_back(std::move(section));
+    }
+    for (const auto& [place, word] : kPlaces) {
+        text.append("<").append(word).append(end_of_place(place));
+        for (std::size_t a = 0; a < arrays.size(); ++a) {
+            if (arrays[a].place != place) continue;
+            text.append("<DataArray ").append(arrays[a].attributes);
+            text.append(" format=\"appended\" offset=\"").append(std::to_string(offsets[a])).append("\"/>\n");
+        }
+        text.append("</").append(word).append(">\n");
+    }
+    sections.front().text = text + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    sections.push_back({"\n</AppendedData>\n</VTKFile>\n", 0, 0, {}});
+    return sections;
+}
+
+/// Arrays of a view, of a piece with what are ghosts.
+std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = nullptr)
+{
+    using Place = VtuArray::Place;
+    std::vector<VtuArray> arrays;
+    const auto put_one = [](char* out, auto value) { return put(out, value); };
+    const auto of_points = [&](Place place, const std::string& attributes, std::size_t bytes, Fill fill) {
+        arrays.push_back({place, attributes, {{{}, view->points, bytes, std::move(fill)}}});
+    };
+    const auto of_cells = [&](Place place, const std::string& attributes, std::size_t bytes,
+                              const FillBlock& fill) {
+        arrays.push_back({place, attributes,
+                          by_blocks(
+                              *view, [=](const MeshView::Block&) { return bytes; }, fill)});
+    };
+    const bool numbered = view->is_deck || view->point_tags.given();
+    const auto number_points = [&] {
+        of_points(Place::point_data, "type=\"Int64\" Name=\"node_number\"", 8, point_tags(view, put_one));
+    };
+    of_points(Place::points, "type=\"Float64\" NumberOfComponents=\"3\"", sizeof(Vec3),
+              [view](std::size_t begin, std::size_t end, char* out) {
+                  view->each_point(begin, end, [&](std::span<const Vec3> points) {
+                      std::memcpy(out, points.data(), points.size_bytes());
+                      out += points.size_bytes();
+                  });
+                  return out;
+              });
+    if (view->is_deck) number_points();
+    arrays.push_back({Place::cells, "type=\"Int32\" Name=\"connectivity\"",
+                      by_blocks(
+                          *view, [](const MeshView::Block& block) { return size_of(block) * sizeof(Index); },
+                          [view](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                              const MeshView::Block& block = view->blocks[b];
+                              block.each_cell(begin, end, [&](std::size_t, std::span<const Index> nodes) {
+                                  if (block.shape != DeckShape::wedge6) {
+                                      std::memcpy(out, nodes.data(), nodes.size_bytes());
+                                      out += nodes.size_bytes();
+                                      return;
+                                  }
+                                  for (std::size_t k = 0; k < nodes.size(); ++k)
+                                      out = put(out, nodes[place_of_node(block.shape, k)]);
+                              });
+                              return out;
+                          })});
+    std::vector<std::size_t> before{0}; // nodes in the lists of the blocks before
+    for (const MeshView::Block& block : view->blocks)
+        before.push_back(before.back() + block.count * size_of(block));
+    of_cells(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
+             [view, before](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                 const std::size_t nodes = size_of(view->blocks[b]);
+                 for (; begin < end; ++begin)
+                     out = put(out, static_cast<std::int64_t>(before[b] + nodes * (begin + 1)));
+                 return out;
+             });
+    of_cells(Place::cells, "type=\"UInt8\" Name=\"types\"", 1,
+             [view](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                 return std::fill_n(out, end - begin, static_cast<char>(vtk_type_of(view->blocks[b].shape)));
+             });
+    of_cells(Place::cell_data, "type=\"Int32\" Name=\"entity\"", 4, by_entity(view, entity_number, put_one));
+    if (view->is_deck)
+        of_cells(Place::cell_data, "type=\"Int32\" Name=\"region\"", 4,
+                 by_entity(view, region_number, put_one));
+    for (std::size_t f = 0; f < view->fields.size(); ++f)
+        of_cells(Place::cell_data, "type=\"Float64\" Name=\"" + view->fields[f].name + "\"", 8,
+                 by_field(view, f, put_one));
+    if (numbered && !view->is_deck) number_points();
+    if (numbered) of_cells(Place::cell_data, "type=\"Int64\" Name=\"cell_number\"", 8, by_tag(view, put_one));
+    if (ghosts == nullptr) return arrays;
+    const auto bytes_at = [](char* out) { return reinterpret_cast<std::uint8_t*>(out); };
+    of_points(Place::point_data, "type=\"UInt8\" Name=\"vtkGhostType\"", 1,
+              [=, of = ghosts->ghost_points](std::size_t begin, std::size_t end, char* out) {
+                  of(begin, end, bytes_at(out));
+                  return out + (end - begin);
+              });
+    of_cells(Place::cell_data, "type=\"UInt8\" Name=\"vtkGhostType\"", 1,
+             [=, of = ghosts->ghost_cells](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                 of(b, begin, end, bytes_at(out));
+                 return out + (end - begin);
+             });
+    return arrays;
 }
 
 // ---- Legacy
 
-std::vector<Section> vtk_sections(const Cells& cells, const NodeReader& nodes, const Fields& fields,
-                                  bool binary)
+/// Legacy files hold the highest byte first.
+template <class Value>
+char* put_number(char* out, Value value, bool binary)
 {
-    const mesh::HexMesh& mesh = cells.mesh;
-    const std::size_t count = cells.count();
-    const std::string number = std::to_string(count);
-    const auto bytes = [binary](std::size_t numbers, std::size_t each_bytes) {
-        return binary ? numbers * each_bytes : numbers * kNumberBytes + 1;
-    };
-    const auto put_points = [&nodes, binary](std::size_t begin, std::size_t end, char* out) {
-        nodes.each(begin, end, [&](std::size_t, const Vec3& node) {
-            for (const double value : node) out = put_number(out, value, binary);
-            out = end_line(out, binary);
-        });
-        return out;
-    };
-    const auto put_type = [&cells, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(cells.kind_of(i).type), binary), binary);
-    };
-    const auto put_entity = [&cells, binary](std::size_t i, char* out) {
-        return end_line(put_number(out, static_cast<std::int32_t>(cells.entity(i)), binary), binary);
-    };
-    std::string head = vtk_head(groups_of(mesh), binary);
-    head.append("POINTS ").append(std::to_string(nodes.count())).append(" double\n");
-    std::vector<Section> sections{{head, nodes.count(), bytes(3, 8), put_points}};
-    std::string text = "\nCELLS " + number + " " + std::to_string(cells.nodes() + count) + "\n";
-    for (const Cells::Kind& kind : cells.kind) {
-        const auto put_cell = [&cells, first = kind.first, binary](std::size_t i, char* out) {
-            const mesh::CellNodes own = cells.nodes_of(first + i);
-            out = put_number(out, static_cast<std::int32_t>(own.count), binary);
-            for (const Index node : own.all()) out = put_number(out, node, binary);
-            return end_line(out, binary);
-        };
-        sections.push_back({text, kind.count, bytes(kind.nodes + 1, 4), each(put_cell)});
-        text.clear();
-    }
-    sections.push_back({"\nCELL_TYPES " + number + "\n", count, bytes(1, 4), each(put_type)});
-    sections.push_back({"\nCELL_DATA " + number + "\nSCALARS entity int 1\nLOOKUP_TABLE default\n", count,
-                        bytes(1, 4), each(put_entity)});
-    for (const FieldReader& field : fields.fields) {
-        const auto put_values = [&cells, &fields, &field, binary](std::size_t begin, std::size_t end,
-                                                                  char* out) {
-            return fields.put_values(cells, field, begin, end, out, [binary](char* at, double value) {
-                return end_line(put_number(at, value, binary), binary);
-            });
-        };
-        sections.push_back({"\nSCALARS " + field.name() + " double 1\nLOOKUP_TABLE default\n", count,
-                            bytes(1, 8), put_values});
-    }
-    sections.push_back({"\n", 0, 0, {}});
-    return sections;
+    if (binary) return put_big(out, value);
+    if constexpr (std::is_integral_v<Value>)
+        out = put_text(out, static_cast<long long>(value));
+    else
+        out = put_text(out, value);
+    *out++ = ' ';
+    return out;
 }
 
-void write_xml(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
-               const OutputPath& path, const RunContext& context, const Team* team = nullptr)
+char* end_line(char* out, bool binary)
 {
-    const Fields fields(mesh, readers);
-    const Cells cells(mesh);
-    const std::vector<Section> sections = vtu_file(nodes.count(), cells.count(),
-                                                   vtu_arrays(cells, nodes, {{0, nodes.count()}}, fields),
-                                                   groups_of(mesh));
-    write_file(path, sections, Sizes::exact, context, team);
+    if (!binary) *out++ = '\n';
+    return out;
 }
 
-void write_legacy(const mesh::HexMesh& mesh, const NodeReader& nodes, const std::vector<FieldReader>& readers,
-                  const OutputPath& path, bool binary, const RunContext& context, const Team* team = nullptr)
+/// A name without blanks: other characters as VTK has them, %20.
+std::string vtk_name(std::string_view name)
 {
-    const Fields fields(mesh, readers);
-    const Cells cells(mesh);
-    write_file(path, vtk_sections(cells, nodes, fields, binary), binary ? Sizes::exact : Sizes::varying,
-               context, team);
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    std::string text;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte > 32 && byte < 127 && c != '%' && c != '"')
+            text += c;
+        else
+            text.append(1, '%').append(1, kHex[byte / 16]).append(1, kHex[byte % 16]);
+    }
+    return text;
+}
+
+/// Version, title and, if there are names, the lists.
+std::string vtk_head(const MeshView& view, bool binary)
+{
+    std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";
+    head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\n");
+    if (view.lists.empty()) return head;
+    head.append("FIELD FieldData ").append(std::to_string(view.lists.size())).append("\n");
+    for (const auto& [name, values] : view.lists) {
+        head.append(vtk_name(name)).append(" 1 ").append(std::to_string(values.size())).append(" int\n");
+        std::string numbers(values.size() * kNumberBytes, '\0');
+        char* out = numbers.data();
+        for (const int value : values) out = put_number(out, static_cast<std::int32_t>(value), binary);
+        head.append(numbers, 0, static_cast<std::size_t>(out - numbers.data())).append("\n");
+    }
+    return head;
+}
+
+std::vector<Section> vtk_sections(const View& view, bool binary)
+{
+    const auto room = [binary](std::size_t numbers, std::size_t bytes) {
+        return binary ? numbers * bytes : numbers * kNumberBytes + 1;
+    };
+    const auto put_line = [binary](char* out, auto value) {
+        return end_line(put_number(out, value, binary), binary);
+    };
+    const std::string count = std::to_string(view->cells());
+    std::vector<Section> all{
+        {vtk_head(*view, binary) + "POINTS " + std::to_string(view->points) + " double\n", view->points,
+         room(3, 8), [view, binary](std::size_t begin, std::size_t end, char* out) {
+             view->each_point(begin, end, [&](std::span<const Vec3> points) {
+                 for (const Vec3& point : points) {
+                     for (const double x : point) out = put_number(out, x, binary);
+                     out = end_line(out, binary);
+                 }
+             });
+             return out;
+         }}};
+    const auto add = [&](const std::string& before, std::vector<Section> sections) {
+        sections.front().text = before;
+        for (Section& section : sections) all.push_back(std::move(section));
+    };
+    const auto of_cells = [&](const std::string& before, std::size_t bytes, const FillBlock& fill) {
+        add(before, by_blocks(
+                        *view, [=](const MeshView::Block&) { return room(1, bytes); }, fill));
+    };
+    const auto scalars = [](const std::string& name, const char* type) {
+        return "SCALARS " + name + " " + type + " 1\nLOOKUP_TABLE default\n";
+    };
+    add("\nCELLS " + count + " " + std::to_string(view->cells() + list_size(*view)) + "\n",
+        by_blocks(
+            *view, [room](const MeshView::Block& block) { return room(size_of(block) + 1, 4); },
+            [view, binary](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                const MeshView::Block& block = view->blocks[b];
+                block.each_cell(begin, end, [&](std::size_t, std::span<const Index> nodes) {
+                    out = put_number(out, static_cast<std::int32_t>(nodes.size()), binary);
+                    for (std::size_t k = 0; k < nodes.size(); ++k)
+                        out = put_number(out, nodes[place_of_node(block.shape, k)], binary);
+                    out = end_line(out, binary);
+                });
+                return out;
+            }));
+    of_cells("\nCELL_TYPES " + count + "\n", 4,
+             [view, put_line](std::size_t b, std::size_t begin, std::size_t end, char* out) {
+                 const std::int32_t type = vtk_type_of(view->blocks[b].shape);
+                 for (; begin < end; ++begin) out = put_line(out, type);
+                 return out;
+             });
+    of_cells("\nCELL_DATA " + count + "\n" + scalars("entity", "int"), 4,
+             by_entity(view, entity_number, put_line));
+    if (view->is_deck) of_cells("\n" + scalars("region", "int"), 4, by_entity(view, region_number, put_line));
+    for (std::size_t f = 0; f < view->fields.size(); ++f)
+        of_cells("\n" + scalars(view->fields[f].name, "double"), 8, by_field(view, f, put_line));
+    if (view->is_deck) {
+        of_cells("\n" + scalars("cell_number", "long"), 8, by_tag(view, put_line));
+        all.push_back({"\nPOINT_DATA " + std::to_string(view->points) + "\n" + scalars("node_number", "long"),
+                       view->points, room(1, 8), point_tags(view, put_line)});
+    }
+    all.push_back({"\n", 0, 0, {}});
+    return all;
+}
+
+void refuse_unknown(const MeshView& view)
+{
+    for (const MeshView::Block& block : view.blocks)
+        if (vtk_type_of(block.shape) == 0)
+            refuse_element(block.count, block.type, block.shape, "VTK", "there is no such cell");
 }
 
 } // namespace
 
-void write_vtu(const mesh::HexMesh& mesh, const OutputPath& path, const VtuOptions& options,
-               const RunContext& context)
+DeckFile vtu_file(const View& view)
 {
-    check_skin(mesh);
-    write_xml(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, context);
+    refuse_unknown(*view);
+    return {.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
 }
 
-void write_vtu(const mesh::LayeredMesh& layered, const OutputPath& path,
-               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
+DeckFile vtk_file(const View& view, bool binary)
 {
-    check_skin(layered.mesh);
-    const NodeReader nodes(layered, context);
-    write_xml(layered.mesh, nodes, readers_of(layered, fields, context, team), path, context, team);
+    refuse_unknown(*view);
+    return {
+        .sections = vtk_sections(view, binary), .notes = {}, .sizes = binary ? Sizes::exact : Sizes::varying};
 }
 
-void write_vtk(const mesh::HexMesh& mesh, const OutputPath& path, const VtkOptions& options,
-               const RunContext& context)
+void write_pieces(std::size_t count, const std::function<PieceView(std::size_t)>& piece, int ghosts,
+                  const OutputPath& path, const RunContext& context, const Team* team)
 {
-    check_skin(mesh);
-    write_legacy(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, options.binary, context);
-}
-
-void write_vtk(const mesh::LayeredMesh& layered, const OutputPath& path, const VtkOptions& options,
-               const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
-{
-    check_skin(layered.mesh);
-    const NodeReader nodes(layered, context);
-    write_legacy(layered.mesh, nodes, readers_of(layered, fields, context, team), path, options.binary,
-                 context, team);
-}
-
-void write_pvtu(const mesh::HexMesh& mesh, const OutputPath& path, const PartitionOptions& partition,
-                const VtuOptions& options, const RunContext& context)
-{
-    check_skin(mesh);
-    write_pieces(mesh, NodeReader(mesh), readers_of(mesh, options.fields), path, partition, context);
-}
-
-void write_pvtu(const mesh::LayeredMesh& layered, const OutputPath& path, const PartitionOptions& partition,
-                const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
-{
-    check_skin(layered.mesh);
-    const NodeReader nodes(layered, context);
-    write_pieces(layered.mesh, nodes, readers_of(layered, fields, context, team), path, partition, context,
-                 team);
+    const auto arrays = [ghosts](const PieceView& of) {
+        return arrays_of(of.view, ghosts > 0 ? &of : nullptr);
+    };
+    std::vector<FileOfSet> files;
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < count; ++p) {
+        names.push_back(piece_name(path.text(), p));
+        files.push_back({path.beside(names.back()), [&, p] {
+                             const PieceView own = piece(p);
+                             return xml_sections(*own.view, arrays(own));
+                         }});
+    }
+    write_files(files, path, pvtu_head(arrays(piece(0)), ghosts) + pvtu_end(names), context, team);
 }
 
 } // namespace lacuna::io

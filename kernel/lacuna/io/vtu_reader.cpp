@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/large_pages.h>
+#include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/inflate.h>
 #include <lacuna/io/detail/vtk_cells.h>
 

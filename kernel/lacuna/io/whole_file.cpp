@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <tuple>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -150,23 +151,22 @@ OutputPath OutputPath::beside(const std::string& name) const
     return other;
 }
 
+std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
+{
+    if (folder_) return {folder_, name_};
+    const fs::path target = resolved(path_);
+    const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code ignored;
+    if (!fs::is_directory(parent, ignored))
+        throw InvalidInput("io.no_folder", "cannot write '" + path_ + "': there is no folder '" +
+                                               parent.string() + "'; make it first, or name another place");
+    return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
+}
+
 WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text()), cached_(share_of_memory())
 {
     if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
-    if (path.folder_) {
-        folder_ = path.folder_;
-        name_ = path.name_;
-    } else {
-        const fs::path target = resolved(path_);
-        const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
-        std::error_code ignored;
-        if (!fs::is_directory(parent, ignored))
-            throw InvalidInput("io.no_folder", "cannot write '" + path_ + "': there is no folder '" +
-                                                   parent.string() +
-                                                   "'; make it first, or name another place");
-        folder_ = std::make_shared<const Folder>(parent.string());
-        name_ = target.filename().string();
-    }
+    std::tie(folder_, name_) = path.place();
     struct stat before = {};
     const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
                                   AT_SYMLINK_NOFOLLOW) == 0;

@@ -55,6 +55,10 @@ public:
 
 private:
     friend class WholeFile;
+    friend class WholeFolder;
+    /// The folder that it lies in and its name there. @throw InvalidInput "io.no_folder"
+    [[nodiscard]] std::pair<std::shared_ptr<const Folder>, std::string> place() const;
+
     std::string path_;
     std::shared_ptr<const Folder> folder_; ///< null: the path is resolved when the file is opened
     std::string name_;                     ///< inside the folder

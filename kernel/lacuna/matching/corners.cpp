@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/corners.h>
+#include <lacuna/matching/shared/corners.h>
 
-#include <lacuna/geometry/angle.h>
+#include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace lacuna::matching {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/matching/guides.h>
+#include <lacuna/matching/shared/guides.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/minimal_frame.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <Eigen/Geometry>
 

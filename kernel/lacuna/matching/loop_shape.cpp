@@ -2,8 +2,8 @@
 #include <lacuna/matching/detail/loop_shape.h>
 
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/matching/corners.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/matching/shared/corners.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <lacuna/matching/match.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/list_text.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/matching/detail/arc_pairs.h>
 #include <lacuna/matching/detail/arrange.h>
 #include <lacuna/matching/detail/nearest.h>

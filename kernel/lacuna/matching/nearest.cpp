@@ -5,7 +5,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/matching/guides.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/matching/shared/guides.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
 #include <set>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/side_lines.h>
 
-#include <lacuna/core/parallel.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/detail/splits.h>
 
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 
 namespace lacuna::matching {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/mesh/incidence.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/mesh/shared/incidence.h>
 
 #include <algorithm>
 

@@ -26,8 +26,8 @@ inline constexpr std::array<Quad, 6> kHexFaces{
 inline constexpr std::array<Quad, 6> kHexFaceEdges{
     {{8, 7, 11, 3}, {1, 10, 5, 9}, {0, 9, 4, 8}, {11, 6, 10, 2}, {3, 2, 1, 0}, {4, 5, 6, 7}}};
 
-/// Nodes of a cell or skin quad, corners first. A hexahedron has 8, 20 or 27, a quad 4, 8 or 9, a wedge 6, a
-/// triangle 3.
+/// Nodes of a cell or skin quad, corners first. A hexahedron has 8, 20 or 27, a quad 4, 8
+/// or 9, a wedge 6, a triangle 3.
 struct CellNodes {
     std::array<Index, 27> node{};
     std::size_t count = 0;
@@ -84,8 +84,8 @@ private:
     std::size_t sides_, nodes_, layers_, on_level_, period_;
 };
 
-/// Number the sides of a mesh of order 1. The caller then provides `MiddlePlaces::count()` middle nodes.
-/// O(quads).
+/// Number the sides of a mesh of order 1. The caller then provides
+/// `MiddlePlaces::count()` middle nodes. O(quads).
 MiddleNodes number_sides(const HexMesh& mesh, bool full);
 
 /// All nodes of a cell; numbers >= `mesh.nodes.size()` are middle nodes. @pre cell < cell_count()

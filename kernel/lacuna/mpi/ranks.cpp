@@ -2,7 +2,7 @@
 #include <lacuna/mpi/ranks.h>
 
 #include <lacuna/mpi/detail/shared_file.h>
-#include <lacuna/team/tasks.h>
+#include <lacuna/team/shared/tasks.h>
 
 #include <mpi.h>
 

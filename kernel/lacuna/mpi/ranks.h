@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,8 @@ struct Traffic {
     std::uint64_t bytes = 0;
 };
 
-/// The MPI processes while this object lives; one object a process. Rank 0 starts tasks, the others help.
+/// The MPI processes, during the lifetime of this object; at most one object in each process. Rank 0 starts
+/// tasks, the others help.
 class Ranks {
 public:
     /// Initialises MPI. Hides `mpirun` from programs that this process starts.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/boundary_rows.h>
+#include <lacuna/quads/shared/boundary_rows.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/quads/detail/pave_gaps.h>

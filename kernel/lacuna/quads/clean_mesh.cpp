@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/clean_mesh.h>
 
 #include <lacuna/quads/detail/corner_sine.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

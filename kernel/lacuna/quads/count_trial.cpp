@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/count_trial.h>
 
+#include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_size.h>
-#include <lacuna/quads/face_pattern.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 

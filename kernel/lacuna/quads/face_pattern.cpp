@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/face_pattern.h>
+#include <lacuna/quads/detail/face_pattern.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
@@ -7,14 +7,12 @@
 #include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/smooth_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lacuna::quads {
 namespace {

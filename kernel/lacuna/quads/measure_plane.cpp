@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 namespace lacuna::quads {
 

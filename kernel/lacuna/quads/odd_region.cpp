@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/odd_region.h>
+#include <lacuna/quads/shared/odd_region.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/mesh/incidence.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/mesh/shared/incidence.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/outline_symmetry.h>
 
-#include <lacuna/geometry/predicates.h>
+#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/patch_template.h>
 
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 
 #include <algorithm>
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/ring_counts.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
-#include <lacuna/quads/detail/star_counts.h>
 #include <lacuna/quads/detail/straight_counts.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace lacuna::quads {
@@ -24,7 +22,6 @@ std::optional<std::vector<int>> counts_for(const CountTask& task)
     if (ring && are_alike(*ring, mirrored_segments(region, task.segment))) return ring;
     auto mirrored = mirror_counts(task);
     if (mirrored && mirrored->is_grid) return std::move(mirrored->sides);
-    if (auto star = star_counts(task)) return star;
     if (mirrored) return std::move(mirrored->sides);
     if (ring) return ring;
     auto counts = straight_counts(task);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/predicates.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/square_rows.h>
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <sstream>
 
@@ -165,15 +165,13 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
-    if (options.smooth && static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
+    if (static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
         const std::vector<Symmetry> symmetries = mesh_symmetries(best.mesh, region);
         const bool is_symmetric = symmetrise(best.mesh, region.points.size(), symmetries) > 1;
         square_rows(best.mesh, region, is_symmetric ? symmetries : std::vector<Symmetry>());
         if (!is_symmetric) symmetrise(best.mesh, region.points.size(), symmetries);
     }
     best.mesh.how = best.report.used;
-    if (best.report.refilled > 0)
-        best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
     return {std::move(best.mesh), std::move(best.report)};
 }
 

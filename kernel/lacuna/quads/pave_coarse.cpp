@@ -8,9 +8,9 @@
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/odd_region.h>
-#include <lacuna/quads/smooth_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/odd_region.h>
+#include <lacuna/quads/shared/smooth_plane.h>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -51,7 +51,7 @@ PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, Pa
                       const RunContext& context)
 {
     check(region);
-    const AttemptSetting setting{region, options, sizes_with_boundary(region).usual, flat_below(region)};
+    const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
     if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {

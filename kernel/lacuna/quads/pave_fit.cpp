@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_fit.h>
 
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pave_patch.h>
 

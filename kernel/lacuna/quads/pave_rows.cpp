@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_rows.h>
 
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
 #include <optional>

@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <utility>
 
 namespace lacuna::quads::paving {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/raise_flat_quads.h>
 
-#include <lacuna/geometry/pattern_search.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_stars.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 

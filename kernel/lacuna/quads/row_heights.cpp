@@ -3,7 +3,7 @@
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/plane_stars.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <cmath>
 

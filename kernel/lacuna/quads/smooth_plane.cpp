@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/smooth_plane.h>
+#include <lacuna/quads/shared/smooth_plane.h>
 
-#include <lacuna/core/parallel.h>
-#include <lacuna/geometry/pattern_search.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
 #include <lacuna/quads/detail/untangle_plane.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/split_cells.h>
 
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/corner_sine.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/square_rows.h>
 
-#include <lacuna/geometry/pattern_search.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/plane_energy.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/submap.h>
+#include <lacuna/quads/shared/submap.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/submap_grid.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/quads/smooth_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
 #include <cmath>

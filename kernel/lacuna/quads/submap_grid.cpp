@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/submap_grid.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
-#include <lacuna/quads/submap.h>
+#include <lacuna/quads/shared/submap.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/shared/symmetry.h>
 
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::quads {
 namespace {

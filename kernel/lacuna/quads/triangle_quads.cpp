@@ -2,10 +2,10 @@
 #include <lacuna/quads/detail/triangle_quads.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/split_cells.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>

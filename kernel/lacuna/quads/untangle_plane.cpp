@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/untangle_plane.h>
 
-#include <lacuna/geometry/minimise.h>
+#include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/plane_energy.h>
 

@@ -4,7 +4,6 @@
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -87,8 +86,8 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
 }
 
 /// Change of edges across the cells: across[r][s] is the edge of direction p at the upper end of q minus that
-/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for parallel edges of
-/// equal length.
+/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for
+/// parallel edges of equal length.
 template <int N>
 struct Turns {
     alignas(64) double across[3][2][3][N];
@@ -135,8 +134,8 @@ LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, Cel
 
 /// Inexpensive lower bound of the coefficients of all cells. If it is positive, it is stored in `smallest`.
 ///
-/// With d = det(edge, change, change), a coefficient at the middle of an edge is the mean of its ends minus d
-/// / 2; at the middle of a side the mean of its corners minus a quarter of the sum of its four d; at the
+/// With d = det(edge, change, change), a coefficient at the middle of an edge is the mean of its ends minus
+/// d / 2; at the middle of a side the mean of its corners minus a quarter of the sum of its four d; at the
 /// centre the mean of the corners minus an eighth of the sum of all twelve d. So no coefficient is below the
 /// smallest corner minus 3/2 of the largest |d|, which is bounded by the product of the largest lengths.
 /// Cells of swept meshes change little from layer to layer, so the bound decides most of them.

@@ -3,7 +3,6 @@
 
 #include <lacuna/quality/detail/lanes.h>
 
-#include <array>
 #include <cmath>
 
 // The trilinear map of a cell, with r, s, t from -1 to 1: x = (sum of corners + a r + b s + c t + ab rs + ac

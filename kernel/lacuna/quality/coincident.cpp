@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/coincident.h>
 
-#include <lacuna/core/large_pages.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -254,8 +253,8 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
     return least_of(found);
 }
 
-/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... in a row. @return  whether all are
-/// finite.
+/// Extend a box by points, four at a time: twelve numbers x, y, z, x, ... in a row.
+/// @return  whether all are finite.
 bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
 {
     constexpr double kNone = std::numeric_limits<double>::infinity();

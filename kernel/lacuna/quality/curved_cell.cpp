@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/lanes.h>
 
 #include <algorithm>
@@ -19,16 +19,16 @@ using Bezier = std::array<double, kAll>;
 /// Coefficients below this part of the largest count as zero: the conversion from values amplifies rounding
 /// by less than 1e4.
 constexpr double kRounding = 1e-12;
-/// Distance below which a middle node counts as straight, relative to the size of the cell: rounding with a
-/// margin.
+/// Distance below which a middle node counts as straight, relative to the size of
+/// the cell: rounding with a margin.
 constexpr double kStraight = 1e-13;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
 constexpr std::array<std::uint8_t, 27> kGrid{0,  2,  8, 6,  18, 20, 26, 24, 1,  5,  7, 3,  19, 23,
                                              25, 21, 9, 11, 17, 15, 12, 14, 10, 16, 4, 22, 13};
 
-/// Values or derivatives of the quadratic Lagrange polynomials for 0, ½ and 1, at N equidistant points of [0,
-/// 1].
+/// Values or derivatives of the quadratic Lagrange polynomials for 0, ½ and 1, at
+/// N equidistant points of [0, 1].
 template <std::size_t N>
 using Table = std::array<std::array<double, 3>, N>;
 

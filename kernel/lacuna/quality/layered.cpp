@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/layered.h>
+#include <lacuna/quality/shared/layered.h>
 
-#include <lacuna/core/bytes.h>
+#include <lacuna/core/shared/bytes.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
 #include <set>
@@ -338,8 +338,8 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
     const auto take = [&](const std::optional<std::array<Index, 2>>& pair) {
         if (pair && (!least || *pair < *least)) least = pair;
     };
-    // Search each slab together with the next one. The search of the previous slab covered this one's lower
-    // side.
+    // Search each slab together with the next one. The search of the previous slab
+    // covered this one's lower side.
     std::vector<Vec3> nodes;
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::quality {
 namespace {

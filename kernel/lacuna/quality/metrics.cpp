@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quality/metrics.h>
-#include <lacuna/quality/second_order.h>
+#include <lacuna/quality/shared/metrics.h>
+#include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
 
@@ -285,13 +285,6 @@ std::vector<double> values_of(const Cells& cells, Metric metric, std::optional<d
 const MetricInfo& metric_info(Metric metric) { return kInfos[static_cast<std::size_t>(metric)]; }
 
 std::span<const MetricInfo, kMetricCount> metric_infos() { return kInfos; }
-
-std::optional<Metric> metric_named(std::string_view name)
-{
-    for (const MetricInfo& info : kInfos)
-        if (name == info.name) return info.metric;
-    return {};
-}
 
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context)

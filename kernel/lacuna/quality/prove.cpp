@@ -2,11 +2,11 @@
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/detail/text.h>
-#include <lacuna/quality/layered.h>
 #include <lacuna/quality/quality.h>
+#include <lacuna/quality/shared/layered.h>
 
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/background.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -113,8 +113,8 @@ std::vector<Index> rim_followers(const mesh::HexMesh& mesh, const std::vector<In
     return follows;
 }
 
-/// Check that every node is used, and that the quads around it form one fan; otherwise the mesh is pinched
-/// there.
+/// Check that every node is used, and that the quads around it form one fan;
+/// otherwise the mesh is pinched there.
 Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     const std::size_t nodes = index(mesh.nodes_per_layer);
@@ -130,8 +130,8 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         if (valence[node] == 0)
             return Finding{Fault::unused_node,
                            source_node(mesh, static_cast<Index>(node)) + " belongs to no quad; remove it"};
-        // Go around the node: the side of a quad that ends at the node is the side of the next quad that
-        // starts there.
+        // Go around the node: the side of a quad that ends at the node is the side of
+        // the next quad that starts there.
         Index turned = 1;
         for (Index side = first[node];; ++turned) {
             Index arrives = side % 4 == 0 ? side + 3 : side - 1;
@@ -284,8 +284,8 @@ Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double m
     };
     const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
     const std::size_t nodes = levels * index(std::max<Index>(mesh.nodes_per_layer, 0));
-    // Arrays of a measured mesh have valid sizes. Check them nevertheless, in parallel with the check of the
-    // nodes.
+    // Arrays of a measured mesh have valid sizes. Check them nevertheless, in
+    // parallel with the check of the nodes.
     const bool beside = measured && nodes > 0 && mesh.nodes.size() == nodes &&
                         !check_quality(*measured, min_scaled_jacobian, mesh.layers);
     std::optional<Background<Found>> arrays;

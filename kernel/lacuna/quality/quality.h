@@ -116,12 +116,6 @@ struct Proof {
 /// patches, no coincident or unused nodes, every Jacobian certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
-/// As above, for a list of hexahedra and wedges.
-/// @param skin  if not empty: quads and triangles that must be exactly the skin, in any order and
-///              direction.
-Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin = {},
-                  double min_scaled_jacobian = 0, const RunContext& context = {});
-
 /// Throw the finding of a proof, if there is one.
 /// @throw NotSweepable  with the fault's code and the finding's message.
 void require(const Proof& proof);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/text.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace lacuna::quality {
 namespace {

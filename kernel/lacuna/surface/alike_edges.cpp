@@ -2,9 +2,9 @@
 #include <lacuna/surface/detail/alike_edges.h>
 
 #include <lacuna/geometry/newell.h>
-#include <lacuna/quads/symmetry.h>
+#include <lacuna/quads/shared/symmetry.h>
 #include <lacuna/surface/detail/plane_loops.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>

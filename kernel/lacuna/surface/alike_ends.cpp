@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/alike_ends.h>
 
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/surface/detail/linking_map.h>
-#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/shared/imprint.h>
 
 #include <algorithm>
 #include <cmath>

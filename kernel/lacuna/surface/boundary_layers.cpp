@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/boundary_layers.h>
+#include <lacuna/surface/shared/boundary_layers.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::surface {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/closed_edges.h>
 
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/flat_ends.h>
 
 #include <algorithm>

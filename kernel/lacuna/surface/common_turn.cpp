@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/common_turn.h>
 
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/minimal_frame.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <Eigen/Geometry>

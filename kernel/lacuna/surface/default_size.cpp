@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/default_size.h>
+#include <lacuna/surface/shared/default_size.h>
 
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
 #include <cmath>

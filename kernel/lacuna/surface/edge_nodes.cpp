@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 

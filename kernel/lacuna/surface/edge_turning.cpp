@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/edge_turning.h>
 
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 

@@ -2,11 +2,10 @@
 #include <lacuna/surface/detail/even_sides.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 #include <lacuna/surface/detail/sides_asked.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

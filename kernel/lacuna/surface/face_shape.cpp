@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/face_shape.h>
+#include <lacuna/surface/shared/face_shape.h>
 
 #include <lacuna/surface/detail/fine_facets.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <utility>

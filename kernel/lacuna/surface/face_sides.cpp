@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/face_sides.h>
 
-#include <lacuna/quads/submap.h>
+#include <lacuna/quads/shared/submap.h>
 
 #include <algorithm>
 #include <cmath>

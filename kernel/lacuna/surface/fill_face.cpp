@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/fill_face.h>
+#include <lacuna/surface/shared/fill_face.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/flatten.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/tips.h>
+#include <lacuna/geometry/shared/flatten.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/tips.h>
 #include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/detail/plane_loops.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>

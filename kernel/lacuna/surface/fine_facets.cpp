@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/fine_facets.h>
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 

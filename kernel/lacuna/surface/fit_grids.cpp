@@ -2,9 +2,9 @@
 #include <lacuna/surface/detail/fit_grids.h>
 
 #include <lacuna/geometry/newell.h>
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 #include <lacuna/surface/detail/plane_loops.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <vector>

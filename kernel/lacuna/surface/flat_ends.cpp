@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/flat_ends.h>
 
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/follow_rows.h>
 
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/surface/shared/projector.h>
 
 namespace lacuna::surface {
 

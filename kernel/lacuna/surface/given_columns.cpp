@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/surface/detail/chain_nodes.h>
-#include <lacuna/surface/given_nodes.h>
-#include <lacuna/topology/give_mesh.h>
-#include <lacuna/topology/names_of.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/surface/shared/given_nodes.h>
+#include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>

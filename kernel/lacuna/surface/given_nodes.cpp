@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/given_nodes.h>
+#include <lacuna/surface/shared/given_nodes.h>
 
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/paired_breaks.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <map>
-#include <numeric>
 #include <set>
-#include <unordered_map>
 
 namespace lacuna::surface {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/given_target.h>
+#include <lacuna/surface/shared/given_target.h>
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>

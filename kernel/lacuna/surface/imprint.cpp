@@ -3,11 +3,11 @@
 // imprint_target() first pairs the rims, so that every inner edge of the target that ends on the rim has a
 // vertex on the source's rim. Then it flattens both ends into one plane, intersects their inner edges, and
 // rebuilds the source faces from the regions in between.
-#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/closed_edges.h>
 #include <lacuna/surface/detail/flat_ends.h>
@@ -15,7 +15,7 @@
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/plane_regions.h>
 #include <lacuna/surface/detail/surface_curve.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <cmath>

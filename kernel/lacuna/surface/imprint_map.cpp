@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/imprint_map.h>
 
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <algorithm>

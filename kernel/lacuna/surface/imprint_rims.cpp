@@ -2,10 +2,10 @@
 #include <lacuna/surface/detail/imprint_rims.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/matching/corners.h>
+#include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/linking_map.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/interval_program.h>
 
-#include <lacuna/geometry/union_find.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <Eigen/Cholesky>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/intervals.h>
+#include <lacuna/surface/shared/intervals.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/topology/names_of.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace lacuna::surface {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/linking_map.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/cut.h>
-#include <lacuna/geometry/harmonic.h>
-#include <lacuna/geometry/minimal_frame.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/cut.h>
+#include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/common_turn.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/matching/corners.h>
+#include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/paired_breaks.h>
-#include <lacuna/topology/names_of.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>

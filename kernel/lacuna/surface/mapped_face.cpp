@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/mapped_face.h>
 
-#include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/transfinite.h>
-#include <lacuna/quads/measure_plane.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/topology/face_plane.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/transfinite.h>
+#include <lacuna/quads/shared/measure_plane.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/projector.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/detail/trimming.h>
 
 #include <array>
@@ -111,15 +111,6 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         }
         trimmed_.at(face).keep_inside(now, context);
         for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];
-    }
-    return faces;
-}
-
-std::vector<FaceId> Projector::closest_face(std::span<const Vec3> points) const
-{
-    std::vector<FaceId> faces(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        faces[i] = face_of_[static_cast<std::size_t>(tree_.closest(points[i]).triangle)];
     }
     return faces;
 }

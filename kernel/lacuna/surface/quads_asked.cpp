@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/quads_asked.h>
+#include <lacuna/surface/shared/quads_asked.h>
 
 #include <lacuna/surface/detail/face_sides.h>
 

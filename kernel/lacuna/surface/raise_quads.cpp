@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/raise_quads.h>
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/pattern_search.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/mesh/incidence.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/pattern_search.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/mesh/shared/incidence.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>

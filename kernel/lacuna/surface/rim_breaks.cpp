@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/rim_breaks.h>
+#include <lacuna/surface/shared/rim_breaks.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/paired_breaks.h>
@@ -27,11 +27,9 @@ using Pairs = std::vector<std::pair<double, double>>;
 constexpr double kOneColumn = 0.4;
 /// Facets at smaller angles are coplanar [radian].
 constexpr double kFlat = 1e-6;
-/// Maximum turn of the walls between creases with columns, in turns: a ring of twelve creases is then off by
-/// half a percent.
-constexpr double kTurnBetween = 0.1;
-/// A crease continues within this angle [cosine]: facet sides across it are at 90°, diagonals at 45°.
-constexpr double kGoesOn = 0.5;
+/// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
+/// sharpest and straightest is taken.
+constexpr double kGoesOn = 0.25;
 
 Vec3 area_vector(const Model& model, const Triangle& t)
 {
@@ -316,32 +314,6 @@ std::vector<RimFacets::Vertex> RimFacets::on_creases(std::vector<Vertex> vertice
     return vertices;
 }
 
-/// Whether walls curve so much between creases that columns along these change the volume too much.
-bool RimFacets::bends_between(std::span<const Crease> creases) const
-{
-    const Model& model = volume_.model;
-    std::map<Index, Vec3> along;
-    std::set<std::uint64_t> own;
-    double length = 0;
-    for (const Crease& crease : creases) {
-        for (std::size_t i = 0; i + 1 < crease.points.size(); ++i) {
-            const Vec3 way = model.at(crease.points[i + 1]) - model.at(crease.points[i]);
-            along[crease.points[i]] = along[crease.points[i + 1]] = way.normalized();
-            own.insert(edge_key(crease.points[i], crease.points[i + 1]));
-            length += way.norm();
-        }
-    }
-    double turn = 0; // turn times length
-    for (const auto& [point, way] : along) {
-        for (const Side& side : sides_.at(point)) {
-            if (own.contains(edge_key(point, side.to))) continue;
-            const double up = way.dot(model.at(side.to) - model.at(point));
-            turn += side.turn * up * up / (model.at(side.to) - model.at(point)).norm() / 2;
-        }
-    }
-    return turn > kTurnBetween * 2 * std::numbers::pi * length / static_cast<double>(creases.size());
-}
-
 RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
 {
     RimBreaks breaks;
@@ -380,7 +352,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
             return v.at_start || end_of_[index(creases_.at(v.point).back())] == 2;
         };
         const bool whole = link.lines.empty() && !up.empty() && up.front().source_at == 0 &&
-                           std::ranges::all_of(low, is_up) && !bends_between(up);
+                           std::ranges::all_of(low, is_up);
         Pairs pairs = given
                           ? whole && has_nodes_at(link, joined) ? with_starts(joined, link) : boundaries(link)
                       : whole ? with_starts(joined, link)

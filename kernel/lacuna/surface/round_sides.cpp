@@ -3,7 +3,7 @@
 
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #include <lacuna/surface/detail/seed_edges.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cmath>

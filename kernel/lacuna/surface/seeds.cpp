@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shared/seeds.h>
 
 #include <lacuna/surface/detail/alike_edges.h>
 #include <lacuna/surface/detail/even_sides.h>

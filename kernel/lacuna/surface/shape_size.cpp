@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/shape_size.h>
+#include <lacuna/surface/shared/shape_size.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/graded_points.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <Eigen/Eigenvalues>
 

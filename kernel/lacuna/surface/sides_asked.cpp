@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/detail/seed_pieces.h>
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/source_mesh.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/raise_quads.h>
-#include <lacuna/surface/fill_face.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/fill_face.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <algorithm>
 #include <cstdio>

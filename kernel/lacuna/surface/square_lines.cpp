@@ -2,11 +2,11 @@
 #include <lacuna/surface/detail/square_lines.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/sparse_factor.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/sparse_factor.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/detail/section_line.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/harmonic.h>
+#include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/trimming.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/wall_breaks.h>
+#include <lacuna/surface/shared/wall_breaks.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/detail/wall_net.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/wall_columns.h>
+#include <lacuna/surface/shared/wall_columns.h>
 
+#include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/topology/model.h>
 
@@ -17,21 +18,18 @@ namespace {
 /// Number of sampled columns if there are no side lines. Heuristic.
 constexpr int kPlaces = 8;
 
-/// Mean length of the walls: their area over the mean length of their rims.
-double mean_length(const Model& model, const LinkingSurface& link)
+/// Walls longer than the straight line by a smaller share count as straight: this is less than one of ten
+/// layers.
+constexpr double kHardlyLonger = 0.05;
+
+/// Whether the walls' area over the mean length of their rims is the mean length of straight columns. Longer
+/// walls bend or bulge; walls with a waist have less area.
+bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns)
 {
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
-    return 2 * area / (link.source.length() + link.target.length());
-}
-
-/// Whether the walls are as long as the straight line in so many columns. Longer walls bend or bulge; walls
-/// with a waist have less area.
-bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns,
-                  double hardly_longer)
-{
-    return std::abs(mean_length(model, link) * static_cast<double>(columns) - straight) <
-           hardly_longer * straight;
+    const double length = 2 * area / (link.source.length() + link.target.length());
+    return std::abs(length * static_cast<double>(columns) - straight) < kHardlyLonger * straight;
 }
 
 std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& segment, int steps)
@@ -46,20 +44,17 @@ std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& 
     return points;
 }
 
-std::vector<Vec3> mapped_column(const Model& model, const LinkingMap& map, double s, int steps)
+/// The point of a wall's column at a share of the way up.
+Vec3 mapped_point(const Model& model, const LinkingMap& map, double s, double share)
 {
-    std::vector<Vec3> points;
-    for (int i = 0; i <= steps; ++i) {
-        const WallPosition place = map.locate(s, map.from_even(static_cast<double>(i) / steps));
-        points.push_back(points_at(model, place.face, std::array{place.at}).front());
-    }
-    return points;
+    const WallPosition place = map.locate(s, map.from_even(share));
+    return points_at(model, place.face, std::array{place.at}).front();
 }
 
 } // namespace
 
 std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const LinkingSurface& link, int steps,
-                                            const RunContext& context, double hardly_longer)
+                                            const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
     for (const LinkingLine& line : link.lines) {
@@ -74,22 +69,53 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
         columns.push_back(straight_column(link, segment, steps));
         straight += (columns.back().back() - columns.back().front()).norm();
     }
-    if (are_straight(volume.model, link, straight, columns.size(), hardly_longer)) return columns;
+    if (are_straight(volume.model, link, straight, columns.size())) return columns;
     const LinkingMap map(volume, link, true, context);
     columns.clear();
-    for (int k = 0; k < kPlaces; ++k)
-        columns.push_back(mapped_column(volume.model, map, (k + 0.5) / kPlaces, steps));
+    for (int k = 0; k < kPlaces; ++k) {
+        std::vector<Vec3>& column = columns.emplace_back();
+        for (int i = 0; i <= steps; ++i)
+            column.push_back(
+                mapped_point(volume.model, map, (k + 0.5) / kPlaces, static_cast<double>(i) / steps));
+    }
     return columns;
 }
 
-bool walls_bend(const OpenVolume& volume, const LinkingSurface& link)
+std::vector<std::vector<Vec3>> wall_rows(const OpenVolume& volume, const LinkingSurface& link,
+                                         const LinkingNodes& nodes, int steps, const RunContext& context)
 {
-    double straight = 0;
-    for (const RimSegment& segment : link.segments) {
-        const std::vector<Vec3> column = straight_column(link, segment, 1);
-        straight += (column.back() - column.front()).norm();
+    std::vector<double> high = nodes.target_at;
+    for (double& at : high) at = at >= link.target.length() ? at - link.target.length() : at;
+    std::vector<std::vector<Vec3>> rows{link.source.points(nodes.source_at)};
+    if (steps > 1) {
+        const LinkingMap map(volume, link, true, context);
+        for (int k = 1; k < steps; ++k) {
+            check_cancelled(context);
+            std::vector<Vec3>& row = rows.emplace_back();
+            for (const double at : nodes.source_at)
+                row.push_back(mapped_point(volume.model, map, at / link.source.length(),
+                                           static_cast<double>(k) / steps));
+        }
     }
-    return !are_straight(volume.model, link, straight, link.segments.size(), kAnyLonger);
+    rows.push_back(link.target.points(high));
+    return rows;
+}
+
+std::vector<double> turning_of_segments(const Model& model, const LinkingSurface& link)
+{
+    const EdgeTurning source(model, link.source.uses()), target(model, link.target.uses());
+    std::vector<double> turning;
+    for (const RimSegment& segment : link.segments) {
+        const double from = std::fmod(segment.target_from, target.length());
+        const double to = from + segment.target_to - segment.target_from;
+        const double past = std::max(to - target.length(), 0.0);
+        const double own = segment.follows ? 0 : source.between(segment.source_from, segment.source_to);
+        const double other = segment.target_follows
+                                 ? 0
+                                 : target.between(from, to - past) + target.between(0, past);
+        turning.push_back(std::max(own, other));
+    }
+    return turning;
 }
 
 } // namespace lacuna::surface

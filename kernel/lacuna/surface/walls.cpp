@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/swept_patch.h>
-#include <lacuna/geometry/transfinite.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/swept_patch.h>
+#include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/follow_rows.h>
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -335,21 +333,6 @@ private:
 };
 
 } // namespace
-
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const int> counts)
-{
-    std::vector<std::vector<double>> shares;
-    for (const int count : counts) {
-        shares.emplace_back();
-        for (int k = 0; k < count; ++k) shares.back().push_back(static_cast<double>(k) / count);
-    }
-    return linking_nodes(link, shares);
-}
-
-LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> shares)
-{
-    return linking_nodes(link, shares, shares);
-}
 
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target)

@@ -12,8 +12,8 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/topology/give_mesh.h>
-#include <lacuna/topology/skin_groups.h>
+#include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/assembly_imprint.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/section.h>
-#include <lacuna/topology/side_points.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/section.h>
+#include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <array>

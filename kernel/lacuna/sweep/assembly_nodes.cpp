@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/assembly_nodes.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <array>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/union_find.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/intervals.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/intervals.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -215,9 +215,11 @@ private:
         const OpenVolume& volume = *members_[m].volume;
         const SweepOptions& options = members_[m].options;
         const surface::SizeField size_at = [this, m](const Vec3& p) { return size(m, p); };
-        per_turn_[m] = planned_sides(volume, links, options, size_at);
+        const VolumePlan plan = plan_volume(volume, links, options, size_at, context_);
+        per_turn_[m] = plan.per_turn;
+        if (plan.layers) layers_[m] = plan.layers(1);
         if (!sizes_by_default(options)) return;
-        layers_[m] = planned_layers(volume, links, 1, options, context_);
+        spacing_[m] *= plan.part;
         surface::RimFacets facets(volume, links);
         for (const auto& [edge, at] : facets.breaks(per_turn_[m], size_at).edges) {
             std::vector<double> ends{0};

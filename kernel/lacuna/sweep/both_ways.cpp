@@ -2,7 +2,7 @@
 #include <lacuna/sweep/detail/both_ways.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/imprint.h>
+#include <lacuna/surface/shared/imprint.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>

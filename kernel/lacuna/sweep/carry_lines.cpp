@@ -2,13 +2,13 @@
 #include <lacuna/sweep/detail/carry_lines.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/imprint.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/both_ways.h>
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <map>

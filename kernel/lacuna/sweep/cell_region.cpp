@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_region.h>
 
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>

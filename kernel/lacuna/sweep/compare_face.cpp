@@ -6,10 +6,10 @@
 // about the nearest to the next. Only what is certain is settled so; a tree answers for the rest.
 #include <lacuna/sweep/detail/compare_face.h>
 
-#include <lacuna/core/parallel.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/tips.h>
-#include <lacuna/mesh/incidence.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/tips.h>
+#include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/sweep/detail/facet_walk.h>
 
 #include <algorithm>

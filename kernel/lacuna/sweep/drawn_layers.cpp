@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/drawn_layers.h>
 
-#include <lacuna/geometry/angle.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/wall_columns.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include <lacuna/sweep/detail/edge_rows.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/both_ways.h>
 
 #include <algorithm>

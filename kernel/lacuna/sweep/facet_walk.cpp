@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/facet_walk.h>
 
-#include <lacuna/mesh/incidence.h>
+#include <lacuna/mesh/shared/incidence.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,10 @@
 #include <lacuna/sweep/fidelity.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/surface/face_shape.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
-#include <lacuna/sweep/detail/finer_sides.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -82,6 +81,36 @@ double rounded_down(double value)
     return std::floor(value / step) * step;
 }
 
+/// What makes straight sides follow a face that bends away under them: one of the two is not 0.
+struct FinerSides {
+    int layers = 0;
+    double size = 0; ///< of the source's quads [model length]
+};
+
+/// By the sag of straight sides, a tenth below what would just do. @param layers  of the mesh.
+FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptions& options)
+{
+    // The sag of a straight side grows with the square of its length, its share of the side with the length.
+    // What is named is a tenth below that: sides differ a little.
+    constexpr double kBelow = 0.9;
+    const double share = kBelow * face.allowed / face.found;
+    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
+    if (face.along_layers) return {.layers = static_cast<int>(std::ceil(layers / by))};
+    const double asked = options.size ? options.size(face.found_at) : face.source_side;
+    return {.size = rounded_down(std::min(face.source_side, asked) * by)};
+}
+
+/// The face that is furthest beyond what is allowed; null: none is.
+const FaceFidelity* worst_misfit(const Fidelity& fidelity)
+{
+    const FaceFidelity* worst = nullptr;
+    for (const FaceFidelity& face : fidelity.faces) {
+        if (face.misfit == Misfit::none) continue;
+        if (worst == nullptr || face.found * worst->allowed > worst->found * face.allowed) worst = &face;
+    }
+    return worst;
+}
+
 std::string more_of_it(const FaceFidelity& face, int layers, const FidelityOptions& options)
 {
     const FinerSides finer = finer_sides(face, layers, options);
@@ -147,28 +176,6 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     }
     if (area > 0) result.mean_distance /= area;
     return result;
-}
-
-const FaceFidelity* worst_misfit(const Fidelity& fidelity)
-{
-    const FaceFidelity* worst = nullptr;
-    for (const FaceFidelity& face : fidelity.faces) {
-        if (face.misfit == Misfit::none) continue;
-        if (worst == nullptr || face.found * worst->allowed > worst->found * face.allowed) worst = &face;
-    }
-    return worst;
-}
-
-FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptions& options)
-{
-    // The sag of a straight side grows with the square of its length, its share of the side with the length.
-    // What is named is a tenth below that: sides differ a little.
-    constexpr double kBelow = 0.9;
-    const double share = kBelow * face.allowed / face.found;
-    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
-    if (face.along_layers) return {.layers = static_cast<int>(std::ceil(layers / by))};
-    const double asked = options.size ? options.size(face.found_at) : face.source_side;
-    return {.size = rounded_down(std::min(face.source_side, asked) * by)};
 }
 
 std::string misfit_in_words(const Fidelity& fidelity, int layers, const FidelityOptions& options)

@@ -2,7 +2,7 @@
 #include <lacuna/sweep/detail/given_meshes.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/given_target.h>
+#include <lacuna/surface/shared/given_target.h>
 #include <lacuna/sweep/detail/place_order.h>
 #include <lacuna/sweep/detail/words.h>
 

@@ -2,9 +2,9 @@
 #include <lacuna/sweep/detail/harmonic_spread.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/core/vector_code.h>
-#include <lacuna/geometry/sparse_factor.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/core/shared/vector_code.h>
+#include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>

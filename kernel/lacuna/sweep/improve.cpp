@@ -2,7 +2,7 @@
 #include <lacuna/sweep/improve.h>
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/geometry/minimise.h>
+#include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/sweep/detail/cell_region.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/words.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/layer_map.h>
 
-#include <lacuna/core/vector_code.h>
+#include <lacuna/core/shared/vector_code.h>
 
 #include <array>
 

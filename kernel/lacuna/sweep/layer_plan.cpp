@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/layer_plan.h>
+#include <lacuna/sweep/shared/layer_plan.h>
 
-#include <lacuna/quality/layered.h>
+#include <lacuna/quality/shared/layered.h>
 #include <lacuna/sweep/detail/layer_placer.h>
 #include <lacuna/sweep/detail/middle_placer.h>
 

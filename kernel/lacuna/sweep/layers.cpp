@@ -5,10 +5,10 @@
 // affine motion takes rim to rim the two agree, and the sum is the motion itself.
 #include <lacuna/sweep/detail/layer_placer.h>
 
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/large_pages.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/background.h>
+#include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/words.h>
 

@@ -2,11 +2,11 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/affine.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/affine.h>
+#include <lacuna/surface/shared/projector.h>
+#include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/rim.h>
-#include <lacuna/sweep/morph.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/middle_skin.h>
 
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/morph.h>
+#include <lacuna/sweep/detail/morph.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>

@@ -2,8 +2,8 @@
 #include <lacuna/sweep/detail/morph_ends.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/detail/words.h>
 

@@ -2,10 +2,10 @@
 #include <lacuna/sweep/detail/near_misses.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/topology/gaps.h>
+#include <lacuna/topology/shared/gaps.h>
 
 #include <algorithm>
 #include <cmath>

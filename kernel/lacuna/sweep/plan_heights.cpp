@@ -2,9 +2,8 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/surface/wall_columns.h>
-#include <lacuna/sweep/detail/volume_share.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -191,18 +190,17 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
 
 PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least,
+                            const SourceSize& sizes, const SweepOptions& options, int least,
                             const RunContext& context)
 {
     const std::vector<double>* const low = end_table(volume, tables, Role::source);
     const std::vector<double>* const high = end_table(volume, tables, Role::target);
     if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
-    const Columns columns = columns_of(volume, links, size, options.size, context);
+    const Columns columns = columns_of(volume, links, sizes.along, options.size, context);
     const int bends = asked.empty() ? bend_layers(columns, options) : 0;
     const int by_size = std::max(least, static_cast<int>(std::lround(columns.sides)));
     least = std::max(least, bends);
-    if (asked.empty() && sizes_by_default(options))
-        least = std::max(least, planned_layers(volume, links, std::max(least, by_size), options, context));
+    if (asked.empty() && sizes.layers) least = std::max(least, sizes.layers(std::max(least, by_size)));
     const bool by_bends = least > by_size;
     if (low == nullptr && high == nullptr) {
         if (columns.wanted.empty()) return {default_heights(columns, options.layers, least), by_bends};

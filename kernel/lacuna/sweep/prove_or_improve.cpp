@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/number_text.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
-#include <lacuna/quality/layered.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/quality/shared/layered.h>
+#include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/improve.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/mesh/incidence.h>
-#include <lacuna/quality/second_order.h>
+#include <lacuna/mesh/shared/incidence.h>
+#include <lacuna/quality/shared/second_order.h>
 #include <lacuna/sweep/detail/middle_skin.h>
 #include <lacuna/sweep/detail/words.h>
 

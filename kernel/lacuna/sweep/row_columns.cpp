@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/row_columns.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/edge_key.h>
 
 #include <algorithm>
 #include <cmath>

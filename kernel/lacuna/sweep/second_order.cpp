@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/sweep/second_order.h>
+#include <lacuna/sweep/detail/second_order.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/middle_placer.h>

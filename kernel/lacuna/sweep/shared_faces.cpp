@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/detail/near_misses.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <array>

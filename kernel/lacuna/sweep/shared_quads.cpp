@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/sweep/detail/shared_quads.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/skin_patches.h>
 
-#include <lacuna/topology/skin_groups.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <map>

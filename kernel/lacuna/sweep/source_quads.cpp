@@ -2,17 +2,20 @@
 #include <lacuna/sweep/detail/source_quads.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/quads/odd_region.h>
-#include <lacuna/quads/pave.h>
-#include <lacuna/quads/submap.h>
-#include <lacuna/surface/quads_asked.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/quads/shared/odd_region.h>
+#include <lacuna/quads/shared/pave.h>
+#include <lacuna/quads/shared/submap.h>
+#include <lacuna/surface/shared/quads_asked.h>
+#include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -28,20 +31,6 @@ constexpr double kMostForWidth = 20000;
 /// Cells that a size or a number of layers alone may ask for: what fills a large workstation's memory in a
 /// solver, and is more often a length in the wrong unit than meant. A choice, not a measurement.
 constexpr double kMostUnasked = 50e6;
-
-/// A field that refuses what is no length before anything is divided by it.
-surface::SizeField checked(const surface::SizeField& field, const std::string& option)
-{
-    return [field, option](const Vec3& p) {
-        const double h = field(p);
-        if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "sweep: option '" + option +
-                                                 "' must be a positive number everywhere; at " +
-                                                 place_in_short(p) + " it is " + in_full(h));
-        }
-        return h;
-    };
-}
 
 /// Sides that faces of a role are expected to have: quads with a power of 2, sides across them with 1. Where
 /// some came with quads that stay, all count as those, else as the size asks.
@@ -73,12 +62,35 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
+/// Quads that sides by the turns of the rims ask for beyond those by the size. Where sides grow by 0.3 for
+/// each length off the rim, as the paver grades, they are as many as the integral of their inverse square.
+double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
+                      const surface::SizeField& size, int per_turn)
+{
+    constexpr double kGrading = 0.3;
+    double more = 0;
+    for (const surface::LinkingSurface& link : links) {
+        const std::vector<double> turning = surface::turning_of_segments(model, link);
+        for (std::size_t i = 0; i < turning.size(); ++i) {
+            const surface::RimSegment& segment = link.segments[i];
+            const double middle[] = {(segment.source_from + segment.source_to) / 2};
+            const double by_size = (segment.source_to - segment.source_from) /
+                                   size(link.source.points(middle).front());
+            more += std::max(0., turning[i] * per_turn / (2 * std::numbers::pi) - by_size);
+        }
+    }
+    return more / kGrading;
+}
+
 /// Cells that are to be expected, by areas, lengths and given meshes alone. What could never be numbered is
 /// refused at once, instead of filling the memory first.
-ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options)
+ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
+                             KnownLinks& links, const RunContext& context)
 {
     constexpr double kMost = std::numeric_limits<Index>::max();
-    const double quads = std::max(1., sides_over(volume, Role::source, size.shape.at, 2, options));
+    double quads = std::max(1., sides_over(volume, Role::source, size.shape.at, 2, options));
+    if (options.curvature > SweepOptions{}.curvature)
+        quads += quads_by_turns(links.of(volume, context), volume.model, size.shape.at, options.curvature);
     double layers = std::max(options.layers.count, static_cast<int>(options.layers.heights.size()));
     const double asked = std::max(1., layers);
     if (!(quads * asked < kMost && asked < kMost / 16))
@@ -149,22 +161,33 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
     };
 }
 
+surface::SizeField checked_size(const surface::SizeField& field, const std::string& option)
+{
+    return [field, option](const Vec3& p) {
+        const double h = field(p);
+        if (!(h > 0) || !std::isfinite(h)) {
+            throw InvalidInput("sweep.size", "sweep: option '" + option +
+                                                 "' must be a positive number everywhere; at " +
+                                                 place_in_short(p) + " it is " + in_full(h));
+        }
+        return h;
+    };
+}
+
 SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
+    std::optional<SourceSize>* const known = links.sizes(volume, options.curvature);
+    if (known != nullptr && *known) return **known;
     SourceSize size;
+    size.layers = links.plan.layers;
     if (options.size) {
-        size.asked = checked(options.size, "size");
+        size.asked = checked_size(options.size, "size");
     } else {
         size.by_default = surface::default_size(volume);
-        size.asked = even_size(size.by_default->length);
-        const double part = sizes_by_default(options)
-                                ? planned_part_of_size(volume, links, options, size.asked, context)
-                                : 1;
-        if (part < 1) {
-            size.by_default->why += ", of that " + in_short(part) + " for the bends of the ends";
-            size.asked = even_size(size.by_default->length *= part);
-        }
+        const double part = links.plan.part;
+        if (part < 1) size.by_default->why += ", of that " + in_short(part) + " for the bends of the ends";
+        size.asked = even_size(size.by_default->length *= part);
     }
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
     const bool gap_by_default = size.by_default && options.gap == 0;
@@ -184,14 +207,17 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
         size.along = surface::shape_size(volume, size.asked, {options.curvature, 0}).at;
         size.sizing.counts_across = false;
     }
-    size.expected = expected_cells(volume, size, options);
+    size.expected = expected_cells(volume, size, options, links, context);
+    if (known != nullptr) *known = size;
     return size;
 }
 
 void check_cells(const ExpectedCells& expected, const RunContext& context)
 {
     const double all = expected.all;
-    const std::string cells = all < 1e7 ? with_decimals(all, 0) : with_decimals(all / 1e6, 0) + " million";
+    const std::string cells = all < 1e7    ? with_decimals(all, 0)
+                              : all < 1e12 ? with_decimals(all / 1e6, 0) + " million"
+                                           : in_short(all);
     log_line(context, "estimate: about " + cells + " cells");
     if (expected.unasked > kMostUnasked)
         throw InvalidInput("sweep.many_cells",
@@ -203,7 +229,7 @@ void check_cells(const ExpectedCells& expected, const RunContext& context)
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
 {
     if (options.rows == 0) return {size};
-    return {size, options.row_height ? checked(options.row_height, "row_height") : size};
+    return {size, options.row_height ? checked_size(options.row_height, "row_height") : size};
 }
 
 } // namespace lacuna::sweep

@@ -3,22 +3,21 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/core/progress.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/intervals.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/intervals.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/drawn_layers.h>
-#include <lacuna/sweep/detail/finer_by_default.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
+#include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/sweep/layer_plan.h>
-#include <lacuna/sweep/second_order.h>
+#include <lacuna/sweep/shared/layer_plan.h>
 
 #include <algorithm>
 #include <cmath>
@@ -217,39 +216,18 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// A mesh that follows the shape. With given numbers more sides for a full turn are tried as long as too much
-/// volume is lost; without, they are as many already.
-Swept sweep_for_volume(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
-                       const RunContext& context)
+/// A mesh that follows the shape.
+/// @throw NotSweepable "sweep.deviation"
+Swept sweep_true(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                 const RunContext& context)
 {
-    Swept best = sweep_as_asked(volume, options, links, context);
-    SweepOptions rest = options, taken = options;
-    while (const std::optional<int> sides = sides_for_lost_volume(best.fidelity, rest)) {
-        rest.curvature = *sides;
-        try {
-            Swept next = sweep_compared(volume, rest, links, context);
-            const double enough = std::min(best.min_scaled_jacobian, options.improving.good_enough);
-            if (!is_closer(volume_lost(next.fidelity), volume_lost(best.fidelity)) ||
-                next.min_scaled_jacobian < enough)
-                break;
-            next.report.push_back("shape: " + std::to_string(rest.curvature) +
-                                  " sides for a full turn instead of " + std::to_string(options.curvature) +
-                                  ", by which the volume was " + in_short(100 * volume_lost(best.fidelity)) +
-                                  " % less than what was sealed");
-            best = std::move(next);
-            taken = rest;
-        } catch (const NotSweepable& error) {
-            log_line(context, std::string("more sides for a full turn: ") + error.what());
-            break;
-        }
-    }
-    const SweepBy again = [&](const SweepOptions& finer) {
-        return sweep_compared(volume, finer, links, context);
-    };
-    best = require_or_refine(options, taken, std::move(best), again, context);
+    Swept swept = sweep_as_asked(volume, options, links, context);
+    const std::string found = misfit_in_words(swept.fidelity, swept.mesh.layers,
+                                              {options.max_deviation, options.beside.between, options.size});
+    if (!found.empty()) throw NotSweepable("sweep.deviation", found);
     // Of order 2, given middle nodes may bulge from straight facets.
-    if (options.max_deviation <= 0 && options.order == 1) require_volume(best.fidelity, best.mesh.layers);
-    return best;
+    if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
+    return swept;
 }
 
 Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
@@ -263,27 +241,27 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
                            "the volume is not sealed; close it first with volume:close()");
     }
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
-    if (sizes_by_default(options)) {
-        const surface::SizeField size = even_size(surface::default_size(volume).length);
-        options.curvature = planned_sides(volume, links.of(volume, context), options, size);
-    }
+    const surface::SizeField size = options.size ? checked_size(options.size, "size")
+                                                 : even_size(surface::default_size(volume).length);
+    links.plan = plan_volume(volume, links.of(volume, context), options, size, context);
+    options.curvature = links.plan.per_turn;
     // Those of an assembly are counted together.
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
-    if (!drawn) return sweep_for_volume(volume, options, links, context);
+    if (!drawn) return sweep_true(volume, options, links, context);
     std::string why;
     try {
         SweepOptions moved = options;
         moved.layers = {};
         moved.layers.heights = drawn->heights;
-        Swept swept = sweep_for_volume(volume, moved, links, context);
+        Swept swept = sweep_true(volume, moved, links, context);
         swept.report.push_back(drawn->report);
         return swept;
     } catch (const NotSweepable& error) {
         why = error.what();
     }
     log_line(context, "layers nearer to each other in the bends: " + why);
-    Swept swept = sweep_for_volume(volume, options, links, context);
+    Swept swept = sweep_true(volume, options, links, context);
     swept.report.push_back("layers: even ones; nearer to each other in the bends they fail: " + why);
     return swept;
 }

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/sweep_between.h>
 
-#include <lacuna/core/background.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/progress.h>
-#include <lacuna/quality/layered.h>
+#include <lacuna/core/shared/background.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
-#include <lacuna/surface/given_target.h>
-#include <lacuna/surface/imprint.h>
-#include <lacuna/surface/intervals.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/wall_breaks.h>
+#include <lacuna/quality/shared/layered.h>
+#include <lacuna/surface/shared/given_target.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/surface/shared/intervals.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/surface/shared/wall_breaks.h>
 #include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
+#include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/plan_heights.h>
@@ -22,9 +23,8 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/sweep/layer_plan.h>
-#include <lacuna/sweep/layers.h>
-#include <lacuna/sweep/morph.h>
+#include <lacuna/sweep/shared/layer_plan.h>
+#include <lacuna/sweep/shared/layers.h>
 
 #include <algorithm>
 #include <map>
@@ -79,6 +79,24 @@ RimColumns columns_of(const std::vector<surface::LinkingSurface>& links, const s
         }
     }
     return columns;
+}
+
+/// Nodes of columns along creases of the walls stay, as those of edges do.
+void hold_creases(const std::vector<surface::LinkingSurface>& links, const surface::SourceMesh& source,
+                  std::size_t rows, std::vector<char>& held)
+{
+    const std::size_t nodes = source.quads.nodes.size();
+    for (std::size_t b = 0; b < links.size(); ++b) {
+        for (const surface::RimSegment& segment : links[b].segments) {
+            const std::vector<double>& at = source.links[b].source_at;
+            const auto found = std::ranges::find(at, segment.source_from);
+            const bool follows = segment.on_crease || segment.follows || segment.target_follows;
+            if (!follows || found == at.end()) continue;
+            held.resize(rows * nodes);
+            const auto first = index(source.first[b] + static_cast<Index>(found - at.begin()));
+            for (std::size_t n = first; n < held.size(); n += nodes) held[n] = 1;
+        }
+    }
 }
 
 /// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight. Not where
@@ -274,7 +292,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
     const auto [heights, by_bends] = plan_heights(
-        split, links, tables, given.heights, sizes.along, options,
+        split, links, tables, given.heights, sizes, options,
         options.size ? least_layers : std::max(least_layers, kDefaultGap), context);
     surface::EdgeDemands demands{surface::rim_rows(split, links, tables),
                                  surface::find_intervals(split, links, options.intervals).sides,
@@ -359,6 +377,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     }
     KeptThickness kept;
     if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
+    hold_creases(links, source, heights.size(), kept.held);
     if (!tables.heights.empty()) measured.reset(); // nodes were moved
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 

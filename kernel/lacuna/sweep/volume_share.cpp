@@ -2,22 +2,20 @@
 #include <lacuna/sweep/detail/volume_share.h>
 
 #include <lacuna/closure/close.h>
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/surface/edge_nodes.h>
-#include <lacuna/surface/rim_breaks.h>
-#include <lacuna/surface/wall_columns.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/shape_size.h>
+#include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -25,25 +23,34 @@ using namespace topology;
 
 namespace {
 
+/// Shares of the volume that may be missing, or be too much, where nobody asked for numbers: in all, and of
+/// that by the bends of the ends and by those of the sweep, where there are any. All is to stay within 1 %;
+/// the rest is for what is not in the model.
+constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 /// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
 constexpr int kMostPerTurn = 100;
 /// Creases across an end are followed up to as many for a turn: more are fine facets, for which a size does.
 constexpr int kMostForCreases = 40;
-/// No end gets smaller quads than this part of the size for its bends: sixteen times as many. A choice.
-constexpr double kLeastPart = 0.25;
+/// The bends of an end make its quads smaller down to this part of the size, and further as long as an end
+/// has no more than so many. Choices.
+constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
+/// Quads inside ends are longer than the size. Measured on domes over six to twelve sides, which have half to
+/// two thirds as many as their area over the square of the size.
+constexpr double kLonger = 1.35;
+/// Ends that are steeper in the mean, as parts of a ball seen from its side, are not laid out in one plane.
+constexpr double kSteepest = 2;
+/// Rims may have fewer sides than a size asks for, by this factor, so that a grid closes: 16 for 24.
+constexpr double kFewer = 1.5;
+/// Sizes are tried in such steps.
+constexpr double kSmaller = 0.9;
 /// Layers for the bends of the sweep, at most: as many as a spiral of five turns needs.
 constexpr int kMostLayers = 300;
-/// Between two nodes on facets a side of order 2 is off by half as much as a straight one at the most; on
-/// exact curves by so little that it does not count.
-constexpr double kOfOrder2 = 0.5;
-
-/// Part of what straight sides lose.
-double by_order(bool exact, const SweepOptions& options)
-{
-    if (options.order == 1) return 1;
-    return exact ? 0 : kOfOrder2;
-}
-
+/// Columns round a rim of the model of the walls, in all, and rows up to the target. A circle of so many is
+/// off by 0.04 %.
+constexpr double kColumns = 128;
+constexpr int kRows = 64;
+/// Walls within this share of the volume of straight lines between the rims are such lines.
+constexpr double kStraight = 1e-3;
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
 double area_of(const OpenVolume& volume, Role end)
@@ -58,143 +65,6 @@ Vec3 facet_normal(const Model& model, const Triangle& t)
     return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized();
 }
 
-/// The rims of both ends, and the area of the sections there, across the walls, that is lost along them.
-class Rims {
-public:
-    Rims(const OpenVolume& volume, const SweepOptions& options, const surface::SizeField& size)
-        : model_(volume.model), divides_(may_divide_rims(volume, options))
-    {
-        const double source = area_of(volume, Role::source);
-        for (const Role end : {Role::source, Role::target}) {
-            const std::vector<FaceId> faces = volume.faces(end);
-            const std::vector<Rim> walks = rims(model_, faces);
-            std::unordered_map<std::uint64_t, Vec3> out; // from the wall, at each side
-            for (const Rim& rim : walks) {
-                for (const EdgeUse& use : rim.uses) {
-                    const std::vector<Index> points = use_points(model_, use);
-                    for (std::size_t i = 0; i + 1 < points.size(); ++i)
-                        out.emplace(directed_key(points[i], points[i + 1]), Vec3::Zero());
-                }
-            }
-            for (const FaceId wall : volume.faces(Role::wall)) {
-                for (const Triangle& t : model_[wall].triangles) {
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const auto side = out.find(directed_key(t[(k + 1) % 3], t[k]));
-                        if (side == out.end()) continue;
-                        const Vec3 along = (model_.at(t[(k + 1) % 3]) - model_.at(t[k])).stableNormalized();
-                        const Vec3 up = model_.at(t[(k + 2) % 3]) - model_.at(t[k]);
-                        side->second = (up.dot(along) * along - up).stableNormalized();
-                    }
-                }
-            }
-            const double area = area_of(volume, end), scale = std::sqrt(area / source);
-            Vec3 across = Vec3::Zero();
-            for (const FaceId face : faces) across += face_area_vector(model_, face);
-            area_ += across.norm();
-            for (const Rim& rim : walks) {
-                for (const EdgeUse& use : rim.uses) read(use, out, size, scale, options);
-            }
-        }
-    }
-
-    /// Share of the sections' area.
-    [[nodiscard]] double lost(int per_turn, const surface::RimBreaks& breaks) const
-    {
-        double lost = 0;
-        for (const Piece& piece : pieces_) {
-            const auto followed = breaks.edges.find(piece.edge);
-            if (followed != breaks.edges.end()) {
-                lost += lost_between(piece, followed->second);
-                continue;
-            }
-            for (const Bend& bend : piece.bends) {
-                const double arc = 2 * std::numbers::pi / per_turn * bend.length / bend.size;
-                lost += piece.part * lost_by(bend.turn, std::min({bend.side, arc, piece.arc.back()}));
-            }
-        }
-        return area_ > 0 ? lost / area_ : 0;
-    }
-
-private:
-    struct Bend {
-        double turn = 0;   ///< in the section, positive outwards [radian]
-        double size = 0;   ///< of the turn in space
-        double length = 0; ///< of the rim that it stands for
-        double side = 0;   ///< by the size
-    };
-    struct Piece {
-        EdgeId edge;
-        std::vector<Vec3> line;
-        std::vector<double> arc;
-        Vec3 normal = Vec3::Zero(); ///< of the section there, in the mean
-        bool reversed = false;
-        double part = 1; ///< of what straight sides lose
-        std::vector<Bend> bends;
-    };
-
-    void read(EdgeUse use, const std::unordered_map<std::uint64_t, Vec3>& out, const surface::SizeField& size,
-              double scale, const SweepOptions& options)
-    {
-        const Edge& edge = model_[use.edge];
-        if (edge.keeps_nodes && !divides_) return;
-        const std::vector<Index> points = use_points(model_, use);
-        Piece piece{use.edge,
-                    places_at(model_, points),
-                    {},
-                    Vec3::Zero(),
-                    use.reversed,
-                    by_order(edge.curve != nullptr, options),
-                    {}};
-        const std::vector<Vec3>& line = piece.line;
-        piece.arc = geometry::arc_lengths(line);
-        const std::size_t sides = line.size() - 1;
-        const auto facet = [&](std::size_t i) { return out.at(directed_key(points[i], points[i + 1])); };
-        for (std::size_t i = 0; i < sides; ++i) piece.normal += facet(i) * (line[i + 1] - line[i]).norm();
-        const bool closed = edge.from == edge.to;
-        // The half sides at the ends of an exact curve bend as the others do.
-        const double all = edge.curve != nullptr && !closed && sides > 1
-                               ? static_cast<double>(sides) / static_cast<double>(sides - 1)
-                               : 1;
-        for (std::size_t i = closed ? 0 : 1; i < sides; ++i) {
-            const std::size_t before = i > 0 ? i - 1 : sides - 1;
-            const Vec3 in = line[before + 1] - line[before], out = line[i + 1] - line[i];
-            const double angle = geometry::angle_between(in, out);
-            if (!(angle > 0)) continue;
-            const Vec3 axis = in.cross(out).stableNormalized();
-            const double turn = axis.dot((facet(before) + facet(i)).stableNormalized()) * angle;
-            piece.bends.push_back(
-                {all * turn, all * angle, all * (in.norm() + out.norm()) / 2, scale * size(line[i])});
-        }
-        pieces_.push_back(std::move(piece));
-    }
-
-    /// The area between the facets of an edge and the chords between the vertices that it keeps.
-    static double lost_between(const Piece& piece, const std::vector<double>& kept)
-    {
-        const Vec3 up = piece.normal.stableNormalized();
-        std::vector<double> ends = kept;
-        if (piece.reversed)
-            for (double& at : ends) at = 1 - at;
-        std::ranges::sort(ends);
-        ends.push_back(1);
-        double twice = 0;
-        std::size_t from = 0, next = 0;
-        for (std::size_t i = 1; i < piece.line.size(); ++i) {
-            const Vec3 &a = piece.line[i - 1] - piece.line[from], &b = piece.line[i] - piece.line[from];
-            twice += a.cross(b).dot(up);
-            if (piece.arc[i] < ends[next] * piece.arc.back() * (1 - 1e-9)) continue;
-            from = i;
-            ++next;
-        }
-        return piece.part * twice / 2;
-    }
-
-    const Model& model_;
-    bool divides_; ///< sides between given nodes
-    double area_ = 0;
-    std::vector<Piece> pieces_;
-};
-
 /// What an end loses by its own bends, but for creases between nodes of its rims.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
@@ -203,7 +73,11 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
     double lost = 0;
     for (const FaceId id : volume.faces(end)) {
         const Face& face = model[id];
-        if (face.kind == "plane") continue;
+        // Sides of order 2 are on exact surfaces. On facets they may have been kept straight for the cells.
+        if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
+        // Quads are laid out in the plane.
+        const double steep = std::sqrt(face_area(model, id) / face_area_vector(model, id).norm());
+        const double longer = scale * kLonger * std::min(steep, kSteepest);
         std::unordered_map<std::uint64_t, const Triangle*> first;
         for (const Triangle& t : face.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -215,8 +89,7 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
                 const double turn = std::atan2(beside.cross(own).dot(side.stableNormalized()),
                                                own.dot(beside));
                 if (turn == 0) continue;
-                lost += by_order(face.surface != nullptr, options) * -side.norm() *
-                        lost_by(turn, scale * size((model.at(a) + model.at(b)) / 2));
+                lost -= side.norm() * lost_by(turn, longer * size((model.at(a) + model.at(b)) / 2));
             }
         }
     }
@@ -232,42 +105,306 @@ double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const
                     closure::enclosed_volume(volume));
 }
 
-/// Points up the walls: rings of columns, one for each linking surface whose walls bend on the way.
-std::vector<std::vector<std::vector<Vec3>>> bent_rings(const OpenVolume& volume,
-                                                       std::span<const surface::LinkingSurface> links,
-                                                       int steps, const RunContext& context)
-{
-    constexpr std::size_t kRing = 3;
-    std::vector<std::vector<std::vector<Vec3>>> rings;
-    for (const surface::LinkingSurface& link : links) {
-        surface::LinkingSurface own = link;
-        if (own.lines.size() < kRing) own.lines.clear(); // a seam or two say nothing of what is between
-        auto columns = surface::wall_columns(volume, own, steps, context, surface::kAnyLonger);
-        if (columns.size() >= kRing) rings.push_back(std::move(columns));
-    }
-    return rings;
-}
+/// Six times the volume of a tetrahedron with its fourth corner in the origin.
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// What a ring encloses between some of its rows but for its ends.
-double enclosed(const std::vector<std::vector<Vec3>>& ring, int rows)
-{
-    const auto steps = static_cast<double>(ring.front().size() - 1);
-    const auto at = [&](std::size_t column, int row) -> Vec3 {
-        const double place = steps * row / rows;
-        const auto i = std::min(static_cast<std::size_t>(place), ring.front().size() - 2);
-        const std::vector<Vec3>& points = ring[column];
-        return points[i] + (place - static_cast<double>(i)) * (points[i + 1] - points[i]) - ring[0][0];
-    };
-    double sum = 0;
-    for (std::size_t c = 0; c < ring.size(); ++c) {
-        const std::size_t next = (c + 1) % ring.size();
-        for (int row = 0; row < rows; ++row) {
-            const Vec3 a = at(c, row), b = at(next, row), d = at(c, row + 1), e = at(next, row + 1);
-            sum += (a.dot(b.cross(e) + e.cross(d) + b.cross(d)) + b.dot(e.cross(d))) / 12;
+/// Sides of a mesh: for a full turn, and by a part of the size asked for.
+struct Sides {
+    int per_turn = 0; ///< 0: as many as the model of the walls has columns
+    double part = 1;
+};
+
+/// Rows of points round the walls of each linking surface, many more than a mesh has. A mesh takes places
+/// between them: what it encloses is summed up quad by quad, with cones from one point over the target's rims
+/// and from another, the origin, over the source's.
+class Walls {
+public:
+    Walls(const OpenVolume& volume, std::vector<surface::LinkingSurface> links, const SweepOptions& options,
+          const surface::SizeField& size)
+        : volume_(volume),
+          links_(std::move(links)),
+          whole_(closure::enclosed_volume(volume)),
+          curved_(options.order > 1 && std::ranges::none_of(volume.faces(Role::wall), [&](FaceId wall) {
+                      const Face& face = volume.model[wall];
+                      return face.surface == nullptr && face.origin == Origin::given;
+                  }))
+    {
+        const bool divides = may_divide_rims(volume, options);
+        for (const surface::LinkingSurface& link : links_) {
+            Ring& ring = rings_.emplace_back();
+            const std::vector<double> turning = surface::turning_of_segments(volume.model, link);
+            std::vector<int> counts;
+            int first = 0;
+            for (const surface::RimSegment& segment : link.segments) {
+                const double length = segment.source_to - segment.source_from;
+                const bool fixed = segment.given && !divides;
+                const double fine = fixed ? 1 : std::ceil(kColumns * length / link.source.length());
+                const double middle[] = {(segment.source_from + segment.source_to) / 2};
+                ring.segments.push_back({first, static_cast<int>(fine), fixed,
+                                         length / size(link.source.points(middle).front()),
+                                         turning[counts.size()]});
+                counts.push_back(static_cast<int>(fine));
+                first += counts.back();
+            }
+            ring.nodes = surface::linking_nodes(link, counts);
+            ring.rows = surface::wall_rows(volume, link, ring.nodes, 1, {});
+        }
+        origin_ = rings_.front().rows.front().front();
+        apex_ = rings_.front().rows.back().front() - origin_;
+        for (std::size_t b = 0; b < rings_.size(); ++b) {
+            double own = 0; // of the walls as they are
+            for (const FaceId wall : links_[b].walls) {
+                for (const Triangle& t : volume.model[wall].triangles)
+                    own += six_volumes(volume.model.at(t[0]) - origin_, volume.model.at(t[1]) - origin_,
+                                       volume.model.at(t[2]) - origin_);
+            }
+            double found = rings_[b].within = enclosed(rings_[b], {}, 0, 1);
+            for (const EdgeUse use : links_[b].target.uses()) {
+                const std::vector<Vec3> line = places_at(volume.model, use_points(volume.model, use));
+                for (std::size_t i = 0; i + 1 < line.size(); ++i)
+                    found -= six_volumes(apex_, line[i] - origin_, line[i + 1] - origin_);
+            }
+            rings_[b].sign = found * own < 0 ? -1 : 1;
+            straight_ = straight_ && std::abs(rings_[b].sign * found - own) < 6 * kStraight * whole_;
         }
     }
-    return sum;
-}
+
+    /// Whether the walls are straight lines between the rims.
+    [[nodiscard]] bool straight() const { return straight_; }
+
+    /// Put the points between the rims onto the walls.
+    void follow(const RunContext& context)
+    {
+        for (std::size_t b = 0; b < rings_.size(); ++b) {
+            rings_[b].rows = surface::wall_rows(volume_, links_[b], rings_[b].nodes, kRows, context);
+            rings_[b].within = enclosed(rings_[b], {}, 0, 1);
+        }
+    }
+
+    /// Share of the volume by which a mesh has more than the walls enclose; negative: less.
+    /// @param layers  0: as many as there are rows.
+    [[nodiscard]] double off(const Sides& sides, int layers) const
+    {
+        double sum = 0;
+        for (const Ring& ring : rings_) {
+            double own = enclosed(ring, sides, layers, 1);
+            // A parabola through the middle of a side encloses a third more than the two halves.
+            if (curved_) own += 4. / 3 * (enclosed(ring, sides, layers, 2) - own);
+            sum += ring.sign * (own - ring.within);
+        }
+        return sum / (6 * whole_);
+    }
+
+private:
+    struct Segment {
+        int first = 0, fine = 1; ///< columns up to its start, and from there to its end
+        bool fixed = false;      ///< one side, whatever is asked for
+        double by_size = 1;      ///< sides
+        double turn = 0;         ///< of the rim [radian]
+
+        [[nodiscard]] int count(const Sides& sides, int parts) const
+        {
+            if (fixed || sides.per_turn == 0) return fine;
+            const double bends = turn * sides.per_turn / (2 * std::numbers::pi);
+            const double most = fine; // more are as good
+            return parts * static_cast<int>(
+                               std::lround(std::clamp(std::max(by_size / sides.part, bends), 1.0, most)));
+        }
+    };
+    struct Ring {
+        std::vector<Segment> segments;
+        surface::LinkingNodes nodes;
+        std::vector<std::vector<Vec3>> rows;
+        double sign = 1;   ///< of what it encloses
+        double within = 0; ///< six times what all of it encloses
+    };
+
+    /// Six times what a mesh of the ring encloses.
+    /// @param layers  0: all rows. @param parts  of each side and layer.
+    [[nodiscard]] double enclosed(const Ring& ring, const Sides& of, int layers, int parts) const
+    {
+        std::vector<double> places; // of the mesh's columns among those of a row
+        for (const Segment& segment : ring.segments) {
+            const int sides = segment.count(of, parts);
+            for (int i = 0; i < sides; ++i)
+                places.push_back(segment.first + static_cast<double>(i) * segment.fine / sides);
+        }
+        const std::size_t steps = ring.rows.size() - 1, rows = layers == 0 ? steps : index(layers * parts);
+        const auto row = [&](std::size_t k) {
+            const double up = static_cast<double>(steps * k) / static_cast<double>(rows);
+            const std::size_t below = std::min(static_cast<std::size_t>(up), steps - 1);
+            const std::vector<Vec3>&a = ring.rows[below], &b = ring.rows[below + 1];
+            const double f = up - static_cast<double>(below);
+            std::vector<Vec3> points;
+            for (const double place : places) {
+                const std::size_t i = static_cast<std::size_t>(place), next = (i + 1) % a.size();
+                const double g = place - static_cast<double>(i);
+                points.emplace_back((1 - f) * ((1 - g) * a[i] + g * a[next]) +
+                                    f * ((1 - g) * b[i] + g * b[next]) - origin_);
+            }
+            return points;
+        };
+        double sum = 0;
+        std::vector<Vec3> low = row(0);
+        for (std::size_t k = 1; k <= rows; ++k) {
+            std::vector<Vec3> high = row(k);
+            for (std::size_t i = 0; i < low.size(); ++i) {
+                const std::size_t next = (i + 1) % low.size();
+                const Vec3 &a = low[i], &b = low[next], &d = high[i], &e = high[next];
+                sum += (six_volumes(a, b, e) + six_volumes(a, e, d) + six_volumes(a, b, d) +
+                        six_volumes(b, e, d)) /
+                       2;
+                if (k == rows) sum += six_volumes(apex_, d, e);
+            }
+            low = std::move(high);
+        }
+        return sum;
+    }
+
+    const OpenVolume& volume_;
+    std::vector<surface::LinkingSurface> links_;
+    double whole_ = 0;
+    bool curved_ = false; ///< sides are of order 2 and on exact walls; on facets they may be kept straight
+    Vec3 origin_, apex_;
+    std::vector<Ring> rings_;
+    bool straight_ = true;
+};
+
+/// Tries numbers of sides on the model of the walls.
+class Planner {
+public:
+    Planner(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
+            const SweepOptions& options, const surface::SizeField& size, const RunContext& context)
+        : volume_(volume),
+          links_(links),
+          options_(options),
+          size_(size),
+          context_(context),
+          facets_(volume, links)
+    {
+    }
+
+    VolumePlan by_default()
+    {
+        on_ends_ = lost_on_ends(volume_, options_, size_, {});
+        Sides sides{options_.curvature};
+        const double quads = area_of(volume_, Role::source) / std::pow(size_(volume_.model.points[0]), 2);
+        const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
+        if (is_enough(sides) || is_enough({kMostPerTurn})) {
+            while (!is_enough(sides)) ++sides.per_turn;
+            const int enough = sides.per_turn; // but for creases across an end
+            while (ends_ > kLostByEnds && sides.per_turn < std::max(enough, kMostForCreases)) {
+                ++sides.per_turn;
+                if (!is_enough(sides)) break;
+            }
+            if (ends_ > kLostByEnds) sides.per_turn = enough;
+        } else { // walls bend more than their rims, which turns do not see
+            while (sides.part > least && !is_enough(sides)) sides.part *= kSmaller;
+        }
+        is_enough(sides);
+        find_walls();
+        const double most = std::max(kLostByEnds, left() - std::abs(walls_->off(sides, 0)));
+        if (ends_ > most) sides.part = std::min(sides.part, std::max(std::sqrt(most / ends_), least));
+        return {sides.per_turn, sides.part, layers(sides, kLostByLayers)};
+    }
+
+    /// Sides that lose six tenths of the share allowed, where those asked for lose too much: the rest is for
+    /// the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area. More where that is
+    /// not enough, as long as each step clearly helps.
+    VolumePlan by_numbers()
+    {
+        constexpr double kOfShare = 0.6, kHelps = 0.75;
+        const double share = options_.volume_share;
+        const double turn2 = 2 * std::numbers::pi * std::numbers::pi;
+        const auto wanted = static_cast<int>(std::ceil(std::sqrt(turn2 / (3 * kOfShare * share))));
+        follow({});
+        int sides = options_.curvature;
+        if (lost_on_ends(volume_, options_, size_, {}) > share)
+            on_ends_ = lost_on_ends(volume_, options_, surface::shape_size(volume_, size_, {sides, 0}).at,
+                                    {});
+        for (double lost = lost_by_numbers(sides); lost > share;) {
+            const int more = std::max(sides + sides / 4 + 1, wanted);
+            const double left = lost_by_numbers(more);
+            if (more > kMostPerTurn || left > kHelps * lost) break;
+            sides = more;
+            lost = left;
+        }
+        const bool counted = options_.layers.count > 0 || !options_.layers.heights.empty();
+        if (counted) return {.per_turn = sides};
+        return {sides, 1, layers({sides}, share)};
+    }
+
+private:
+    /// Share lost on the rims, or on ends whose quads follow the sides of their rims.
+    double lost_by_numbers(int per_turn)
+    {
+        const double fewer = static_cast<double>(options_.curvature) / per_turn;
+        return std::max(std::abs(rims_->off({per_turn, kFewer}, 0)), on_ends_ * fewer * fewer);
+    }
+
+    /// Model the walls of a mesh with nodes at breaks.
+    void follow(const surface::RimBreaks& breaks)
+    {
+        if (rims_ && breaks.pairs == pairs_ && breaks.on_crease == on_crease_) return;
+        pairs_ = breaks.pairs;
+        on_crease_ = breaks.on_crease;
+        std::vector<surface::LinkingSurface> followed(links_.begin(), links_.end());
+        if (!pairs_.empty()) surface::follow_facets(breaks, followed);
+        rims_ = std::make_shared<Walls>(volume_, std::move(followed), options_, size_);
+        walls_ = nullptr;
+    }
+
+    /// What the bends of the sweep leave.
+    [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
+
+    /// Whether sides are enough on the rims and, where the walls bend between these, there.
+    bool is_enough(const Sides& sides)
+    {
+        const surface::RimBreaks breaks = facets_.breaks(sides.per_turn, size_);
+        follow(breaks);
+        ends_ = on_ends_ > kLostByEnds && !breaks.points.empty()
+                    ? lost_on_ends(volume_, options_, size_, breaks.points)
+                    : on_ends_;
+        const double share = left() - std::min(kLostByEnds, ends_);
+        if (std::abs(rims_->off(sides, 0)) > share) return false;
+        find_walls();
+        return std::abs(walls_->off(sides, 0)) <= share;
+    }
+
+    void find_walls()
+    {
+        if (walls_) return;
+        walls_ = rims_;
+        if (rims_->straight()) return;
+        walls_ = std::make_shared<Walls>(*rims_);
+        walls_->follow(context_);
+    }
+
+    /// As many layers as the walls' bends lose no more than a share by.
+    std::function<int(int)> layers(const Sides& sides, double share)
+    {
+        find_walls();
+        if (walls_->straight()) return {};
+        return [walls = walls_, sides, share](int least) {
+            const double whole = walls->off(sides, 0);
+            int count = least;
+            while (count < kMostLayers && std::abs(walls->off(sides, count) - whole) > share)
+                count += 1 + count / 16;
+            return count;
+        };
+    }
+
+    const OpenVolume& volume_;
+    std::span<const surface::LinkingSurface> links_;
+    const SweepOptions& options_;
+    const surface::SizeField& size_;
+    const RunContext& context_;
+    surface::RimFacets facets_;
+    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< of the breaks followed
+    std::vector<char> on_crease_;
+    double on_ends_ = 0, ends_ = 0;       ///< lost there, without breaks and with those followed
+    std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as they are
+};
 
 } // namespace
 
@@ -291,87 +428,12 @@ surface::SizeField even_size(double length)
 
 double volume_lost(const Fidelity& fidelity) { return 1 - fidelity.volume / fidelity.sealed_volume; }
 
-int sides_for_volume(double share, int before)
+VolumePlan plan_volume(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
+                       const SweepOptions& options, const surface::SizeField& size, const RunContext& context)
 {
-    constexpr double kOfShare = 0.6;
-    const double wanted = std::sqrt(2 * std::numbers::pi * std::numbers::pi / (3 * kOfShare * share));
-    return std::max(before + before / 4 + 1, static_cast<int>(std::ceil(wanted)));
-}
-
-std::optional<int> sides_for_lost_volume(const Fidelity& fidelity, const SweepOptions& options)
-{
-    if (options.volume_share == 0 || options.curvature == 0 || sizes_by_default(options) ||
-        volume_lost(fidelity) <= options.volume_share)
-        return std::nullopt;
-    const int sides = sides_for_volume(options.volume_share, options.curvature);
-    return sides > kMostPerTurn ? std::nullopt : std::optional(sides);
-}
-
-bool is_closer(double after, double before)
-{
-    constexpr double kLessLost = 0.75; // a choice, not a measurement
-    return after <= kLessLost * before;
-}
-
-int planned_sides(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
-                  const SweepOptions& options, const surface::SizeField& size)
-{
-    if (options.volume_share == 0 || options.curvature == 0) return options.curvature;
-    const Rims rims(volume, options, size);
-    if (!sizes_by_default(options)) {
-        const bool enough = std::abs(rims.lost(options.curvature, {})) <= options.volume_share;
-        return enough ? options.curvature : sides_for_volume(options.volume_share, options.curvature);
-    }
-    surface::RimFacets facets(volume, links);
-    const double on_ends = lost_on_ends(volume, options, size, {});
-    const bool bent = std::ranges::any_of(
-        links, [&](const surface::LinkingSurface& link) { return surface::walls_bend(volume, link); });
-    std::optional<int> enough; // for the rims
-    for (int sides = options.curvature; sides <= (enough ? kMostForCreases : kMostPerTurn); ++sides) {
-        const surface::RimBreaks breaks = facets.breaks(sides, size);
-        const bool follows = on_ends > kLostByEnds && !breaks.points.empty();
-        const double ends = follows ? lost_on_ends(volume, options, size, breaks.points) : on_ends;
-        const double left = kAllLost - std::min(kLostByEnds, ends) - (bent ? kLostByLayers : 0);
-        if (std::abs(rims.lost(sides, breaks)) > left) continue;
-        if (ends <= kLostByEnds) return sides;
-        if (!enough) enough = sides;
-    }
-    return enough.value_or(kMostPerTurn);
-}
-
-double planned_part_of_size(const OpenVolume& volume, KnownLinks& links, const SweepOptions& options,
-                            const surface::SizeField& size, const RunContext& context)
-{
-    double lost = lost_on_ends(volume, options, size, {});
-    if (lost > kLostByEnds) {
-        const std::vector<surface::LinkingSurface> own = links.of(volume, context);
-        const surface::RimBreaks breaks = surface::RimFacets(volume, own).breaks(options.curvature, size);
-        lost = lost_on_ends(volume, options, size, breaks.points);
-    }
-    return lost <= kLostByEnds ? 1 : std::max(kLeastPart, std::sqrt(kLostByEnds / lost));
-}
-
-int planned_layers(const OpenVolume& volume, std::span<const surface::LinkingSurface> links, int least,
-                   const SweepOptions& options, const RunContext& context)
-{
-    constexpr int kSteps = 64;
-    const std::vector<FaceId> walls = volume.faces(Role::wall);
-    const bool exact = std::ranges::all_of(walls, [&](FaceId f) {
-        return volume.model[f].surface != nullptr || volume.model[f].origin == Origin::made_void;
-    });
-    const double part = by_order(exact, options) / closure::enclosed_volume(volume);
-    if (part == 0) return least;
-    const auto rings = bent_rings(volume, links, kSteps, context);
-    const auto sum = [&](int rows) {
-        double all = 0;
-        for (const auto& ring : rings) all += enclosed(ring, rows);
-        return all;
-    };
-    if (rings.empty()) return least;
-    const double whole = sum(kSteps);
-    int layers = least;
-    while (layers < kMostLayers && std::abs(part * (whole - sum(layers))) > kLostByLayers) ++layers;
-    return layers;
+    if (options.volume_share == 0 || options.curvature == 0) return {.per_turn = options.curvature};
+    if (sizes_by_default(options)) return Planner(volume, links, options, size, context).by_default();
+    return Planner(volume, links, options, size, context).by_numbers();
 }
 
 } // namespace lacuna::sweep

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/words.h>
 
-#include <lacuna/core/number_text.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <charconv>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/team/tasks.h>
+#include <lacuna/team/shared/tasks.h>
 
-#include <lacuna/io/deck.h>
-#include <lacuna/io/layered.h>
-#include <lacuna/quality/layered.h>
+#include <lacuna/io/mesh_file.h>
+#include <lacuna/quality/shared/layered.h>
 
 #include <algorithm>
 #include <deque>
@@ -107,30 +106,20 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
     std::vector<io::LayeredField> fields;
     for (const quality::Metric metric : file.quality)
         fields.push_back(field_of(layered, metric, average, context));
-    const std::string ending = io::ending_of(path.text());
-    if (ending == ".msh")
-        io::write_msh(layered, path, {file.binary, file.version, {}, file.partition, file.all_groups}, fields,
-                      context, team);
-    else if (ending == ".vtu")
-        io::write_vtu(layered, path, fields, context, team);
-    else if (ending == ".pvtu")
-        io::write_pvtu(layered, path, file.partition, fields, context, team);
-    else if (ending == ".vtk")
-        io::write_vtk(layered, path, {file.binary}, fields, context, team);
-    else if (io::DeckFormat format{}; io::find_deck_format(ending, format) && io::is_layered(format))
-        io::write_deck(layered, {.format = format, .material = file.material}, path, context, team);
-    else
-        throw InvalidInput("io.not_layered", path.text() + ": this format cannot be written layer by layer");
+    io::write_mesh(io::needed_mesh_format("sweep_to", path.text()), layered, path,
+                   {.binary = file.binary,
+                    .version = file.version,
+                    .partition = file.partition,
+                    .all_groups = file.all_groups},
+                   {.material = file.material}, fields, context, team);
 }
 
 void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath& path,
                  const LayeredFile& file, const Team* team, const RunContext& context)
 {
-    io::DeckFormat format{};
-    io::find_deck_format(io::ending_of(path.text()), format);
-    const io::DeckFileOptions options{
-        .binary = file.binary, .msh_version = file.version, .all_groups = file.all_groups};
-    io::write_parts(parts, format, options, path, context, team);
+    io::write_parts(io::needed_mesh_format("sweep_to", path.text()), parts, path,
+                    {.binary = file.binary, .msh_version = file.version, .all_groups = file.all_groups},
+                    context, team);
 }
 
 void help_write_parts(const std::string& bytes, const Team& team, const RunContext& context)
@@ -154,19 +143,6 @@ void help_write_parts(const std::string& bytes, const Team& team, const RunConte
 }
 
 } // namespace
-
-bool is_layered_of_parts(const std::string& ending)
-{
-    io::DeckFormat format{};
-    return io::find_deck_format(ending, format) && io::is_layered_of_parts(format);
-}
-
-bool is_layered(const std::string& ending)
-{
-    io::DeckFormat format{};
-    return ending == ".msh" || ending == ".vtu" || ending == ".pvtu" || ending == ".vtk" ||
-           (io::find_deck_format(ending, format) && io::is_layered(format));
-}
 
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context)

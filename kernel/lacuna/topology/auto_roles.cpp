@@ -5,12 +5,12 @@
 // adds them up.
 #include <lacuna/topology/auto_roles.h>
 
-#include <lacuna/core/marks.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/core/shared/marks.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/detail/wall_tally.h>
-#include <lacuna/topology/names_of.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,6 @@
 #include <map>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace lacuna::topology {
 

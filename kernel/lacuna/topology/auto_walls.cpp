@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/auto_walls.h>
+#include <lacuna/topology/shared/auto_walls.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/list_text.h>
-#include <lacuna/geometry/union_find.h>
-#include <lacuna/topology/hollows.h>
+#include <lacuna/core/shared/list_text.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <algorithm>
 #include <cmath>

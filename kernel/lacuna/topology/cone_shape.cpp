@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/cone_shape.h>
+#include <lacuna/topology/shared/cone_shape.h>
 
-#include <lacuna/geometry/spread.h>
+#include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Dense>
 

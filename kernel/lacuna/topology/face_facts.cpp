@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/face_facts.h>
+#include <lacuna/topology/shared/face_facts.h>
 
 #include <lacuna/topology/open_volume.h>
 

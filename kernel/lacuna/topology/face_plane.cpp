@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/face_plane.h>
+#include <lacuna/topology/shared/face_plane.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/face_radius.h>
+#include <lacuna/topology/shared/face_radius.h>
 
-#include <lacuna/geometry/spread.h>
-#include <lacuna/topology/cone_shape.h>
+#include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/cone_shape.h>
 
 #include <Eigen/Dense>
 

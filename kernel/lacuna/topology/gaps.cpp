@@ -2,9 +2,9 @@
 //
 // Searching the closest edge of another part takes one pair of trees per binary digit of the part numbers:
 // two different parts differ in at least one digit.
-#include <lacuna/topology/gaps.h>
+#include <lacuna/topology/shared/gaps.h>
 
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <algorithm>

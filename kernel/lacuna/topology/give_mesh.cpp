@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

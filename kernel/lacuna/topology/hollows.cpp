@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/hollows.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/facet_tree.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/patches.h>
 #include <lacuna/topology/open_volume.h>
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/left_out.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <lacuna/core/error.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/model.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/list_text.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
 

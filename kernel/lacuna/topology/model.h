@@ -23,7 +23,6 @@ enum class Geometry {
     transfinite, ///< Algorithm 6
     annular,     ///< Algorithm 5: between two closed edges
     followed,    ///< transfinite, blended along the given walls
-    minimal,     ///< least area over its loops
     parallel,    ///< the shape of the given end, moved to the rim of the walls
 };
 

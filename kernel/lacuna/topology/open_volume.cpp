@@ -2,14 +2,11 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/number_text.h>
-#include <lacuna/topology/gaps.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/gaps.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
 #include <set>
 
 namespace lacuna::topology {
@@ -221,16 +218,6 @@ void check_override(const OpenVolume& volume, const Classification& found)
 
 std::string_view to_string(VolumeClass value) { return kClassNames[static_cast<std::size_t>(value)]; }
 
-VolumeClass volume_class(std::string_view name)
-{
-    for (std::size_t i = 0; i < kClassNames.size(); ++i) {
-        if (kClassNames[i] == name) return static_cast<VolumeClass>(i);
-    }
-    throw InvalidInput("topology.unknown_class",
-                       "\"" + std::string(name) +
-                           "\" is no class of open volume; the classes are I, II, III, IV, V and closed");
-}
-
 Model extract(const Model& model, const std::vector<FaceId>& faces)
 {
     Model part;
@@ -416,43 +403,6 @@ std::string name_of(const Model& model, EdgeId edge)
 std::string name_of(const Model& model, VertexId vertex)
 {
     return "vertex " + std::to_string(model[vertex].tag);
-}
-
-namespace {
-
-/// A face whose area vector is a smaller share of its area has no mean normal; a half cylinder has 0.64. Rule
-/// of thumb.
-constexpr double kFacesOneWay = 0.1;
-
-} // namespace
-
-std::string describe(const Model& model)
-{
-    std::string text;
-    std::array<char, 256> line{};
-    std::snprintf(line.data(), line.size(), "%6s  %-10s %5s %5s %12s  %-24s %s\n", "face", "kind", "loops",
-                  "edges", "area", "mean normal", "name");
-    text += line.data();
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const Face& face = model.faces[f];
-        std::size_t edges = 0;
-        for (const Loop& loop : face.loops) edges += loop.uses.size();
-        const Vec3 area = face_area_vector(model, FaceId(f));
-        const double whole = face_area(model, FaceId(f));
-        std::snprintf(line.data(), line.size(), "%6d  %-10s %5zu %5zu %12.6g  ", face.tag, face.kind.c_str(),
-                      face.loops.size(), edges, whole);
-        text += line.data();
-        // Round a whole hole the normals cancel, and the rest is meaningless.
-        if (area.norm() < kFacesOneWay * whole) {
-            std::snprintf(line.data(), line.size(), "%-24s ", "-");
-        } else {
-            const Vec3 n = area.stableNormalized();
-            std::snprintf(line.data(), line.size(), "(%6.3f, %6.3f, %6.3f) ", n.x(), n.y(), n.z());
-        }
-        text += line.data();
-        text += face.name + "\n";
-    }
-    return text;
 }
 
 } // namespace lacuna::topology

@@ -15,8 +15,6 @@ namespace lacuna::topology {
 enum class VolumeClass { closed, I, II, III, IV, V };
 
 std::string_view to_string(VolumeClass value);
-/// @throw InvalidInput for an unknown name.
-VolumeClass volume_class(std::string_view word);
 
 /// Role of a face in the sweep.
 enum class Role { source, target, wall };
@@ -99,9 +97,6 @@ struct Classification {
 /// The class of a volume; an override wins.
 /// @throw InvalidInput  an override that contradicts the faces; says which ones.
 Classification classify(const OpenVolume& volume);
-
-/// One line per face: tag, name, kind, loops, edges, area, normal.
-std::string describe(const Model& model);
 
 /// Name of a face in messages: `face 12`, or `face 12 "lid"`.
 std::string name_of(const Model& model, FaceId face);

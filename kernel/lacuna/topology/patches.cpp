@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/detail/patches.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/angle.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 
 #include <algorithm>

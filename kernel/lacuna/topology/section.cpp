@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/section.h>
+#include <lacuna/topology/shared/section.h>
 
-#include <lacuna/core/edge_key.h>
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/plane.h>
-#include <lacuna/geometry/polyline.h>
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/plane.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
-#include <lacuna/core/edge_key.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <utility>

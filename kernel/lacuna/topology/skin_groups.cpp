@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/skin_groups.h>
+#include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <cctype>

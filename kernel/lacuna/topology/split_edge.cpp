@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/split_edge.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/polyline.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/open_volume.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/use_places.h>
+#include <lacuna/topology/shared/use_places.h>
 
 namespace lacuna::topology {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/detail/wall_tally.h>
 
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 #include <lacuna/view/detail/cell_set.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
-#include <lacuna/quality/metrics.h>
-#include <lacuna/quality/second_order.h>
+#include <lacuna/core/shared/parallel.h>
+#include <lacuna/quality/shared/metrics.h>
+#include <lacuna/quality/shared/second_order.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/page.h>
 
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/cell_set.h>
 #include <lacuna/view/detail/page_file.h>

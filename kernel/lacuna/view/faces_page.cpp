@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/page.h>
 
-#include <lacuna/closure/model_facts.h>
+#include <lacuna/closure/shared/model_facts.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/page_file.h>
 
@@ -34,8 +34,6 @@ const char* word(topology::Geometry geometry)
         return "a strip between two loops";
     case topology::Geometry::followed:
         return "as the walls lead";
-    case topology::Geometry::minimal:
-        return "of least area";
     case topology::Geometry::parallel:
         return "parallel to the other end";
     }

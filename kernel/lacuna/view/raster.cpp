@@ -2,7 +2,7 @@
 #include <lacuna/view/detail/raster.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/parallel.h>
+#include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <cmath>

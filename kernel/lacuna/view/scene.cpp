@@ -2,8 +2,8 @@
 #include <lacuna/view/detail/scene.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/list_text.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/core/shared/list_text.h>
+#include <lacuna/quality/shared/metrics.h>
 #include <lacuna/view/detail/cell_set.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Recipes inside a C++ host: the library `lacuna::interpreter` of the installed package. It needs no header
-// of Lua, and of the kernel's only those of its errors. <lacuna.h> is the same for C and other languages.
+// Runs recipes inside a C++ host: the library `lacuna::interpreter` of the installed package. It needs no Lua
+// headers, and of the kernel only those of its errors. <lacuna.h> is the same for C and other languages.
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/named_entities.h>
@@ -21,95 +21,97 @@ struct lua_State;
 
 namespace lacuna {
 
-struct Crew; // <lacuna/core/team.h>, of the kernel's headers
+struct Crew; // <lacuna/core/shared/team.h>, of the kernel's headers
 
-/// A plain value of a recipe; std::monostate is nil, and stands for whatever is no plain value.
+/// A plain value of a recipe. std::monostate is nil, or a value that is not plain, such as a table.
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct InterpreterOptions {
-    // Callbacks come on the thread that runs the recipe. What they throw stops the run, which throws it on.
-    std::function<void(std::string_view text)> print; ///< what print() writes, line ends and all; empty:
-                                                      ///< to standard output
-    std::function<void(std::string_view line)> log;   ///< notes of the kernel
-    std::function<bool(std::string_view, double)> progress; ///< stage, share in [0, 1]; false stops the run
-    std::function<void()> ended;     ///< the stage told last is over; the recipe goes on
-    std::function<bool()> cancelled; ///< asked every 10,000 instructions and before `progress`; true stops
+    // Callbacks are called on the thread that runs the recipe. An exception stops the run, which rethrows it.
+    std::function<void(std::string_view text)> print;       ///< output of print(), line ends included; empty:
+                                                            ///< standard output
+    std::function<void(std::string_view line)> log;         ///< receives notes of the kernel
+    std::function<bool(std::string_view, double)> progress; ///< stage, fraction in [0, 1]; false: stop
+    std::function<void()> ended;     ///< the last stage has ended; the recipe continues
+    std::function<bool()> cancelled; ///< called every 10,000 instructions and before `progress`; true: stop
 
-    /// Most that Lua's own values may take, 0: no limit [bytes]. Meshes and models are not among them.
+    /// Limit on the memory of Lua's own values, 0: none [bytes]. Meshes and models do not count.
     std::size_t memory = 0;
-    std::uint64_t instructions = 0; ///< most steps of Lua a run may take, to 10,000; 0: no limit
-    bool sandbox = false;           ///< no os, io, debug, package or bytecode; files only as follows
-    std::string output_folder;      ///< with `sandbox`: files are written below it alone; empty: nowhere
-    int threads = 0;                ///< most that a sweep takes which asks for none itself; 0: all cores
-    const Crew* crew = nullptr;     ///< processes that help with layers that are written; null: none
-    bool traceback = false;         ///< ScriptError::traceback is filled in
+    std::uint64_t instructions = 0; ///< limit on the Lua instructions of a run, in steps of 10,000; 0: none
+    bool sandbox = false;           ///< no os, io, debug, package or bytecode; files only as below
+    std::string output_folder;      ///< with `sandbox`: the only folder for output files; empty: none
+    int threads = 0;                ///< default number of threads of a sweep; 0: all cores
+    const Crew* crew = nullptr;     ///< processes that help to write layers; null: none
+    bool traceback = false;         ///< fill ScriptError::traceback
 };
 
-/// A recipe failed. `what()` is the sentence for a person, with file, line and code.
+/// A recipe failed. `what()` is the message for a person, with file, line and code.
 class __attribute__((visibility("default"))) ScriptError : public Error {
 public:
     ScriptError(std::string code, const std::string& text) : Error(std::move(code), text) {}
 
-    std::string message;               ///< what went wrong, without file, line and code
-    std::string file;                  ///< of the recipe; empty: not known
-    int line = 0;                      ///< 0: not known
-    std::vector<NamedEntity> entities; ///< that the message names
+    std::string message;               ///< the message, without file, line and code
+    std::string file;                  ///< the recipe; empty: unknown
+    int line = 0;                      ///< 0: unknown
+    std::vector<NamedEntity> entities; ///< entities named in the message
     std::string traceback;
 };
 
-/// Numbers of a recipe as they lie in memory: what `mesh:coordinates()` and `mesh:cells()` return.
+/// A view of numbers of a recipe, as returned by `mesh:coordinates()` and `mesh:cells()`.
 struct BufferView {
     enum class Type { float64, int32 };
     Type type = Type::float64;
-    const void* data = nullptr; ///< rows × columns numbers, row after row
+    const void* data = nullptr; ///< rows × columns numbers, row by row
     std::size_t rows = 0, columns = 0;
 };
 
-/// A Lua of its own with `lacuna` ready to be required.
+/// A Lua interpreter in which recipes can require `lacuna`.
 ///
-/// Any number may be open at once, each used by one thread at a time. The host's locale, streams and signal
-/// handlers are not touched; numbers are read and written with a decimal point whatever the locale. CAD files
-/// are read by a process that all interpreters share (<lacuna/cad/load.h>).
+/// Several may exist at once; each is used by one thread at a time. The locale, streams and signal handlers
+/// of the host are not changed; numbers always have a decimal point. CAD files are read by a process that all
+/// interpreters share (<lacuna/cad/load.h>).
 ///
-/// Paths name values: globals and their fields, as `mesh`, `mesh.hexes`, `list.1` or `job.faces.2.area`.
+/// Values are named by paths: a global and its fields, such as `mesh`, `mesh.hexes`,
+/// `list.1` or `job.faces.2.area`.
 class __attribute__((visibility("default"))) Interpreter {
 public:
-    /// @throw InvalidInput  the output folder is none; std::bad_alloc
+    /// @throw InvalidInput  the output folder does not exist; std::bad_alloc
     explicit Interpreter(InterpreterOptions options = {});
     ~Interpreter();
     Interpreter(const Interpreter&) = delete;
     Interpreter& operator=(const Interpreter&) = delete;
 
-    /// Run a recipe, "-" for standard input, with `key=value` words for `lacuna.params`.
+    /// Run a recipe, "-" for standard input, with `key=value` words that `lacuna.params` reads.
     /// @return  the first value it returns.
     /// @throw ScriptError; Cancelled; what a callback throws.
     Value run_file(const std::string& path, const std::vector<std::string>& words = {});
-    /// Run the text of a recipe; `name` stands in messages where a file's name would.
+    /// Run a recipe given as text; `name` replaces the file name in messages.
     Value run_string(std::string_view text, const std::string& name = "recipe");
 
-    /// Whether the recipe of the last run_file() asked for its words.
+    /// Whether the recipe of the last run_file() read its words.
     bool words_used();
 
-    /// Stop the run there is, or the next one: it throws Cancelled. From any thread and from signal handlers.
+    /// Stop the current run, or the next one: it throws Cancelled. Callable from any
+    /// thread and from signal handlers.
     void cancel() noexcept;
-    /// Forget a cancel() that no run has met.
+    /// Discard a cancel() that no run has noticed.
     void resume() noexcept;
 
-    /// @throw ScriptError  the path leads through something without fields, or nowhere (get_…, buffer).
+    /// @throw ScriptError  the path leads through a value without fields, or (get_…, buffer) to no value.
     void set(const std::string& path, const Value& value);
     void set_numbers(const std::string& path, const double* numbers, std::size_t count); ///< as an array
     Value get(const std::string& path);
-    /// Lua's word for what is there: "nil", "number", "table"… or a class of Lacuna's: "Mesh", "Buffer".
+    /// The type of a value: "nil", "number", "table"… or a class of Lacuna: "Mesh", "Buffer".
     std::string type_of(const std::string& path);
-    /// An array of numbers, or a buffer's as one row after the other.
+    /// The numbers of an array, or of a buffer row by row.
     std::vector<double> get_numbers(const std::string& path);
-    /// A buffer in place. @pre it stays in a variable of the recipe as long as the view is used.
+    /// View a buffer without copying. @pre a variable of the recipe holds the buffer while the view is used.
     BufferView buffer(const std::string& path);
 
-    // For hosts that know Lua's C API and link the same Lua.
+    // For hosts that use Lua's C API and link the same Lua library.
 
     [[nodiscard]] lua_State* state() const noexcept;
-    /// Call the function under `arguments` values on top of the stack, as a run. Pops them all.
+    /// Call the function below `arguments` values on top of the stack, as a run. Pops them all.
     Value call(int arguments);
 
 private:

@@ -3,7 +3,7 @@
 
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/limits.h>
-#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_protocol/shared/messages.h>
 #include <lacuna/core/run_context.h>
 
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/geometry/exact.h>
-#include <lacuna/geometry/plain_curve.h>
-#include <lacuna/topology/left_out.h>
+#include <lacuna/geometry/shared/plain_curve.h>
+#include <lacuna/topology/shared/left_out.h>
 
 #include <cstdint>
 #include <memory>
@@ -52,8 +52,7 @@ public:
 
     /// The running process that holds the model; null if it has ended.
     [[nodiscard]] std::shared_ptr<Worker> worker() const;
-    /// The handle of the model in `worker`, which reads the files first if it does not hold them. @throw as
-    /// ask()
+    /// The handle of the model in `worker`, which reads the files first if needed. @throw as ask()
     std::uint64_t handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }

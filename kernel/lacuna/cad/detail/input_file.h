@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/cad_protocol/channel.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 #include <lacuna/core/run_context.h>
 
 #include <cstdint>

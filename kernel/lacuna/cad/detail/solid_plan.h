@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/cad/detail/exact_geometry.h>
-#include <lacuna/cad_protocol/messages.h>
+#include <lacuna/cad_protocol/shared/messages.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <map>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/cad/limits.h>
-#include <lacuna/cad_protocol/channel.h>
+#include <lacuna/cad_protocol/shared/channel.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/run_context.h>
 

@@ -8,8 +8,8 @@
 
 namespace lacuna::cad_worker {
 
-/// Piecewise linear, increasing map from a surface parameter to grid coordinates, in which grid lines are at
-/// integers.
+/// Piecewise linear, increasing map from a surface parameter to grid coordinates, in
+/// which grid lines are at integers.
 class GridAxis {
 public:
     GridAxis() = default;

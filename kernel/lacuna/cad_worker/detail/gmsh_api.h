@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Wrappers for the differences between versions of Gmsh's API. Only sources of this folder include this
-/// file.
+/// Wrappers for the differences between versions of Gmsh's API. Only sources of
+/// this folder include this file.
 
 #include <gmsh.h>
 

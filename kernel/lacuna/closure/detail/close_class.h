@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/close.h>
-#include <lacuna/closure/follow.h>
+#include <lacuna/closure/shared/follow.h>
 
 #include <vector>
 

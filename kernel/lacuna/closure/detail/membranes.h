@@ -13,8 +13,7 @@ namespace lacuna::closure {
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
-/// Whether a face is off every quadratic height over its rim's plane, however little it bends, or has minimal
-/// area.
+/// Whether a face is off every quadratic height over its rim's plane, however little it bends.
 bool bends_off_quadratic(const topology::Model& model, FaceId face);
 
 /// Whether a face's rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two planes among

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/void_geometry.h>
-#include <lacuna/geometry/triangulate.h>
+#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/geometry/shared/triangulate.h>
 
 #include <vector>
 

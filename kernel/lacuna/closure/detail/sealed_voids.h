@@ -49,16 +49,9 @@ bool leaves_open(const Sealed& sealed);
 std::vector<FaceId> as_named(const topology::Roles& roles);
 
 /// The candidates, sealed and grouped by the volume they enclose.
-/// @param most     number of candidates to seal
-/// @param settled  exclude those that close with a membrane; those that do not seal count towards `most`
+/// @param most  number of candidates to seal
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
-                        std::size_t most, bool settled, const RunContext& context);
-
-/// The only void that step-free candidates, however unlikely, close without a membrane; empty if there are
-/// several. Only candidates whose two ends reach the rim of the missing face count, because only they
-/// determine its bend.
-std::optional<Void> settled_void(const topology::Model& model, const std::vector<FaceId>& faces,
-                                 std::vector<topology::RoleCandidate> candidates, const RunContext& context);
+                        std::size_t most, const RunContext& context);
 
 /// Use the voids that follow from moving a given end to the missing one: keep those that candidates found
 /// too, otherwise the moved ones.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/void_geometry.h>
+#include <lacuna/closure/shared/void_geometry.h>
 
 #include <vector>
 

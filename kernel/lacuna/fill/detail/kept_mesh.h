@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/fill/filled.h>
-#include <lacuna/io/mesh_skin.h>
+#include <lacuna/io/shared/mesh_skin.h>
 
 #include <memory>
 #include <string>

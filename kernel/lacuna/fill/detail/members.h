@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/closure/steps.h>
+#include <lacuna/closure/shared/steps.h>
 #include <lacuna/fill.h>
 
 #include <string>

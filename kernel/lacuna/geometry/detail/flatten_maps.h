@@ -7,51 +7,52 @@
 #include <span>
 #include <vector>
 
-/// The maps that `flatten()` chooses from. Private to this folder.
+/// The maps that `flatten()` tries. Private to this folder.
 namespace lacuna::geometry::flat {
 
-/// A triangle's shape in the plane, and what follows from it.
+/// The shape of a triangle in the plane, with derived quantities.
 struct Shape {
-    double area = 0;              ///< kept above what rounding can bear
+    double area = 0;              ///< limited from below, against rounding
     std::array<Vec2, 3> gradient; ///< of the hat function of each corner
-    bool thin = false;            ///< of no area to half the digits of a double
+    bool thin = false;            ///< degenerate: its area is zero to half the digits of a double
 };
 
-/// Facets with points numbered densely.
+/// Facets with consecutive point numbers.
 struct Facets {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
-    std::vector<std::vector<Index>> loops; ///< boundary, the longest first, facets on the left
+    std::vector<std::vector<Index>> loops; ///< boundary loops, longest first, facets on the left
     std::vector<Shape> shapes;
     double area = 0;
 };
 
 using Positions = std::vector<Vec2>;
 
-/// Set `shapes` and `area`.
+/// Compute `shapes` and `area`.
 void measure_shapes(Facets& facets);
 
-/// Gradient of the map from a triangle to where its corners lie in the plane.
+/// Gradient of the map from a triangle to the plane.
 Eigen::Matrix2d jacobian(const Facets& facets, std::size_t triangle, const Positions& positions);
-/// Largest and smallest singular value, the smallest signed as the determinant.
+/// Largest and smallest singular value; the smallest has the sign of the determinant.
 std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 
-/// Least squares conformal map, scaled to the facets' area.
+/// Least squares conformal map, scaled to the area of the facets.
 Positions conformal(const Facets& facets);
-/// As rigid as possible, started from `positions`.
+/// As-rigid-as-possible map, starting from `positions`.
 Positions as_rigid_as_possible(const Facets& facets, Positions positions, int max_iterations, double settled);
-/// Least symmetric Dirichlet energy, started from `positions`, which come back if they turn a facet over.
+/// Map of least symmetric Dirichlet energy, starting from `positions`; these are
+/// returned if they flip a triangle.
 Positions injective(const Facets& facets, Positions positions, int max_iterations, double settled);
-/// Harmonic map onto a disc of the facets' area, holes filled meanwhile.
+/// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);
 
-/// Facets with two loops onto a ring of the plane, the longer loop outside. The logarithm of the radii goes
-/// with a harmonic height, over such a range that small circles stay as round as one number can make them;
-/// the angles are harmonic, on both loops by their lengths. Empty where the ring would be too wide.
+/// Map facets with two loops to a plane ring with the longer loop outside. The logarithm of the radius is
+/// proportional to a harmonic height, scaled to keep small circles round on average. The angle is harmonic,
+/// and proportional to arc length on both loops. Empty if the ratio of the radii would be too large.
 /// @pre  two loops
 Positions ring(const Facets& facets);
 
-/// Scale about the mean so that the triangles' signed areas sum to the facets' area.
+/// Scale about the mean so that the signed areas of the triangles sum to the area of the facets.
 void scale_to_area(const Facets& facets, Positions& positions);
 
 } // namespace lacuna::geometry::flat

@@ -11,24 +11,24 @@
 
 namespace lacuna::geometry {
 
-/// A sparse matrix of a diffusion kind, to be solved with in time linear in its size.
+/// Solver for sparse matrices from diffusion problems, linear in their size.
 ///
-/// Algorithm: smoothed aggregation (Vaněk, Mandel and Brezina 1996) with one sweep of Gauss-Seidel either
-/// way, as the preconditioner of BiCGStab (van der Vorst 1992), since mean value weights are not symmetric.
-/// The aggregates, and so the result to the bit, depend on the matrix alone.
+/// Algorithm: smoothed aggregation (Vaněk, Mandel and Brezina 1996) with one Gauss-Seidel sweep in each
+/// direction, as preconditioner of BiCGStab (van der Vorst 1992), since mean value weights are not symmetric.
+/// The aggregates depend only on the matrix, so results are reproducible to the bit.
 class Multigrid {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    /// @param matrix  taken; compressed; diagonal above 0, the rest of a row not above 0 and no larger in
-    ///                sum.
+    /// @param matrix  moved; compressed, with positive diagonal, other entries <= 0, and weakly diagonally
+    ///                dominant rows.
     /// @throw Cancelled
     Multigrid(Matrix&& matrix, const RunContext& context);
 
-    /// False where the matrix does not grow smaller by aggregation: solve() then finds nothing.
+    /// False if aggregation does not reduce the matrix; solve() must not be used then.
     [[nodiscard]] bool good() const { return good_; }
 
-    /// @return false where it does not settle; `x` is of no use then.
+    /// @return false if it does not converge; `x` is then undefined.
     /// @throw Cancelled
     [[nodiscard]] bool solve(const Eigen::VectorXd& right, Eigen::VectorXd& x,
                              const RunContext& context) const;
@@ -36,11 +36,11 @@ public:
 private:
     struct Level {
         Matrix matrix;
-        Matrix up, down; ///< from the next, coarser level, and to it
+        Matrix up, down; ///< interpolation from the next coarser level, and restriction to it
     };
     void cycle(std::size_t level, const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
-    std::deque<Level> levels_; ///< never moved, which would copy; the last has no `up` and `down`
+    std::deque<Level> levels_; ///< a deque, so that levels are not copied; the last has no `up` and `down`
     Eigen::PartialPivLU<Eigen::MatrixXd> coarsest_;
     bool good_ = true;
 };

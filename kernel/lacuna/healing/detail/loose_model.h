@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/geometry/union_find.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/model.h>
-#include <lacuna/topology/side_points.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/healing/detail/loose_model.h>
-#include <lacuna/healing/stitch.h>
+#include <lacuna/healing/shared/stitch.h>
 
 #include <string>
 

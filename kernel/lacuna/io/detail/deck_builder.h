@@ -32,6 +32,19 @@ private:
     std::vector<std::pair<DeckTag, Index>> sparse_;
 };
 
+/// Let values rise, each once.
+template <class Value>
+void tidy(std::vector<Value>& values)
+{
+    if (!std::ranges::is_sorted(values)) std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+inline void tidy(DeckSet& set)
+{
+    tidy(set.members);
+    tidy(set.sides);
+}
+
 /// Gathers what a reader finds.
 class DeckBuilder {
 public:

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/node_reader.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/mesh/second_order.h>
+#include <lacuna/mesh/shared/mesh_view.h>
 
 #include <algorithm>
 #include <functional>
@@ -53,15 +54,9 @@ public:
     std::vector<BulkPart> parts;
     std::size_t points = 0;
 
-    /// Members of a set in a row: of the cells of a part, or of those that the deck holds.
-    struct Run {
-        std::size_t begin;          ///< members of the set before it
-        const BulkPart* part;       ///< null: the deck holds them
-        std::size_t first_held = 0; ///< place of the first in the set's `members`
-    };
-    /// Of each set of the deck; empty: the deck holds all members.
-    std::vector<std::vector<Run>> sets;
-    std::vector<std::size_t> set_size;
+    /// Of each set of the deck its members, where some are cells that are made, and the parts of these.
+    std::vector<mesh::Ranges> sets;
+    std::vector<std::vector<const BulkPart*>> parts_of_set;
     /// Cells before those of each part, of hexahedra and of wedges, and all.
     std::vector<std::size_t> hexes{0}, wedges{0};
 
@@ -127,8 +122,6 @@ public:
             for (std::size_t k = 0; k < nodes.count; ++k) nodes.node[k] = part.numbers->of(nodes.node[k]);
         visit(part.tag(cell), part.place.region, std::span<const Index>(nodes.all()));
     }
-    [[nodiscard]] DeckTag tag(const DeckBlock& block, std::size_t e) const;
-    [[nodiscard]] Index region(const DeckBlock& block, std::size_t e) const;
     /// Elements [begin, end) of a block that are made for one part, and their region.
     struct MadeRun {
         std::size_t begin, end;
@@ -137,8 +130,8 @@ public:
     };
     /// In the block's order; empty: the deck holds its elements.
     [[nodiscard]] std::vector<MadeRun> made_runs(const DeckBlock& block) const;
-    /// The lowest and the highest number in a block, which is not empty.
-    [[nodiscard]] std::pair<DeckTag, DeckTag> tags(const DeckBlock& block) const;
+    /// Numbers of a block's elements.
+    [[nodiscard]] mesh::Numbers tag_ranges(const DeckBlock& block) const;
 
     /// Parts whose cells are of a region, and those whose cells are all members of a set.
     [[nodiscard]] std::vector<const BulkPart*> parts_of(Index region) const;
@@ -147,15 +140,11 @@ public:
     /// Members of a set of nodes or elements.
     [[nodiscard]] std::size_t count(const DeckSet& set) const
     {
-        return runs(set).empty() ? set.members.size() : layered_->set_size[place_of(set)];
+        return made(set) != nullptr ? made(set)->count() : set.members.size();
     }
     [[nodiscard]] DeckTag member(const DeckSet& set, std::size_t i) const
     {
-        const std::span<const LayeredBulk::Run> all = runs(set);
-        if (all.empty()) return set.members[i];
-        const auto& run = *std::prev(std::ranges::upper_bound(all, i, {}, &LayeredBulk::Run::begin));
-        return run.part != nullptr ? run.part->tag(i - run.begin)
-                                   : set.members[run.first_held + (i - run.begin)];
+        return made(set) != nullptr ? static_cast<DeckTag>((*made(set))[i]) : set.members[i];
     }
 
     static bool is_of_hexes(const DeckBlock& block) { return shape_info(block.shape).corners == 8; }
@@ -165,10 +154,11 @@ private:
     {
         return static_cast<std::size_t>(&set - deck_->sets.data());
     }
-    [[nodiscard]] std::span<const LayeredBulk::Run> runs(const DeckSet& set) const
+    /// Null: the deck holds all of its members.
+    [[nodiscard]] const mesh::Ranges* made(const DeckSet& set) const
     {
-        if (layered_ == nullptr) return {};
-        return layered_->sets[place_of(set)];
+        if (layered_ == nullptr || layered_->sets[place_of(set)].count() == 0) return nullptr;
+        return &layered_->sets[place_of(set)];
     }
     [[nodiscard]] std::size_t made_cell(const BulkPart& part, bool hex, std::size_t e) const;
 
@@ -210,13 +200,9 @@ struct DeckFile {
 };
 
 /// @param layered  what `deck_without_bulk()` left out; null: the deck holds all. Sections refer to it.
-DeckFile file_of(const Deck& deck, DeckFormat format, const DeckFileOptions& options,
-                 const LayeredBulk* layered = nullptr);
 DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered = nullptr);
-/// @param layered  without a partition
-DeckFile msh_of_deck(const Deck& deck, const DeckFileOptions& options, const LayeredBulk* layered = nullptr);
 /// @param layered  of one part
 DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile vtu_of_deck(const Deck& deck, const LayeredBulk* layered = nullptr);
@@ -236,6 +222,10 @@ bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 
 /// Whether Abaqus's word in capitals is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
+
+/// Fields of a Nastran line apart by commas or, where it has none, tabs or columns; the first is the card's
+/// name.
+std::vector<std::string_view> nastran_fields(std::string_view line);
 
 /// Numbers that the text of a deck takes.
 struct TextNumbers {
@@ -263,6 +253,11 @@ char* put_real(char* out, double value, std::size_t width, RealForm form = RealF
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
 /// An element that a format does not have. @throw InvalidInput always
-[[noreturn]] void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why);
+[[noreturn]] void refuse_element(std::size_t count, std::string_view type, DeckShape shape,
+                                 std::string_view format, std::string_view why);
+[[noreturn]] inline void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)
+{
+    refuse_element(block.count(), block.type, block.shape, format, why);
+}
 
 } // namespace lacuna::io

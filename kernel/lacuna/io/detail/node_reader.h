@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/layered.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
 
@@ -63,36 +63,34 @@ public:
     {
         return layers_ != nullptr ? layers_->on_skin(node) : mesh_.node(index(node));
     }
-    /// Call `visit(n, node)` for the nodes [begin, end). For any thread.
-    template <class Visit>
-    void each(std::size_t begin, std::size_t end, const Visit& visit) const
+    /// Call `take(nodes)` for spans of the nodes [begin, end), one after the other. For any thread.
+    template <class Take>
+    void each_span(std::size_t begin, std::size_t end, const Take& take) const
     {
+        const auto take_held = [&](const std::vector<Vec3>& held, std::size_t first) {
+            const std::size_t low = std::max(begin, first), high = std::min(end, first + held.size());
+            if (low < high) take(std::span(held).subspan(low - first, high - low));
+        };
         if (!corners_.made) {
-            for (std::size_t n = begin; n < end; ++n) visit(n, mesh_.node(n));
-            return;
+            take_held(mesh_.nodes, 0);
+            return take_held(mesh_.middles.nodes, mesh_.nodes.size());
         }
         while (begin < end) {
             const Made& of = begin < middles_.begin ? corners_ : middles_;
             const std::size_t number = std::min((begin - of.begin) / of.step, of.parts - 1);
             const auto part = of.made->part(number);
             const std::size_t first = of.begin + number * of.step, last = std::min(end, first + part->size());
-            for (; begin < last; ++begin) visit(begin, (*part)[begin - first]);
+            take(std::span(*part).subspan(begin - first, last - begin));
+            begin = last;
         }
     }
-
-    /// Coordinates of the nodes [begin, end) as they lie in memory. @return where they end
-    char* copy(std::size_t begin, std::size_t end, char* out) const
+    /// Call `visit(n, node)` for each of them.
+    template <class Visit>
+    void each(std::size_t begin, std::size_t end, const Visit& visit) const
     {
-        static_assert(sizeof(Vec3) == 3 * sizeof(double));
-        if (!corners_.made && end <= mesh_.nodes.size()) {
-            std::memcpy(out, mesh_.nodes[begin].data(), (end - begin) * sizeof(Vec3));
-            return out + (end - begin) * sizeof(Vec3);
-        }
-        each(begin, end, [&](std::size_t, const Vec3& node) {
-            std::memcpy(out, node.data(), sizeof(Vec3));
-            out += sizeof(Vec3);
+        each_span(begin, end, [&](std::span<const Vec3> nodes) {
+            for (const Vec3& node : nodes) visit(begin++, node);
         });
-        return out;
     }
 
 private:

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 #include <lacuna/io/whole_file.h>
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <functional>
@@ -14,13 +16,25 @@
 /// Files as a list of sections, filled in parallel. Internal to this folder.
 namespace lacuna::io {
 
+/// Puts records [begin, end) at `out`, returns where they end.
+using Fill = std::function<char*(std::size_t begin, std::size_t end, char* out)>;
+
+/// One record after the other by `put_one(i, out)`.
+template <class PutOne>
+Fill each(PutOne put_one)
+{
+    return [put_one](std::size_t begin, std::size_t end, char* out) {
+        for (std::size_t i = begin; i < end; ++i) out = put_one(i, out);
+        return out;
+    };
+}
+
 /// A piece of a file: some text, then records without number.
 struct Section {
     std::string text;
     std::size_t records = 0;
     std::size_t record_bytes = 0; ///< of every record; in files of `Sizes::varying` no record is longer
-    /// Puts records [begin, end) at `out`, returns where they end.
-    std::function<char*(std::size_t begin, std::size_t end, char* out)> fill;
+    Fill fill;
 };
 
 enum class Sizes { exact, varying };
@@ -59,6 +73,15 @@ template <class Value>
 void put(std::string& out, const Value& value)
 {
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// Bytes of a value, the highest first.
+template <class Value>
+char* put_big(char* out, Value value)
+{
+    char* end = put(out, value);
+    if (std::endian::native == std::endian::little) std::reverse(out, end);
+    return end;
 }
 
 /// A number as text, the shortest that reads back to the same bits; the same in every locale.

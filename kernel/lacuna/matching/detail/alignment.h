@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/matching/detail/problem.h>
 
 #include <limits>

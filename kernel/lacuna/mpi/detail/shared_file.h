@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/team.h>
+#include <lacuna/core/shared/team.h>
 
 #include <cstddef>
 #include <memory>

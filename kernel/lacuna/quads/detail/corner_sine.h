@@ -3,7 +3,7 @@
 
 /// The sine of the corners of planar quads, which every part of this folder judges quads by.
 
-#include <lacuna/geometry/plane.h>
+#include <lacuna/geometry/shared/plane.h>
 
 #include <algorithm>
 

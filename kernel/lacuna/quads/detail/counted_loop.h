@@ -5,7 +5,7 @@
 /// include it.
 
 #include <lacuna/quads/detail/pattern_loop.h>
-#include <lacuna/quads/pattern_counts.h>
+#include <lacuna/quads/shared/pattern_counts.h>
 
 #include <array>
 #include <optional>

@@ -3,7 +3,7 @@
 
 /// Tables of point and quad numbers, for searches over parts of a mesh.
 
-#include <lacuna/core/marks.h>
+#include <lacuna/core/shared/marks.h>
 #include <lacuna/core/types.h>
 
 #include <cstddef>

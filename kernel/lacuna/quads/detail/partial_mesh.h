@@ -4,7 +4,7 @@
 /// What the parts of the paver share: the mesh while it is built, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
-#include <lacuna/core/edge_key.h>
+#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/region.h>
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/detail/partial_mesh.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 namespace lacuna::quads::paving {
 
@@ -32,7 +32,6 @@ void judge(Attempt& attempt);
 /// What is the same for all attempts at a region.
 struct AttemptSetting {
     const PlanarRegion& region;
-    const PaveOptions& options;
     std::function<double(const Vec2&)> size; ///< of the region, with its boundary's
     double flat = 0;                         ///< quads with a smaller sine count as folded
 };

@@ -5,7 +5,7 @@
 #include <lacuna/quads/detail/central_block.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 #include <lacuna/quads/detail/pave_attempt.h>
-#include <lacuna/quads/measure_plane.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/quads/pave.h>
+#include <lacuna/quads/shared/pave.h>
 
 #include <functional>
 #include <optional>

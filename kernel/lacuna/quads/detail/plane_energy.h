@@ -3,7 +3,7 @@
 
 /// The energy that smoothing in the plane lowers.
 
-#include <lacuna/core/vector_code.h>
+#include <lacuna/core/shared/vector_code.h>
 #include <lacuna/quads/detail/plane_stars.h>
 
 #include <algorithm>

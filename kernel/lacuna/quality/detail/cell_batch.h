@@ -13,8 +13,8 @@
 /// the trilinear map is J = det(U, V, W), quadratic in each of u, v, w. Its 27 Bézier coefficients follow
 /// from 20 determinants (Johnen, Weill and Remacle 2017). At a corner the coefficient is J itself; at the
 /// middle of an edge along u it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. As J has no u²v², u²w² or v²w²
-/// term, the coefficients at the middle of a side and of the cell are (2 · edges - corners) / 4 of the square
-/// around them.
+/// term, the coefficients at the middle of a side and of the cell are (2 · edges - corners)
+/// / 4 of the square around them.
 namespace lacuna::quality {
 
 /// Cells processed together: small enough for the first-level cache, and vectorised. Measured with AVX2 and
@@ -85,8 +85,8 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 enum class Sign : std::uint8_t { open, positive, not_positive };
 
 /// Test all cells of a batch at once, with one subdivision along u, v or w (any one gives the same result).
-/// It decides most of the cells that the coefficients leave open. @return  consistent with
-/// `positive_everywhere()`.
+/// It decides most of the cells that the coefficients leave open. @return
+/// consistent with `positive_everywhere()`.
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values);
 
 } // namespace lacuna::quality

@@ -10,8 +10,8 @@
 #include <span>
 
 /// Access to the cells of both kinds of mesh as columns, so that each level of nodes is loaded once for the
-/// cells below and above it. Internal to this folder. Cell (column, layer) has the number layer · columns +
-/// column.
+/// cells below and above it. Internal to this folder. Cell (column, layer) has the
+/// number layer · columns + column.
 namespace lacuna::quality {
 
 using LevelCorners = std::array<const Vec3*, 4>;

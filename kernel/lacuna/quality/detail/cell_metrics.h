@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/quality/detail/cell_batch.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <span>
 

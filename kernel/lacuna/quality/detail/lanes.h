@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/vector_code.h>
+#include <lacuna/core/shared/vector_code.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/quality/detail/cell_batch.h>
-#include <lacuna/quality/metrics.h>
+#include <lacuna/quality/shared/metrics.h>
 
 #include <array>
 #include <optional>
@@ -20,8 +20,8 @@ using WedgeCorners = std::array<Vec3, 6>;
 
 struct WedgeValues {
     /// As in Verdict: the smallest value at the six corners of the Jacobian divided by the lengths of the
-    /// three edges, times 2/√3. It is 1 for a right prism on an equilateral triangle, 0 if an edge has zero
-    /// length.
+    /// three edges, times 2/√3. It is 1 for a right prism on an equilateral
+    /// triangle, 0 if an edge has zero length.
     double scaled = 0;
     double smallest = 0; ///< smallest coefficient: a lower bound of J
     double volume = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/edge_nodes.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <cstddef>
 #include <span>

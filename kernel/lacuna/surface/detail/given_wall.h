@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/walls.h>
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/geometry/flatten.h>
-#include <lacuna/surface/imprint.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/flatten.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <map>
 #include <vector>

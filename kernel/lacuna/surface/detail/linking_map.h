@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/geometry/facet_tree.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/projector.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/projector.h>
 
 #include <utility>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/types.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shared/seeds.h>
 
 #include <algorithm>
 #include <array>

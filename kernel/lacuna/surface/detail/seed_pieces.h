@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shared/seeds.h>
 
 /// Distribution of nodes over a piece of an edge. Internal to this folder.
 namespace lacuna::surface {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shared/seeds.h>
 #include <lacuna/topology/model.h>
 
 #include <span>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/linking_surface.h>
-#include <lacuna/surface/seeds.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/seeds.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <span>

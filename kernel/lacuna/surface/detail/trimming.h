@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/geometry/facet_tree.h>
+#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/model.h>
 
 #include <mutex>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/sweep/assembly.h>
-#include <lacuna/topology/give_mesh.h>
+#include <lacuna/topology/shared/give_mesh.h>
 
 #include <span>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/mesh/incidence.h>
+#include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/sweep/detail/cell_energy.h>
 #include <lacuna/sweep/improve.h>
 

@@ -4,7 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
-#include <lacuna/surface/face_shape.h>
+#include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/fidelity.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/given_nodes.h>
+#include <lacuna/surface/shared/given_nodes.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <set>

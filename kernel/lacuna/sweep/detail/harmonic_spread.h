@@ -3,7 +3,7 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
-#include <lacuna/mesh/incidence.h>
+#include <lacuna/mesh/shared/incidence.h>
 
 #include <Eigen/SparseCore>
 

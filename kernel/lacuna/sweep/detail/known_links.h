@@ -2,15 +2,19 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/sweep/detail/size_words.h>
+#include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// A cache of one volume's linking surfaces, which layer planning and each sweep attempt need.
+/// A cache of one volume's linking surfaces, volume plan and quad sizes, which layer planning and each sweep
+/// attempt need.
 class KnownLinks {
 public:
     /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.
@@ -28,8 +32,17 @@ public:
         return *links_;
     }
 
+    VolumePlan plan; ///< by default nothing
+
+    /// Where the sizes for so many sides for a turn are kept; null: not of another volume.
+    std::optional<SourceSize>* sizes(const topology::OpenVolume& volume, int per_turn)
+    {
+        return &volume == &volume_ ? &sizes_[per_turn] : nullptr;
+    }
+
 private:
     const topology::OpenVolume& volume_;
+    std::map<int, std::optional<SourceSize>> sizes_;
     std::optional<std::vector<surface::LinkingSurface>> links_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/layer_map.h>
-#include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/shared/layers.h>
 
 #include <Eigen/Core>
 

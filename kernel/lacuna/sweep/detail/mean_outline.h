@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/quads/region.h>
+#include <lacuna/surface/shared/source_mesh.h>
 #include <lacuna/surface/size_field.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/sweep/rim_columns.h>
+#include <lacuna/sweep/shared/rim_columns.h>
 
 namespace lacuna::sweep {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/mesh/layered_nodes.h>
-#include <lacuna/sweep/second_order.h>
+#include <lacuna/sweep/detail/second_order.h>
 
 #include <array>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/imprint.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/sweep/morph.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/sweep/detail/morph.h>
 
 #include <optional>
 #include <vector>

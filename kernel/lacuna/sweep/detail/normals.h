@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/sweep/layers.h>
+#include <lacuna/sweep/shared/layers.h>
 
 #include <span>
 

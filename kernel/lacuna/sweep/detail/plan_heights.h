@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <vector>
@@ -23,15 +24,15 @@ struct PlannedHeights {
 /// cumulative number of sides evenly, averaged over the columns. Boundary layers of the ends come first and
 /// last, and the others share the remaining length.
 /// @param asked  result of `LayerSpec` for a count or heights, from the source; empty: not requested.
-/// @param size   of the source's quads.
+/// @param sizes  of the source's quads, and layers for the walls' bends.
 /// @param least  minimum number of layers for the walls.
-/// @throw InvalidInput  more layers than numbers; boundary layers of ends together with heights, or with
-///                      fewer layers than they have.
+/// @throw InvalidInput  too many layers to number; boundary layers of ends together with heights, or
+///                      with fewer layers than they have.
 /// @throw NotSweepable "sweep.layers_room"  ends closer to each other than their boundary layers are high.
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const surface::SizeField& size, const SweepOptions& options, int least,
+                            const SourceSize& sizes, const SweepOptions& options, int least,
                             const RunContext& context);
 
 } // namespace lacuna::sweep

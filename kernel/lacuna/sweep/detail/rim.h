@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/geometry/affine.h>
+#include <lacuna/geometry/shared/affine.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/sweep/rim_columns.h>
+#include <lacuna/sweep/shared/rim_columns.h>
 
 #include <span>
 #include <vector>

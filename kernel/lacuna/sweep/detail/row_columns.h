@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/boundary_layers.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 
 #include <map>

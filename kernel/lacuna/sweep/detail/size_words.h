@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/default_size.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/shape_size.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ struct SourceSize {
     /// A place too narrow for the default of `kDefaultGap` quads across, which would give too many quads in
     /// total.
     std::optional<surface::SizeCause> too_narrow;
-    bool narrow = false; ///< there are, or may be, narrow places with a minimum number of quads across
+    std::function<int(int least)> layers{}; ///< of `VolumePlan`
+    bool narrow = false;                    ///< there are, or may be, narrow places
     ExpectedCells expected{};
 };
 

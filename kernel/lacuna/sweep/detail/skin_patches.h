@@ -2,8 +2,8 @@
 #pragma once
 
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/surface/source_mesh.h>
-#include <lacuna/surface/walls.h>
+#include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/detail/morph_ends.h>
 #include <lacuna/topology/open_volume.h>
 

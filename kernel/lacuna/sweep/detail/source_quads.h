@@ -3,8 +3,8 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/quads/region.h>
-#include <lacuna/surface/seeds.h>
-#include <lacuna/surface/source_mesh.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/surface/shared/source_mesh.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
@@ -21,8 +21,12 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// The same for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// The requested or default size, reduced by the shape, and reduced everywhere if the bends of the ends would
-/// lose too much volume.
+/// A field that refuses values that are not positive lengths, before any division by them.
+/// @throw InvalidInput  by the field, names the option.
+surface::SizeField checked_size(const surface::SizeField& field, const std::string& option);
+
+/// The requested or default size, reduced by the shape, and reduced everywhere if the volume plan requires
+/// it.
 /// @throw InvalidInput  a size that is not a positive length; too many cells to number. @throw Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);

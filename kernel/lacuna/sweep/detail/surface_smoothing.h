@@ -4,7 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
-#include <lacuna/sweep/morph.h>
+#include <lacuna/sweep/detail/morph.h>
 
 #include <span>
 #include <vector>

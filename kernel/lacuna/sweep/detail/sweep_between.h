@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
-#include <lacuna/surface/linking_surface.h>
+#include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/size_words.h>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// A parallel projection that is turned, moved and zoomed: lengths stay comparable, as on a drawing.
+// A camera with parallel projection, so that lengths can be compared; rotates, pans and zooms.
 class Camera {
     constructor(radius, aspect) {
-        this.radius = radius; // of what there is to see
+        this.radius = radius; // radius of the object
         this.centre = [0, 0, 0];
         this.look([1, -1.6, 0.9]);
         this.fit(aspect);
     }
 
-    // From `direction` onto the middle; z upwards where that can be.
+    // Look from `direction` at the centre, with z upwards if possible.
     look(direction) {
         const back = unit(direction);
         const up = Math.abs(back[2]) > 0.98 ? [0, 1, 0] : [0, 0, 1];
@@ -37,12 +37,12 @@ class Camera {
             across = unit(cross(this.axes[1], back));
         this.axes = [across, cross(back, across), back];
     }
-    // By shares of half the window's height.
+    // Pan by fractions of half the window's height.
     move(dx, dy) {
         const [right, up] = this.axes;
         this.centre = plus(this.centre, plus(times(right, -dx * this.scale), times(up, -dy * this.scale)));
     }
-    // About a place of the window, in shares of half its height from the middle.
+    // Zoom about a point of the window, given in fractions of half its height from the centre.
     zoom(factor, x, y) {
         const scale = Math.min(Math.max(this.scale * factor, this.radius * 1e-5), this.radius * 20);
         const left = this.scale - scale;
@@ -78,7 +78,7 @@ class Camera {
             1,
         ];
     }
-    // Where a place lies in a window of `width` × `height`.
+    // Pixel coordinates of a point in a window of `width` × `height`.
     project(at, width, height) {
         const v = plus(at, times(this.centre, -1)),
             s = height / 2 / this.scale;
@@ -86,7 +86,7 @@ class Camera {
     }
 }
 
-// Mouse, touch pad and keys. `on.change` after every change, `on.click(x, y)`, `on.over(x, y)`.
+// Handles mouse, touch pad and keys. Calls `on.change` after every change, `on.click(x, y)`, `on.over(x, y)`.
 function handle(canvas, camera, on) {
     let last = null,
         moved = 0,
@@ -97,7 +97,7 @@ function handle(canvas, camera, on) {
         last = [event.clientX, event.clientY];
         moved = 0;
         mode = event.button !== 0 || event.shiftKey ? "move" : "turn";
-        if (event.isTrusted) canvas.setPointerCapture(event.pointerId); // what scripts make has no pointer
+        if (event.isTrusted) canvas.setPointerCapture(event.pointerId); // scripted events have no pointer
     });
     canvas.addEventListener("pointermove", event => {
         if (!last) return on.over(event.clientX, event.clientY);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Meshes: the cells that a cut and a choice of layers leave, drawn whole.
+// Meshes: the cells that remain after a cut and a selection of layers, drawn as a whole.
 
-// Corners of the faces of a hexahedron and, of each, the sides between them, as mesh/second_order.h has them.
-// Other cells are hexahedra some of whose corners are one.
+// Corners of the faces of a hexahedron and, for each face, its edges, as in mesh/second_order.h. Other cells
+// are hexahedra with repeated corners.
 const kFaces = [
     [0, 4, 7, 3],
     [1, 2, 6, 5],
@@ -35,11 +35,11 @@ const kSides = [
     [2, 6],
     [3, 7],
 ];
-const kFaceOfQuadSide = [2, 1, 3, 0]; // which face of the cell stands on each side of its quad
+const kFaceOfQuadSide = [2, 1, 3, 0]; // face of the cell over each side of its quad
 const kNoValue = -32768,
     kNoFace = -(2 ** 31);
 
-// Quads times layers: cell (layer l, quad q) is l · quads + q; nothing is stored for a cell.
+// Quads times layers: cell (layer l, quad q) is l · quads + q; nothing is stored for each cell.
 class SweptCells {
     static async load(r, data) {
         const cells = new SweptCells();
@@ -69,7 +69,7 @@ class SweptCells {
             m.onLevel = m.sides + (m.full ? r.quadCount : 0);
             m.period = m.onLevel + r.perLayer + (m.full ? m.sides + r.quadCount : 0);
         }
-        // Across each side of a quad: the quad there, or -2 - r for side r of the rim.
+        // For each side of a quad: the neighbouring quad, or -2 - r for side r of the rim.
         cells.across = new Int32Array(4 * r.quadCount).fill(-1);
         const open = new Map(),
             key = (a, b) => a * r.perLayer + b;
@@ -107,7 +107,7 @@ class SweptCells {
             out[k + 4] = out[k] + this.perLayer;
         }
     }
-    // Middle nodes of the twelve sides; false: the cells are of order 1.
+    // Middle nodes of the twelve edges; false: the cells are of order 1.
     middleNodes(c, out) {
         const m = this.middles;
         if (!m) return false;
@@ -129,7 +129,7 @@ class SweptCells {
         const rim = -2 - this.across[4 * q + kFaceOfQuadSide.indexOf(face)];
         return rim >= 0 ? this.wallPatch[layer * this.rimCount + rim] : -1;
     }
-    // Call emit(cell, face, whether it is of the skin) for the faces that cells of `mask` do not share.
+    // Call emit(cell, face, whether it belongs to the skin) for the faces that only one cell of `mask` has.
     exposed(mask, emit) {
         const n = this.quadCount,
             across = this.across,
@@ -150,7 +150,7 @@ class SweptCells {
             }
         }
     }
-    // Mean height of the corners of each cell, from that of all nodes.
+    // Mean height of the corners of each cell, from the heights of all nodes.
     heights(ofNode, out) {
         const n = this.quadCount,
             q = this.quads;
@@ -172,7 +172,7 @@ class SweptCells {
     }
 }
 
-// Cells as a file lists them, eight corners each.
+// Cells listed in a file, eight corners each.
 class ListedCells {
     static async load(r) {
         const cells = new ListedCells();
@@ -187,7 +187,7 @@ class ListedCells {
         return cells;
     }
 
-    // Pair the faces of cells: chains of faces by their least corner, compared by all.
+    // Find neighbours: faces are chained by their lowest corner, then compared by all corners.
     join(sides, patch) {
         const n = this.count,
             corner = this.corner;

@@ -47,7 +47,7 @@ class CellsPage {
         return page;
     }
 
-    // Least, mean, histogram and the worst cells, one of each column, from the values that came along.
+    // Minimum, mean, histogram and the worst cells, one for each column, from the values in the page.
     measure() {
         const bins = new Array(20).fill(0),
             worst = [];
@@ -75,7 +75,7 @@ class CellsPage {
             }
         }
         this.quality = { n, least: least / 10000, mean: sum / n / 10000, bins, worst };
-        // Colours span what there is: from the least, but no more than to 0 where that is valid.
+        // Lower end of the colour range: the smallest value rounded down to a tenth, at most 0.5.
         this.low = n > 0 ? Math.min(0.5, Math.floor(least / 1000) / 10) : 0;
     }
 
@@ -329,7 +329,7 @@ class CellsPage {
         );
     }
 
-    // --- what is shown --------------------
+    // --- the picture --------------------
 
     setCut() {
         const { cut, cutControls } = this;
@@ -341,7 +341,7 @@ class CellsPage {
         cutControls.text.textContent = off ? "" : digits(along);
         this.recut();
     }
-    // Heights of all cells along the normal of the cut.
+    // Heights of all cells along the normal of the cutting plane.
     measureCut() {
         const { cut, nodes } = this,
             [a, b, c] = cut.normal,
@@ -360,7 +360,7 @@ class CellsPage {
         cut.measured = true;
     }
 
-    // Which cells are whole on the kept side and in the layers, and the sides that they show.
+    // Which cells are entirely on the visible side and in the visible layers, and which sides they show.
     recut() {
         const { cut, regions, hidden } = this;
         const level = cut.axis === "off" ? 0 : cut.low + cut.at * (cut.high - cut.low);
@@ -434,7 +434,7 @@ class CellsPage {
         return onRamp(this.data.palette.quality, (value - this.low) / (1 - this.low));
     }
 
-    // Colours of the sides that are shown.
+    // Colours of the visible sides.
     paint() {
         const { data, colours, sideCell, sidePatch } = this,
             by = this.colourBy,
@@ -501,7 +501,7 @@ class CellsPage {
         });
         this.drawing.putLines(lines, true);
     }
-    // Cut just beyond a cell, look at it and come near.
+    // Cut just beyond a cell, turn the camera to it and zoom in.
     flyTo(i) {
         const { region, c } = this.quality.worst[i],
             centre = this.centreOf(region, c);
@@ -552,7 +552,7 @@ class CellsPage {
     moved() {}
 }
 
-// The quads and triangles that draw a face of a cell, each with flags for edges that are none of the cell's.
+// The quads and triangles that draw a face of a cell, with flags for edges that are not edges of the cell.
 function sidesOf(corners, face, middle) {
     const four = kFaces[face].map(k => corners[k]),
         edges = kFaceSides[face];
@@ -568,7 +568,7 @@ function sidesOf(corners, face, middle) {
             ]),
         ];
     }
-    // Corner k stays where the side from it to the next has a length.
+    // Keep corner k if the side from it to the next has a length.
     const nodes = kept.map(k => four[k]);
     if (nodes.length === 3) nodes.push(nodes[2]);
     return [[nodes, 0]];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Drawing by WebGL 2 alone. Nodes lie in a texture, and so do the sides that are drawn, a quad or triangle
-// each: four numbers of nodes, and a colour. Vertices look up what they need by their number. Instances could
-// do the same, but take 20 µs each where the browser has no graphics card.
+// Drawing with WebGL 2. Nodes are stored in a texture, and so are the sides: quads or triangles with four
+// node numbers and a colour. The vertex shader looks them up by vertex number. Instanced drawing would do the
+// same, but takes 20 µs for each instance without a graphics card.
 
-const kRow = 2048; // texels a row of a texture
+const kRow = 2048; // texels in a row of a texture
 const kHiddenEdges = 15,
     kHatched = 16,
-    kFaint = 32; // flags of a side; the first four bits: edge k is not drawn
+    kFaint = 32; // flags of a side; in the first four bits, bit k: edge k is not drawn
 
 const kNodeOf = `
 uniform highp sampler2D uNodes;
@@ -29,7 +29,7 @@ out vec3 vPlace;
 out vec4 vEdge;
 flat out uint vColour;
 flat out int vSide;
-// How far a corner is from each edge; edge k runs from corner k to the next.
+// Distance of a corner from each edge; edge k runs from corner k to the next.
 const vec4 kQuad[4] = vec4[4](vec4(0, 1, 1, 0), vec4(0, 0, 1, 1), vec4(1, 0, 0, 1), vec4(1, 1, 0, 0));
 const vec4 kTriangle[4] = vec4[4](vec4(0, 1, 1, 0), vec4(0, 0, 1, 1), vec4(1, 0, 1, 0), vec4(1, 0, 1, 0));
 void main() {
@@ -126,12 +126,12 @@ const kSideTextures = { uNodes: "uNodes", uSides: "uSides", uColours: "uColours"
 const kCoarseTextures = { uNodes: "uNodes", uSides: "coarse sides", uColours: "coarse colours" };
 const kBackground = [0.965, 0.969, 0.976, 1];
 
-// Measured on two cores without a graphics card, where a side takes 0.4 µs and four samples a pixel three
+// Measured on two cores without a graphics card: a side takes 0.4 µs, and four samples per pixel take three
 // times as long as one.
-const kSlow = 30; // [ms] for a whole picture, beyond which what moves is drawn coarser
-const kMovingSides = 20000, // to be seen of what moves
+const kSlow = 30; // [ms] if a complete picture takes longer, moving pictures are drawn coarser
+const kMovingSides = 20000, // limits for a moving picture
     kMovingPixels = 300000;
-const kPiece = 16384; // sides drawn in one go of what is still
+const kPiece = 16384; // sides drawn at a time in a picture that does not move
 
 class Drawing {
     constructor(canvas, nodes) {
@@ -147,14 +147,14 @@ class Drawing {
         this.buffers = {};
         this.single = gl.createBuffer();
         this.strips = { buffer: gl.createBuffer(), quads: 0 };
-        this.closed = false; // skins that are closed and face outward hide what faces away
+        this.closed = false; // closed skins that face outward: cull sides that face away
         this.sideCount = this.lineCount = this.topCount = 0;
         this.hover = -1;
         this.edges = 0.7;
         this.back = 0.8;
-        this.asked = 0; // how often
-        this.whole = false; // whether what is shown is
-        this.slow = null; // whether a whole picture takes long; null: not yet known
+        this.asked = 0; // number of requests
+        this.whole = false; // whether the picture shown is complete
+        this.slow = null; // whether a complete picture takes long; null: unknown
         this.fine = this.coarse = null;
         this.nodes = nodes;
         this.putNodes(nodes);
@@ -184,7 +184,7 @@ class Drawing {
         return { program, places };
     }
 
-    // Put `values`, `channels` of them a texel, into the texture `name`.
+    // Store `values`, `channels` of them in each texel, in the texture `name`.
     put(name, internal, format, type, channels, values) {
         const gl = this.gl,
             rows = Math.max(1, Math.ceil(values.length / channels / kRow));
@@ -206,14 +206,14 @@ class Drawing {
         this.put("uNodes", this.gl.RGB32F, this.gl.RGB, this.gl.FLOAT, 3, nodes);
     }
 
-    // The first `n` sides: four nodes of each. What is given is kept and read until it is given anew.
+    // Set the first `n` sides, four nodes each. The array is kept and read until another one is set.
     putSides(sides, n) {
         this.sideNodes = sides;
         this.sideCount = n;
         this.fine = this.coarse = null;
         this.putWords("uSides", 4, sides.subarray(0, 4 * n));
     }
-    // Their colours, flags in the highest byte.
+    // Set the colours of the sides, with flags in the highest byte.
     putColours(colours) {
         this.colours = colours;
         if (this.coarse) this.coarse.painted = false;
@@ -232,7 +232,7 @@ class Drawing {
         );
     }
 
-    // --- skins: sides in parts --------------------
+    // --- skins: sides sorted into parts --------------------
 
     makeSkin(sides, n, textures) {
         const gl = this.gl,
@@ -242,12 +242,13 @@ class Drawing {
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, parts.indices, gl.STATIC_DRAW);
         return { parts, textures, indices };
     }
-    // All sides, sorted when first drawn.
+    // All sides; they are sorted when first drawn.
     fineSkin() {
         this.fine ??= this.makeSkin(this.sideNodes, this.sideCount, kSideTextures);
         return this.fine;
     }
-    // About a quarter of the sides for each halving, in their colours and without edges.
+    // Coarser skins: each has about a quarter of the sides of the previous one,
+    // with colours and without edges.
     coarseSkin(halvings) {
         if (this.coarse?.halvings !== halvings) {
             const { area, count } = this.fineSkin().parts;
@@ -267,7 +268,8 @@ class Drawing {
         return this.coarse;
     }
 
-    // Words of lines: two nodes, a colour whose highest byte is twice the width in pixels. `top`: over all.
+    // Set lines, three words each: two nodes, and a colour with twice the width in pixels in the highest
+    // byte. `top`: drawn in front of everything.
     putLines(words, top = false) {
         const texels = new Uint32Array((4 * words.length) / 3);
         for (let i = 0; i < words.length / 3; i++)
@@ -277,7 +279,8 @@ class Drawing {
         else this.lineCount = words.length / 3;
     }
 
-    // Two triangles for each of `n` quads and more: four vertices, so that a corner is looked up once.
+    // Index buffer of two triangles for each of at least `n` quads; with four vertices,
+    // each corner is looked up once.
     makeStrips(n) {
         const gl = this.gl,
             quads = 2 ** Math.ceil(Math.log2(n)),
@@ -289,8 +292,8 @@ class Drawing {
         this.strips.quads = quads;
     }
 
-    // Draw the quads of `ranges` of `indices` by a program that looks them up in `textures`, by the names of
-    // its uniforms.
+    // Draw the quads of `ranges` of `indices` with a program that looks them up in `textures`, given by the
+    // names of its uniforms.
     draw(program, textures, indices, ranges, camera, size, more = {}) {
         const gl = this.gl,
             u = program.places;
@@ -311,20 +314,20 @@ class Drawing {
         gl.activeTexture(gl.TEXTURE0);
     }
 
-    // How many pixels the window has.
+    // Number of pixels of the window.
     size() {
         const ratio = window.devicePixelRatio || 1;
         const { clientWidth, clientHeight } = this.canvas;
         return [clientWidth, clientHeight].map(x => Math.max(1, Math.round(ratio * x)));
     }
-    // Give the canvas `size` pixels, which the browser stretches over the window.
+    // Set the number of pixels of the canvas, which the browser scales to the window.
     fit(size) {
         const canvas = this.canvas,
             [width, height] = size;
         if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     }
 
-    // Draw into the target `name` from here on; it is made of `size` where it is not.
+    // Draw to the target `name` from now on; it is created with `size` if needed.
     into(name, size, samples, background) {
         const gl = this.gl;
         this.targets[name] ??= {
@@ -358,7 +361,7 @@ class Drawing {
             gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         }
     }
-    // Put what was drawn into a target on the screen.
+    // Copy a target to the screen.
     show(name) {
         const gl = this.gl,
             { frame, size } = this.targets[name];
@@ -368,7 +371,7 @@ class Drawing {
         gl.blitFramebuffer(0, 0, ...size, 0, 0, ...size, gl.COLOR_BUFFER_BIT, gl.NEAREST);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     }
-    // Wait until all is drawn.
+    // Wait until drawing has finished.
     finish() {
         const gl = this.gl;
         this.into("wait", [1, 1], 0, kBackground);
@@ -401,15 +404,15 @@ class Drawing {
         }
     }
 
-    // Draw. Where a whole picture takes long, what moves is drawn coarser, and what is still a piece a frame.
-    // Returns whether the picture is, or will be, a whole one.
+    // Draw. If a complete picture takes long, a moving one is drawn coarser, and a still one in pieces, one
+    // each frame. Returns whether the picture is, or will become, complete.
     render(camera, moving) {
         const size = this.size();
         this.asked++;
         this.whole = false;
         const skin = this.fineSkin();
         if (this.slow === null) {
-            this.drawStill(camera, size, skin, [[0, Math.min(1, this.sideCount)]]); // makes the programs
+            this.drawStill(camera, size, skin, [[0, Math.min(1, this.sideCount)]]); // compiles the programs
             this.finish();
             const start = performance.now();
             this.drawStill(camera, size, skin, skin.parts.seen(camera, size[0] / size[1]));
@@ -456,8 +459,8 @@ class Drawing {
         this.show("still");
         this.whole = true;
     }
-    // Lift the side under the pointer, and no longer `before`. Where a whole picture takes long the two alone
-    // are drawn again; false: all has to be.
+    // Highlight the side under the pointer, instead of `before`. If a complete picture takes long, only these
+    // two are drawn again; returns false if everything must be drawn.
     liftSide(camera, before) {
         if (!this.slow) return false;
         if (!this.whole) return true;
@@ -494,7 +497,8 @@ class Drawing {
         this.drawLines(camera, size);
     }
 
-    // Which side each pixel of a picture of `size` shows, from 0; 2**32 - 1: none. `only`: a single pixel.
+    // The number of the side at each pixel of a picture of `size`, from 0; 2**32 - 1:
+    // none. `only`: for a single pixel.
     shown(camera, size, only) {
         const gl = this.gl,
             area = only ? [...only, 1, 1] : [0, 0, ...size];
@@ -516,7 +520,7 @@ class Drawing {
         return new Uint32Array(bytes.buffer).map(id => id - 1);
     }
 
-    // The side under a place of the window; -1: none.
+    // The side at a point of the window; -1: none.
     pick(camera, x, y) {
         const box = this.canvas.getBoundingClientRect();
         const size = [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Models and open volumes: faces to be chosen for a recipe.
+// Models and open volumes: faces to select for a recipe.
 
-// Named roles, or faces whose roles are left to be found.
+// Named roles, or faces whose roles are determined automatically.
 const kRoles = ["source", "target", "walls", "faces"];
 const kFreeEdge = [214, 39, 40],
     kEdge = [40, 50, 60],
@@ -112,7 +112,7 @@ class FacesPage {
         );
     }
 
-    // A line that is pointed at to be seen and clicked to be taken.
+    // A line of a list: pointing at it highlights its face, clicking selects it.
     offer(words, quiet, seen, taken) {
         return el(
             "button",
@@ -216,8 +216,8 @@ class FacesPage {
         else byHand();
     }
 
-    // Edges that the chosen faces use once, and vertices of the ends' rims that no wall has. Without a
-    // choice, edges that all faces use once.
+    // Edges used once by the selected faces, and vertices on the rims of the ends that are on no wall.
+    // Without a selection, edges used once by all faces.
     openOf() {
         const { data, role } = this,
             some = role.some(r => r !== null);
@@ -320,7 +320,7 @@ class FacesPage {
         this.stage.flyTo(centre, Math.max(0.05 * this.data.radius, 0.9 * face.reach), from);
     }
 
-    // "radius 3", or what a face of no such kind lies on.
+    // "radius 3", or the surface that a face of no such kind lies on.
     round(face) {
         const size = `radius ${digits(face.radius)}`;
         return [face.fits, "torus"].includes(face.kind) ? size : `a ${face.fits} of ${size}`;
@@ -362,14 +362,14 @@ class FacesPage {
         const f = this.faceOf[side];
         if (this.data.faces[f].void) return false;
         const alone = r => r === "faces";
-        this.role = this.role.map(r => (alone(r) === alone(this.chosenRole) ? r : null)); // not beside roles
+        this.role = this.role.map(r => (alone(r) === alone(this.chosenRole) ? r : null)); // no mixture
         this.role[f] = this.role[f] === this.chosenRole ? null : this.chosenRole;
         this.paint();
         return true;
     }
 
-    // Labels stand where most of a face is seen: a small picture of the faces says where. While a picture is
-    // not whole there are none.
+    // Labels are placed where most of a face is visible, according to a small picture of the faces. There are
+    // none while the picture is incomplete.
     moved(whole) {
         this.labels.style.visibility = whole ? "visible" : "hidden";
         if (!whole) return;
@@ -435,7 +435,7 @@ class FacesPage {
 // "part.msh" of "folder/part.step".
 const meshName = path => path.replace(/^.*\//, "").replace(/\.[^.]*$/, "") + ".msh";
 
-// A text as Lua writes it.
+// A text as a Lua string.
 function luaText(text) {
     return (
         '"' +

@@ -18,8 +18,8 @@ async function start() {
                 "drag: turn · shift or right drag: move · wheel: zoom · x y z i: look along · f: all",
         }),
     );
-    // Where a look at one place takes longer, without a graphics card and with a large mesh, the page looks
-    // only where the pointer rests.
+    // If finding the side under the pointer takes longer than this (large mesh, no graphics card), do it only
+    // when the pointer rests.
     const slow = 25; // [ms]
     let asked = false,
         moving = false,
@@ -30,7 +30,7 @@ async function start() {
     const stage = {
         box,
         canvas,
-        // Draw once before the next frame, however often it is asked; whole once nothing moves.
+        // Draw once before the next frame, however often it is requested; completely when nothing moves.
         change(moves = false) {
             moving ||= moves;
             if (asked || !page) return;
@@ -89,7 +89,7 @@ async function start() {
     });
     new ResizeObserver(() => stage.change()).observe(canvas);
     stage.change();
-    window.lacunaPage = page; // for the console, and for tests
+    window.lacunaPage = page; // for the console and for tests
 }
 
 start().catch(error => {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Numbers that the page came with: deflated varints in base 64, as kernel/lacuna/view/detail/base64.h packs
-// them.
+// Decodes the numbers of the page: deflated varints in base 64, as packed by
+// kernel/lacuna/view/detail/base64.h.
 async function inflate(text) {
     const letters = atob(text),
         bytes = new Uint8Array(letters.length);
@@ -37,7 +37,7 @@ async function unpack(text, count, stride, linear) {
     return numbers;
 }
 
-// Places of nodes, from the middle of what is shown, into `out` from node `base` on.
+// Coordinates of nodes relative to the centre of the object, into `out` from node `base` on.
 async function unpackNodes(packed, data, out, base) {
     for (let k = 0; k < 3; k++) {
         const whole = await unpack(packed.axes[k], packed.count, packed.stride, true);
@@ -57,7 +57,7 @@ const unit = a => {
     return n > 0 ? times(a, 1 / n) : [0, 0, 1];
 };
 
-// Few digits, as a person reads them.
+// A number with few digits, for reading.
 function digits(x, n = 4) {
     if (x === null || !isFinite(x)) return "–";
     if (x === 0 || Math.abs(x) < 1e-12) return "0";
@@ -70,7 +70,7 @@ const things = (n, one, many = one + "s") => count(n) + " " + (n === 1 ? one : m
 
 // --- colours --------------------
 
-// Red, green, blue as the word that the drawing takes; flags in its highest byte.
+// Red, green and blue as one word, as drawing expects it; flags are in the highest byte.
 const word = (colour, flags = 0) => (colour[0] | (colour[1] << 8) | (colour[2] << 16) | (flags << 24)) >>> 0;
 const css = colour => `rgb(${colour[0]}, ${colour[1]}, ${colour[2]})`;
 function onRamp(ramp, at) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// What stands beside the picture. Every text of the input becomes a text node, never markup.
+// The panel next to the picture. Texts of the input become text nodes, never markup.
 
 function el(name, properties = {}, ...inside) {
     const element = document.createElement(name);
@@ -24,7 +24,7 @@ function section(panel, title) {
     return box;
 }
 
-// A row of buttons of which one is on.
+// A row of buttons, one of which is active.
 function choice(options, chosen, onchange) {
     const buttons = options.map(([value, text]) =>
         el("button", { textContent: text, onclick: () => set(value) }),
@@ -48,7 +48,7 @@ function range(min, max, step, value, oninput) {
     });
 }
 
-// Lengths in view: a bar of a round length.
+// A scale: a bar of a round length.
 function showScale(box, camera, height) {
     const pixels = height / 2 / camera.scale,
         ideal = 110 / pixels;

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// What lets a large skin turn without a graphics card: parts of it that are out of sight are left out, and
-// while it moves a coarser skin may stand for it.
+// Lets large skins be rotated without a graphics card: invisible parts are skipped, and a coarser skin can be
+// drawn during motion.
 
-const kPartSides = 512; // of a part, at most; fewer make more calls of 20 µs each
-const kDirections = 54; // nine on each side of a cube
-const kSpots = 4096; // 16 along each axis
-const kNeverAway = 2; // the sine of no angle
-const kRounding = 1e-3; // far above that of single precision
-// Corners whose differences are multiplied for a normal: of the whole side, and of the triangles that draw it.
+const kPartSides = 512; // most sides of a part; smaller parts need more calls, 20 µs each
+const kDirections = 54; // nine for each side of a cube
+const kSpots = 4096; // 16 in each direction
+const kNeverAway = 2; // larger than the sine of any angle
+const kRounding = 1e-3; // far above the rounding of single precision
+// Pairs of corners whose differences give a normal by their cross product: for
+// the side, and for its triangles.
 const kSpans = [
     [0, 2, 1, 3],
     [0, 1, 0, 2],
     [0, 2, 0, 3],
 ];
 
-// Sides of four nodes each, sorted so that those of a part lie together and, of a closed skin, face alike.
+// Sides of four nodes each, sorted into parts of close sides; in a closed skin, the sides
+// of a part have similar normals.
 class Parts {
     constructor(nodes, sides, n, closed) {
         this.count = n;
@@ -45,7 +47,7 @@ class Parts {
             }
     }
 
-    // The order of sides by what they face, then by where they lie; `starts`: where a new direction begins.
+    // Sort sides by direction of their normals, then by position; `starts`: where each direction begins.
     sort(nodes, sides, closed) {
         const n = this.count,
             keys = new Uint32Array(n),
@@ -73,8 +75,8 @@ class Parts {
         return order;
     }
 
-    // Of each part: its first side, the ball that holds it, its mean normal and the sine of the widest angle
-    // to that.
+    // For each part: its first side, its bounding sphere, its mean normal, and the sine of the largest angle
+    // between a normal and the mean.
     bound(nodes, sides, order, closed) {
         const firsts = [],
             rows = [],
@@ -115,8 +117,8 @@ class Parts {
         this.rows = Float32Array.from(rows);
     }
 
-    // The first and the number of the sides, in their order here, that may be seen in a window's `area`, its
-    // least and greatest x and y; parts that are neighbours make one range.
+    // Ranges (first side, number of sides), in the order of this object, that may be visible in `area`:
+    // smallest and largest x and y of the window. Consecutive parts are merged to one range.
     seen(camera, aspect, area = [-1, 1, -1, 1]) {
         const [right, up, back] = camera.axes,
             ranges = [],
@@ -143,13 +145,13 @@ class Parts {
 
 const sidesIn = ranges => ranges.reduce((sum, range) => sum + range[1], 0);
 
-// Bits of a number of four, three apart.
+// The four bits of a number, spread to every third bit.
 const kSpread = Array.from(
     { length: 16 },
     (_, x) => (x & 1) | ((x & 2) << 2) | ((x & 4) << 4) | ((x & 8) << 6),
 );
 
-// The unit normal of side `s`, of the whole or of a triangle that draws it, into `out`; twice its area.
+// Unit normal of side `s`, or of one of its triangles, into `out`; returns twice the area.
 function normalOf(nodes, sides, s, which, out) {
     const [i, j, k, l] = kSpans[which],
         a = 3 * sides[4 * s + i],
@@ -173,7 +175,7 @@ function normalOf(nodes, sides, s, which, out) {
     return size;
 }
 
-// Which of the directions a unit normal is nearest to: a side of a cube, and a ninth of that.
+// The direction closest to a unit normal: a side of a cube, divided into nine.
 function directionOf(normal) {
     let axis = 0;
     for (let k = 1; k < 3; k++) if (Math.abs(normal[k]) > Math.abs(normal[axis])) axis = k;
@@ -182,11 +184,12 @@ function directionOf(normal) {
     return ((2 * axis + (normal[axis] < 0)) * 3 + third(1)) * 3 + third(2);
 }
 
-// The sides that are left when the nodes in a cube of size `step` become one of them, and which each was:
-// vertex clustering @cite rossignac_1993_clustering. The node that stays is one of an edge of the skin where
-// the cube has one, else the nearest to the cube's middle, so corners stay sharp. A closed skin stays closed.
+// Vertex clustering @cite rossignac_1993_clustering: merges the nodes in each cube of size `step`, and
+// returns the remaining sides with their original numbers. The remaining node is on a feature edge of the
+// skin if the cube has one, else the node closest to the centre of the cube, so corners stay sharp. A closed
+// skin stays closed.
 function coarsen(nodes, sides, n, step) {
-    // Nodes of the skin, numbered as they come, and the sum of the unit normals about each.
+    // Nodes of the skin, numbered in order of occurrence, and the sum of the unit normals around each.
     const numberOf = new Int32Array(nodes.length / 3).fill(-1),
         nodeOf = new Int32Array(4 * n),
         bends = new Float32Array(16 * n),
@@ -204,7 +207,7 @@ function coarsen(nodes, sides, n, step) {
             bends[4 * own + 3]++;
         }
     }
-    // The cube of each node, in a table by hash; the node that stays of each.
+    // The cube of each node, in a hash table; and the remaining node of each cube.
     let size = 1;
     while (size < 2 * count) size *= 2;
     const table = new Int32Array(size).fill(-1),
@@ -217,11 +220,11 @@ function coarsen(nodes, sides, n, step) {
     for (let own = 0; own < count; own++) {
         let off = 0;
         for (let k = 0; k < 3; k++) {
-            const x = nodes[3 * nodeOf[own] + k] / step + 0.37; // nodes of a grid lie on no face of a cube
+            const x = nodes[3 * nodeOf[own] + k] / step + 0.37; // keeps grid nodes off the cube faces
             at[k] = Math.floor(x);
             off += (x - at[k] - 0.5) ** 2;
         }
-        // Large primes, so that cubes beside each other are spread.
+        // Large primes, to spread neighbouring cubes in the table.
         const hash =
             Math.imul(at[0], 73856093) ^ Math.imul(at[1], 19349663) ^ Math.imul(at[2], 83492791);
         let slot = hash & (size - 1);

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/shared/bytes.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Messages between the kernel and the CAD process: plain arrays, no pointers, no callbacks.
+///
+/// The CAD process sends `hello` once when it starts. It answers each request with any number of `progress`
+/// messages and then `done` or `failed`. Only `release` has no answer.
+namespace lacuna::cad_protocol {
+
+using lacuna::ProtocolError;
+
+enum class Opcode : std::uint16_t {
+    hello = 1,
+    progress,
+    done,
+    failed,
+    load,
+    evaluate,
+    project,
+    recombine,
+    begin_solid,
+    make_solid,
+    release,
+};
+
+struct Hello {
+    std::string gmsh_version;
+    std::string missing; ///< confinement features that this system lacks, for a person; empty: none
+};
+
+struct Progress {
+    double fraction = 0; ///< [0, 1]
+};
+
+/// An error in the CAD process. Its kind selects the error class that the kernel throws.
+struct Failure {
+    enum Kind : std::uint8_t { invalid_input, not_sweepable, backend, out_of_memory, count };
+    std::uint8_t kind = backend;
+    std::string code, message;
+};
+
+/// A file sent with the message as a descriptor.
+struct SentFile {
+    std::string name; ///< without a folder; the name by which scripts include it; gives Gmsh its format
+};
+
+struct LoadFile {
+    enum Format : std::uint8_t { step, iges, brep, script, count };
+    std::uint8_t format = step;
+    std::string path;               ///< as given by the user, for messages
+    std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
+};
+
+struct LoadRequest {
+    std::vector<LoadFile> files;
+    double tolerance = 0; ///< [model length]; 0: 1e-6 × the diagonal
+    double scale = 1;     ///< model length / file length
+};
+
+/// A CAD model as facets and curves. Lengths are those of the file.
+struct LoadReply {
+    struct Edge {
+        std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
+        std::vector<double> params;
+        std::vector<Index> points;
+        std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces with this edge
+        std::vector<Vec3> form = {};      ///< defining points as in PlainCurve [file length]; or empty
+    };
+    /// A face that could not be triangulated and is not a sliver.
+    struct LeftOut {
+        std::int32_t tag = 0;
+        std::string why; ///< completes the sentence "face 6 …"
+    };
+    struct Face {
+        std::int32_t tag = 0;
+        std::string name, kind;
+        std::vector<Triangle> triangles;
+        std::vector<std::array<Vec2, 3>> uv;
+    };
+    std::uint64_t model = 0; ///< handle of the model
+    double diagonal = 0;     ///< of the exact bounding box [file length]
+    std::vector<Vec3> points;
+    std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
+    std::vector<Edge> edges;
+    std::vector<Face> faces;
+    std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those that are in no solid
+    std::vector<LeftOut> left_out = {};
+    std::vector<std::string> notes; ///< one sentence for each face left out, first those of `left_out`
+};
+
+struct EvaluateRequest {
+    std::uint64_t model = 0;
+    std::int32_t curve = 0;
+    std::vector<double> params;
+};
+struct EvaluateReply {
+    std::vector<Vec3> points; ///< [model length]
+};
+
+struct ProjectRequest {
+    std::uint64_t model = 0;
+    std::int32_t face = 0;
+    std::vector<Vec3> points; ///< [model length]
+    std::vector<Vec2> uv;
+};
+struct ProjectReply {
+    std::vector<Vec3> points;
+    std::vector<Vec2> uv;
+};
+
+/// Target sizes at the points of a square grid, row by row; empty: Gmsh chooses the sizes.
+struct SizeRaster {
+    Vec2 origin = Vec2::Zero();
+    double step = 1;
+    std::int32_t columns = 0;
+    std::vector<double> sizes;
+};
+struct RecombineRequest {
+    std::vector<Vec2> points;
+    std::vector<std::vector<Index>> loops;
+    SizeRaster size;
+};
+struct RecombineReply {
+    std::vector<Vec2> points;
+    std::vector<Quad> quads;
+};
+
+/// Entities of a loaded model that are used to make a solid. Three files in memory are sent along: two for
+/// intermediate results, and the result.
+struct SolidSource {
+    std::uint64_t model = 0;
+    std::vector<std::int32_t> faces, curves;
+};
+struct BeginSolidRequest {
+    std::string subject; ///< the file to be written, for messages
+    std::string result;  ///< its name without a folder; the ending gives the format
+    std::vector<SolidSource> sources;
+};
+/// The requested entities that exist in the CAD process; for each curve its start,
+/// middle and end [model length].
+struct BeginSolidReply {
+    struct Found {
+        std::vector<std::int32_t> faces, curves;
+        std::vector<std::array<double, 9>> curve_points;
+    };
+    std::uint64_t solid = 0;
+    std::vector<Found> sources;
+};
+
+struct SplineAxisData {
+    std::int32_t degree = 1;
+    std::vector<double> knots;
+    std::vector<std::int32_t> multiplicities;
+};
+struct SplineCurveData {
+    SplineAxisData axis;
+    std::vector<Vec3> poles;
+};
+struct SplineSurfaceData {
+    SplineAxisData u, v;
+    std::vector<Vec3> poles; ///< u running fastest
+};
+/// An edge of the solid.
+struct SolidEdge {
+    enum Kind : std::uint8_t { exact, lines, spline, count };
+    std::uint8_t kind = lines;
+    std::int32_t source = -1, curve = 0; ///< exact
+    std::vector<Index> points;           ///< lines: in SolidRequest::points
+    SplineCurveData curve_data;          ///< spline
+};
+struct SolidFace {
+    enum Kind : std::uint8_t { exact, plane, patches, filling, count };
+    std::uint8_t kind = plane;
+    std::string name;                                     ///< for messages
+    std::int32_t source = -1, face = 0;                   ///< exact
+    std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge number, and 1 if the edge is reversed
+    std::vector<SplineSurfaceData> surfaces;              ///< patches
+    std::vector<Index> leading;                           ///< filling: points to interpolate
+    double area = 0;                                      ///< filling: area of its facets
+};
+struct MakeSolidRequest {
+    enum Format : std::uint8_t { step, brep, format_count };
+    std::uint64_t solid = 0;
+    std::uint8_t format = step;
+    std::vector<Vec3> points; ///< [model length]
+    std::vector<SolidEdge> edges;
+    std::vector<SolidFace> faces;
+    double diagonal = 0, first_tolerance = 0, last_tolerance = 0; ///< [model length]
+    double facet_volume = 0, deviation = 0;
+};
+struct MakeSolidReply {
+    double volume = 0, tolerance = 0;
+    std::uint64_t faces = 0;
+};
+
+struct ReleaseRequest {
+    std::uint64_t handle = 0; ///< of a model or a solid under construction
+};
+
+// --- bytes --------------------------------------------------------------------------------------------
+
+template <class T>
+std::string encode(const T& message);
+/// @throw ProtocolError  the bytes are not such a message, or an index in it is out of range.
+template <class T>
+T decode(std::string_view bytes);
+
+} // namespace lacuna::cad_protocol

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls separates
+/// the skin into a side with two ends, given or missing, and a side that has an end too or is deeper than
+/// half its width.
+bool has_branches(const topology::OpenVolume& volume, const RunContext& context = {});
+
+/// Cut a volume at its side branches into arms that can be swept: a tee into three arms, a manifold into two
+/// more per branch and one more between two branches.
+///
+/// Three void faces meet in a line across each mouth, which dips into the main body: one across the main
+/// body, and two from that line to the halves of the mouth. Each arm ends in two of them, so the junction of
+/// a tee of equal tubes consists of three half ellipses. The remaining pieces are cut again, and so are
+/// branches of branches. If branches leave to several sides, or one leaves an arm across the line in its end,
+/// the main body's walls are first split by planes along it through the centre of each mouth: these lines
+/// determine the correspondence on rims that are bent at mouths.
+/// @return  pieces in the order of the cuts; the volume itself if it has no branches.
+/// @throw NotSweepable "closure.branches"  a main body with missing walls at the mouth, or with more than two
+///         ends; mouths next to each other (names where to cut by hand); a branch that reaches beyond the
+///         side of the main body. Otherwise as `cut_by_plane()`.
+/// @note  O(branches · facets log facets).
+std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
+
+/// Whether a volume must be cut to be swept: it has branches or steps, or is a full turn.
+bool has_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
+/// The pieces of a volume with branches, steps or both, or of a full turn; the volume itself if it has none.
+std::vector<StepPiece> cut_into_pieces(const topology::OpenVolume& volume, const RunContext& context = {});
+
+} // namespace lacuna::closure

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Cut a volume by a plane into pieces that share the cut faces.
+///
+/// Faces that the plane crosses are split and keep their tags, names and exact surfaces. Each region of the
+/// plane inside the volume becomes a void face, named `cut_1` and so on, which belongs to both adjacent
+/// pieces: `sweep::sweep_assembly()` gives both the same quads. If the plane crosses missing faces, the
+/// volume is closed first, so that its void faces are cut too. If it cannot be closed as a whole, straight
+/// void edges join the open ends of the section, and each piece can be closed on its own.
+///
+/// A cut that meets an end becomes a wall of its pieces. Otherwise it becomes the end that a piece lacks,
+/// together with coplanar walls next to it. A piece without ends takes one from its other faces if they
+/// determine it; a piece between two cuts has these as ends.
+/// @return  pieces behind the plane first.
+/// @throw NotSweepable "closure.cut_misses"  the plane crosses nothing; names the faces it touches or the
+///         distance. "closure.cut_apart"  the volume stays connected, such as a ring cut once.
+///         "closure.cut_touches"  the plane runs along faces nearly in it. "closure.cut_gaps"  open ends of
+///         walls that cannot be joined without crossings.
+/// @throw InvalidInput  as `topology::imprint_walks()`.
+/// @note  O(facets log facets).
+std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,
+                                    const RunContext& context = {});
+
+/// Cut a volume by a face of a model into pieces that share it.
+///
+/// A face whose rim runs along edges of the volume, such as a partition modelled with it, is the shared face,
+/// whatever its shape. Any other flat face cuts by its plane: a face of the volume along the whole plane, a
+/// face of another model only where its own facets are inside the volume.
+/// @param face  of `model`, which may be the volume's.
+/// @throw NotSweepable "closure.cut_face"  a curved face whose rim leaves the volume's edges; names the face
+///         and the place. Otherwise as `cut_by_plane()`.
+std::vector<StepPiece> cut_by_face(const topology::OpenVolume& volume, const topology::Model& model,
+                                   FaceId face, const RunContext& context = {});
+
+} // namespace lacuna::closure

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/shared/cavities.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_facts.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/gaps.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Facts for choosing faces of a model, shared by `model:info()` and the HTML page of a model.
+struct ModelFacts {
+    std::vector<topology::FaceFacts> faces;                 ///< of each face
+    std::vector<std::optional<topology::RoundShape>> round; ///< of each face
+    std::vector<std::optional<topology::ConeShape>> cone;   ///< of each face that is no cylinder or sphere
+    std::vector<bool> part_closed;                          ///< by connected part: it has no free edge
+    std::vector<topology::Gap> gaps;
+    std::vector<Cavity> cavities;
+    std::vector<std::size_t> cavity_of; ///< by face: the smallest cavity it belongs to, from 0; their count:
+                                        ///< none
+};
+
+/// @throw Cancelled
+/// @note  Cost as `cavities()` and `topology::gaps()`.
+ModelFacts model_facts(const topology::Model& model, const RunContext& context = {});
+
+/// Where a face belongs: the kind of its cavity, "outer skin" or "open shell". Valid as long as `facts`.
+const char* use_of(const ModelFacts& facts, FaceId face);
+
+} // namespace lacuna::closure

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Choose the ends of closed cut pieces again, if a piece cannot be swept between its current ends.
+///
+/// A plane that crosses an end obliquely leaves pieces whose cut is adjacent to the rest of that end. An end
+/// is a connected set of faces whose normals differ by less than 110°; two sets can be ends if each wall runs
+/// from one to the other between two neighbours. The pair with the flattest and most similar ends, most
+/// square to their walls, is taken. User-named ends are preferred, and a cut that is a wall of both adjacent
+/// pieces gets the same sides along the ends of both if possible.
+/// @return  the number of pieces whose ends changed. Pieces without such ends, or with missing faces, are
+///         unchanged.
+/// @throw Cancelled
+/// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
+std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context = {});
+
+/// Whether a closed volume has two ends between which each wall runs, as `read_ends()` requires; false for
+/// more than 40 faces.
+bool walls_run_between_ends(const topology::OpenVolume& volume);
+
+/// @param what  name of the volume in the message: "volume_2".
+/// @throw NotSweepable "closure.no_ends"  a closed volume that lacks a source or a target; names its faces.
+void check_ends(const topology::OpenVolume& volume, const std::string& what);
+
+} // namespace lacuna::closure

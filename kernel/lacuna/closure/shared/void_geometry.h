@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+#include <lacuna/closure/shared/follow.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::closure {
+
+/// Facets of a void face, not yet in the model.
+struct VoidFilling {
+    std::vector<topology::Loop> loops;
+    std::vector<Vec3> points;        ///< new ones; index i stands for model point model.points.size() + i
+    std::vector<Triangle> triangles; ///< model points, oriented like the loops
+    topology::Geometry geometry = topology::Geometry::newell;
+    std::string algorithm; ///< name in the paper: "Algorithm 4" …
+};
+
+/// The four logical sides of a loop that runs once along the source rim and once along the target rim, in
+/// walking order: source, side, target, side; empty if it is no such loop.
+std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVolume& volume,
+                                                          const topology::Loop& loop);
+
+/// Triangulate one void face from its loops (the outer loop and islands).
+///
+/// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4,
+/// constrained Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's
+/// heights. Departures: if the rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two
+/// planes among many, so does the interior; if it lies on about one quadratic height, like the mouth of a
+/// keyway on its shaft, the interior takes that, plus the harmonic interpolation of the residual at the rim.
+/// A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a bilinear
+/// Coons patch over arc length. Departure: a bent four-sided face is transfinite at once, so that its facets
+/// and its mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
+/// @param follower  null, or the motion that a bent four-sided face follows: the source side moved up along
+///                  the given walls and the target side moved down, blended, and shifted to meet the sides.
+/// @param name  of the face, in messages.
+/// @throw NotClosed  names the face and the edges that cross.
+VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+                 const Follower* follower, const std::string& name, const RunContext& context = {});
+
+/// Triangulate a missing end with the shape of a given surface: its heights over the Newell plane of the
+/// loops, plus the harmonic extension of the residual at the loops.
+/// @param shape  the given end, moved by the walls to near the loops.
+/// @throw NotClosed  the loops cross in their Newell plane, or the surface folds over it; names the face.
+VoidFilling fill_as(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
+                    const geometry::FacetTree& shape, double facet_size, const std::string& name,
+                    const RunContext& context = {});
+
+/// Add a filled face to the volume.
+FaceId add_void_face(topology::OpenVolume& volume, VoidFilling filling, topology::Role role);
+
+} // namespace lacuna::closure

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/types.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// Serialisation of values for other processes of the same program, on machines with the same byte order.
+namespace lacuna {
+
+/// Bytes received from another process do not follow the protocol.
+class ProtocolError : public Error {
+public:
+    explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
+};
+
+/// Types that are copied byte by byte: numbers and fixed-size arrays of numbers.
+template <class T>
+struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {
+};
+template <class T, std::size_t n>
+struct IsPlain<std::array<T, n>> : IsPlain<T> {
+};
+template <>
+struct IsPlain<Vec2> : std::true_type {
+};
+template <>
+struct IsPlain<Vec3> : std::true_type {
+};
+
+static_assert(std::endian::native == std::endian::little, "the wire is little-endian and never swapped");
+static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
+
+/// Appends values to a buffer: numbers as they are in memory, arrays and strings preceded by their length.
+/// Arrays of other types use `put(writer, value)`, found in the namespace of the type.
+class Writer {
+public:
+    template <class T>
+    requires IsPlain<T>::value void operator()(const T& value) { append(&value, sizeof(T)); }
+    void operator()(const std::string& text)
+    {
+        (*this)(static_cast<std::uint64_t>(text.size()));
+        append(text.data(), text.size());
+    }
+    template <class T>
+    void operator()(const std::vector<T>& values)
+    {
+        (*this)(static_cast<std::uint64_t>(values.size()));
+        if constexpr (IsPlain<T>::value) {
+            append(values.data(), values.size() * sizeof(T));
+        } else {
+            for (const T& value : values) {
+                if constexpr (requires { (*this)(value); })
+                    (*this)(value);
+                else
+                    put(*this, value);
+            }
+        }
+    }
+    [[nodiscard]] std::string take() && { return std::move(bytes_); }
+
+private:
+    void append(const void* data, std::size_t size)
+    {
+        if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+    }
+    std::string bytes_;
+};
+
+/// Reads what a `Writer` wrote. A length is checked against the number of bytes left before it is used.
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : left_(bytes) {}
+
+    template <class T>
+    requires IsPlain<T>::value void operator()(T& value)
+    {
+        std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+    }
+    void operator()(std::string& text)
+    {
+        const std::size_t size = length(1);
+        text.assign(take(size), size);
+    }
+    template <class T>
+    void operator()(std::vector<T>& values)
+    {
+        if constexpr (IsPlain<T>::value) {
+            const std::size_t count = length(sizeof(T));
+            values.resize(count);
+            if (count > 0)
+                std::memcpy(static_cast<void*>(values.data()), take(count * sizeof(T)), count * sizeof(T));
+        } else {
+            // Each element takes at least one byte, so the number of bytes left bounds the loop.
+            const std::size_t count = length(1);
+            values.clear();
+            for (std::size_t i = 0; i < count; ++i) {
+                T& value = values.emplace_back();
+                if constexpr (requires { (*this)(value); })
+                    (*this)(value);
+                else
+                    put(*this, value);
+            }
+        }
+    }
+    [[nodiscard]] bool is_empty() const { return left_.empty(); }
+    /// @throw ProtocolError  bytes are left over.
+    void finish() const
+    {
+        if (!left_.empty()) throw ProtocolError("a message has bytes left over");
+    }
+
+private:
+    std::size_t length(std::size_t size_of_one)
+    {
+        std::uint64_t count = 0;
+        (*this)(count);
+        if (count > left_.size() / size_of_one) throw ProtocolError("a length exceeds the message");
+        return static_cast<std::size_t>(count);
+    }
+    const char* take(std::size_t size)
+    {
+        if (size > left_.size()) throw ProtocolError("a message ends too early");
+        const char* at = left_.data();
+        left_.remove_prefix(size);
+        return at;
+    }
+    std::string_view left_;
+};
+
+/// Read or write an array; `put_one(value)` lists the fields of one element, for reading and writing alike.
+template <class Archive, class Values, class PutOne>
+void put_each(Archive& with, Values& values, const PutOne& put_one)
+{
+    std::uint64_t count = values.size();
+    with(count);
+    if constexpr (!std::is_const_v<Values>) values.resize(count);
+    for (auto& value : values) put_one(value);
+}
+
+} // namespace lacuna

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+
+#include <cstddef>
+#include <functional>
+
+namespace lacuna {
+
+/// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`,
+/// on the threads of the context.
+///
+/// The ranges depend only on `count`, `grain` and the number of threads. A body that writes only to its own
+/// indices gives the same result for any number of threads.
+/// If the system cannot create all the threads, the available ones do all the work.
+/// @throw the first exception of a body, after all threads have stopped; Cancelled between ranges.
+void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body);
+
+/// The smallest value of `least_of(begin, end)` over the ranges of [0, count), `grain` indices each, in
+/// parallel. Returns `none` if there are no ranges or no value is smaller.
+/// @throw as `parallel_for()`
+double parallel_min(const RunContext& context, std::size_t count, std::size_t grain, double none,
+                    const std::function<double(std::size_t, std::size_t)>& least_of);
+
+} // namespace lacuna

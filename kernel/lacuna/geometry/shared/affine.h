@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <Eigen/Core>
+
+#include <span>
+
+namespace lacuna::geometry {
+
+/// An affine map p ↦ to_centre + linear · (p − from_centre), fitted to pairs of points.
+struct AffineFit {
+    Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+    Vec3 from_centre{0, 0, 0};
+    Vec3 to_centre{0, 0, 0};
+    double rms = 0;          ///< root mean square distance of images from targets [model length]
+    double max_residual = 0; ///< largest such distance [model length]
+    int rank = 3; ///< number of directions determined by the data, 0…3; the others were completed
+
+    [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
+};
+
+/// Least-squares affine fits from one set of points to several others; the factorisation is reused.
+///
+/// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
+/// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|: its length is the width of the rim, so that a
+/// rotation with a uniform scale maps one onto the other. It determines the direction that a planar rim
+/// leaves open: the map has full rank, preserves orientation, and does not flatten or
+/// flip points outside the plane.
+///
+/// A direction whose spread is below √ε of the largest is not determined by the data. It is completed: the
+/// third by the normal to the images of the other two, with a length that keeps the shape; the last two by
+/// the smallest rotation. Only orthogonal factorisations are used (no normal equations), so the error is ε
+/// times the condition number of the spread.
+class AffineFitter {
+public:
+    /// @param from       kept by reference: must outlive the fitter.
+    /// @param from_area  Newell area vector of the rim of the points, summed over its loops; zero: none.
+    explicit AffineFitter(std::span<const Vec3> from, const Vec3& from_area = Vec3::Zero());
+
+    /// @pre to.size() equals from.size()
+    [[nodiscard]] AffineFit fit(std::span<const Vec3> to, const Vec3& to_area = Vec3::Zero()) const;
+
+    /// Root mean square spread along the three principal directions, largest first, with
+    /// the pseudo-normal [model length].
+    [[nodiscard]] const Vec3& spread() const { return spread_; }
+    /// Distance of p from the centre relative to the spread in that direction (Mahalanobis); infinite in
+    /// directions that are not in the data.
+    [[nodiscard]] double reach(const Vec3& p) const;
+    /// Number of directions determined by the data, 0…3.
+    [[nodiscard]] int rank() const { return rank_; }
+
+private:
+    std::span<const Vec3> from_;
+    Vec3 centre_{0, 0, 0};
+    bool has_normal_ = false;
+    int rank_ = 0;
+    Vec3 spread_{0, 0, 0};
+    Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); ///< principal directions as columns, right-handed
+    Eigen::Matrix<double, Eigen::Dynamic, 3> basis_; ///< orthonormal columns: (row − centre) · axes / spread
+};
+
+/// A single affine fit. Area vectors of zero: no pseudo-normal.
+AffineFit fit_affine(std::span<const Vec3> from, std::span<const Vec3> to,
+                     const Vec3& from_area = Vec3::Zero(), const Vec3& to_area = Vec3::Zero());
+
+/// A rotation, a uniform scale and a translation: p ↦ scale · rotation · p + translation.
+struct RigidFit {
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< determinant 1
+    double scale = 1;
+    Vec3 translation{0, 0, 0};
+    double rms = 0; ///< root mean square distance of the mapped points from their targets [model length]
+
+    [[nodiscard]] Vec3 operator()(const Vec3& p) const { return scale * (rotation * p) + translation; }
+};
+
+/// Least-squares rigid fit (Kabsch, Umeyama 1991), never a reflection.
+///
+/// If the rotation is not unique (points on a line, or all coincident), the smallest one is returned.
+/// @pre from.size() == to.size(), not 0.
+RigidFit fit_rigid(std::span<const Vec3> from, std::span<const Vec3> to, bool with_scale);
+
+/// Mean of the points; zero for none.
+Vec3 mean_point(std::span<const Vec3> points);
+
+} // namespace lacuna::geometry

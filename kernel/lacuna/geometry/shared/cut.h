@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/types.h>
+
+#include <array>
+#include <set>
+#include <span>
+#include <vector>
+
+/// Cuts through a closed strip of facets, from one of its two rims to the other.
+namespace lacuna::geometry {
+
+/// Shortest path along sides of facets from a point to one of `ends`, avoiding the points of `off` except the
+/// start. Empty if there is none. O(facets log).
+/// @throw Cancelled
+std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                Index start, const std::set<Index>& off, const std::set<Index>& ends,
+                                const RunContext& context = {});
+
+/// The branch of each triangle corner at a cut, for `HarmonicProblem::corner_turns`. Seen with
+/// counter-clockwise triangles and the cut pointing upwards, corners on the cut get one turn in the triangles
+/// to its right. O(triangles).
+/// @param cut  points; consecutive ones are joined by a side.
+std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles, std::span<const Index> cut);
+
+} // namespace lacuna::geometry

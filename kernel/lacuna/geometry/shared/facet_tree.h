@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/types.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// Bounding-volume tree over triangles: closest points, crossings and rays in O(log triangles).
+///
+/// Holds a copy of the corners, so the points may be changed or destroyed later. Queries are const, do not
+/// allocate and are thread-safe. Results are reproducible to the bit; among equally good triangles the one
+/// with the lowest index is returned. Degenerate triangles, and no triangles at all, are allowed.
+class FacetTree {
+public:
+    FacetTree() = default;
+    /// Build the tree on one thread.
+    /// @pre every corner is an index into `points`. O(triangles log triangles).
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles);
+    /// Build the same tree on the threads of the context. @throw Cancelled
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles, const RunContext& context);
+
+    /// The point of the facets closest to a given point.
+    struct Hit {
+        Index triangle = -1; ///< index in the constructor's order; -1: none within the distance
+        Vec3 point = Vec3::Zero();
+        Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, in [0, 1], sum 1
+        double distance2 = std::numeric_limits<double>::infinity(); ///< squared distance
+    };
+    [[nodiscard]] Hit closest(const Vec3& p) const;
+    /// Only facets within the squared distance, inclusive, are considered.
+    [[nodiscard]] Hit closest(const Vec3& p, double max_distance2) const;
+
+    /// Call `visit` for every pair (own triangle, triangle of other) whose boxes are within `margin`, until
+    /// it returns false. For a tree and itself, each pair of different triangles is
+    /// visited once, lower index first.
+    /// @return false if `visit` stopped it.
+    /// @throw Cancelled
+    bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0,
+                  const RunContext& context = {}) const;
+
+    /// Whether a facet may meet the box; false only if no facet's box does.
+    [[nodiscard]] bool may_meet(const Eigen::AlignedBox3d& box) const;
+
+    /// Intersection of a ray with a facet.
+    struct RayHit {
+        Index triangle = -1;
+        double t = std::numeric_limits<double>::infinity(); ///< the point is origin + t direction, t >= 0
+        Vec3 barycentric = Vec3::Zero();
+    };
+    /// The first intersection; `triangle` is -1 if there is none. A ray in the plane of
+    /// a facet does not intersect it.
+    [[nodiscard]] RayHit first_along(const Vec3& origin, const Vec3& direction) const;
+    /// Visit all intersections in any order, until `visit` returns false. A ray through a shared edge
+    /// intersects both facets. @return false if `visit` stopped it.
+    bool all_along(const Vec3& origin, const Vec3& direction,
+                   const std::function<bool(const RayHit&)>& visit) const;
+
+    /// Generalised winding number: 1 inside a closed surface oriented outward, 0 outside, in between near
+    /// gaps (Jacobson et al. 2013). O(triangles), as it sums over all facets; more robust than counting
+    /// intersections of a ray.
+    [[nodiscard]] double winding_number(const Vec3& p) const;
+
+    [[nodiscard]] std::size_t size() const { return id_.size(); }
+    [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+
+private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        std::uint32_t begin = 0, end = 0; ///< range of its triangles, in tree order
+        std::uint32_t right = 0;          ///< its second child; the first is the next node; 0: a leaf
+    };
+    struct Parts;
+    std::uint32_t build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
+                        int threads, const RunContext& context);
+
+    /// Visit all intersections up to `farthest`, which `visit` may reduce.
+    /// @return false if `visit` stopped it.
+    template <class Visit>
+    bool along(const Vec3& origin, const Vec3& direction, const double& farthest, const Visit& visit) const;
+
+    std::vector<Node> node_;
+    std::vector<Index> id_;                   ///< given index of each triangle, in tree order
+    std::vector<std::array<Vec3, 3>> corner_; ///< in tree order
+    Eigen::AlignedBox3d bounds_;
+};
+
+/// Closest point of one triangle; `triangle` stays -1. Degenerate triangles are allowed.
+FacetTree::Hit closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners);
+
+/// Whether two triangles intersect: each extends more than `tolerance` to both sides of the other's plane,
+/// and they share more than `tolerance` of a line. Coplanar triangles intersect if they overlap by more than
+/// `tolerance`. Mere contact (a shared point or edge, a point on the other triangle) does not count.
+/// @param tolerance  [model length], >= 0.
+bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double tolerance);
+
+} // namespace lacuna::geometry

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// How facets were flattened, ordered by increasing distortion.
+enum class FlatMap {
+    plane,     ///< planar facets: an isometry
+    ring,      ///< a tube mapped to a ring, nearly conformal
+    rigid,     ///< as rigid as possible
+    injective, ///< least symmetric Dirichlet energy, no flipped triangles
+    conformal, ///< least squares conformal
+    convex,    ///< harmonic to a disc: one-to-one for every shape
+};
+
+/// Options of `flatten()`.
+struct FlattenOptions {
+    double planar_tolerance = 0; ///< tolerance for planar facets [model length]; 0: 1e-9 × their extent
+    int max_iterations = 200;    ///< of each iterative map, >= 1
+    double settled = 1e-6;       ///< relative decrease of the energy at which iterations stop
+};
+
+/// Facets mapped to the plane.
+struct Flattened {
+    std::vector<Index> used;         ///< the given points that the triangles use, ascending
+    std::vector<Vec2> position;      ///< plane coordinates of each point in `used` [model length]
+    std::vector<Triangle> triangles; ///< the given triangles in the given order, as indices into `used`
+    FlatMap map = FlatMap::plane;
+    double max_stretch = 1; ///< largest length ratio, or inverse, of all triangles, >= 1
+    Index flips = 0;        ///< number of triangles flipped or collapsed
+    bool overlaps = false;  ///< the boundary intersects itself
+    bool folded = false;    ///< has flips or overlaps: the map is not one-to-one
+};
+
+/// Map connected facets, which may have holes, to the plane; triangles stay counter-clockwise.
+///
+/// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: it has
+/// no nearly rigid map, and minimising its distortion would take a hundred times as long. Other facets start
+/// from the least squares conformal map (Lévy et al. 2002) and are relaxed to as rigid as possible by local
+/// and global steps (Liu et al. 2008). If that flips a triangle or makes the boundary intersect, maps without
+/// flips are tried: least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), then the
+/// harmonic map to a disc. The first one-to-one map is returned; if there is none, the map with the fewest
+/// flips, and `folded` is set. The result has the area of the facets in space, and is rotated to agree best
+/// with their Newell plane.
+///
+/// @param points     may be all points of a model.
+/// @param triangles  consistently oriented.
+/// @throw InvalidInput "geometry.not_flattenable"  no triangles; or curved facets that are not a connected,
+///        consistently oriented manifold, have no boundary, or have a handle.
+/// @note  Deterministic. Costs about one sparse factorisation and some dozens of solves; two factorisations
+///        for a tube.
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                  const FlattenOptions& options = {});
+
+/// Finds the triangle at a point of the plane, to map it back to space. O(1) inside the triangles, O(log
+/// triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
+class PlanarLocator {
+public:
+    PlanarLocator() = default;
+    explicit PlanarLocator(const Flattened& flat);
+    PlanarLocator(std::span<const Vec2> points, std::span<const Triangle> triangles);
+
+    struct FacetPosition {
+        Index triangle = -1;             ///< -1 only if there are no triangles
+        Vec3 barycentric = Vec3::Zero(); ///< in [0, 1], sum 1
+        double distance = 0;             ///< from the triangle; zero up to rounding inside the facets
+    };
+    /// The triangle at a point; outside all triangles, the closest point of the closest triangle.
+    [[nodiscard]] FacetPosition locate(const Vec2& place) const;
+
+private:
+    /// Two of the barycentric weights of a triangle, as linear functions of the point.
+    struct Weights {
+        Vec2 corner, first, second; ///< the two weights are these times (point - corner)
+    };
+    [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
+
+    FacetTree tree_;
+    // Square bins over all triangles: bin b may intersect triangles listed_[start_[b]...start_[b + 1]).
+    Vec2 low_ = Vec2::Zero();
+    double bin_ = 1;
+    Index across_ = 0, up_ = 0;
+    std::vector<Index> start_, listed_;
+    std::vector<Weights> weights_;
+};
+
+} // namespace lacuna::geometry

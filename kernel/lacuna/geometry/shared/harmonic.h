@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/types.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// Harmonic interpolation on a triangulation, from points with known values.
+///
+/// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003), which
+/// are positive for all triangle shapes. So values stay in the range of the fixed ones, and a disc whose rim
+/// is mapped to a convex outline in order is mapped one-to-one (Tutte). On planar triangles,
+/// linear functions are reproduced.
+///
+/// Free points on a border have cotangent weights, limited to >= 0. They approximate the natural (Neumann)
+/// condition, independent of the directions of the diagonals.
+struct HarmonicProblem {
+    std::span<const Vec3> points;        ///< may be all points of a model; unused points are ignored
+    std::span<const Triangle> triangles; ///< in either orientation
+    std::vector<Index> fixed;            ///< points with known values, without duplicates
+    Eigen::MatrixXd fixed_values;        ///< fixed.size() × k, one row for each point
+
+    /// For values known up to a period only, such as the angle around a cylinder: for each triangle corner,
+    /// the multiple of `period` to add to the value of its point to be on the branch of the triangle. Corners
+    /// of a triangle across the cut have different turns; all others may be 0. Empty: all zero.
+    std::vector<std::array<int, 3>> corner_turns;
+    Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
+
+    /// Use cotangent weights of either sign everywhere: least Dirichlet energy. Unlike mean value weights,
+    /// they are not biased by diagonals that all have the same direction, but values may leave the range of
+    /// the fixed ones.
+    bool least_energy = false;
+
+    /// Nine digits suffice: use multigrid from 2,000 free points, where it takes a third of the time, and
+    /// solve nothing if an affine function of position has the fixed values and satisfies the means.
+    bool nine_digits = false;
+};
+
+/// Solve for all points, k values each.
+///
+/// @return points.size() × k, on the branch of turn 0. Rows of fixed points are bit-identical to the given
+///         ones; rows of unused points are 0.
+/// @throw  InvalidInput "geometry.harmonic_input"  sizes do not match, or an index is out of range.
+/// @throw  BackendError "geometry.singular"  a free point is not connected to a fixed point; names it.
+/// @throw  Cancelled  between the steps; not during the factorisation.
+/// @note   Degenerate triangles are allowed: weights are limited against rounding. Up to 20,000 free points
+///         (2,000 if nine digits suffice) one sparse factorisation and k solves; beyond that multigrid,
+///         linear in the number of points, and the factorisation if multigrid does not converge.
+///         Deterministic.
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context = {});
+
+} // namespace lacuna::geometry

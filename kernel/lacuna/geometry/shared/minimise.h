@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+
+namespace lacuna::geometry {
+
+struct MinimiseOptions {
+    int iterations = 60;
+    double least_gain = 1e-7;     ///< stop when a step reduces the value by less, relatively [-]
+    std::size_t memory = 10;      ///< number of stored steps
+    bool start_anew = true;       ///< if no step is found, restart once with steepest descent
+    std::function<bool()> stop{}; ///< called before each step; true stops
+    int visit_every = 15;         ///< steps between calls of `visit`
+    std::function<bool(const Eigen::VectorXd& x)> visit{}; ///< called with the current point; true stops
+};
+
+/// Value of a function; sets its gradient at `x`.
+using Function = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
+
+/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps stay in the span of the
+/// gradients: if the gradients lie in a subspace, the function is minimised in it.
+/// @return the final value.
+double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOptions& options = {});
+
+} // namespace lacuna::geometry

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// Inner points whose angles sum to less than 90 % of a full turn: tips of cones. Empty if there are more
+/// than 64, as on coarse facets.
+/// @param triangles  consistently oriented; sides of one triangle only are the border.
+std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles);
+
+} // namespace lacuna::geometry

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::geometry {
+
+/// A triangulated region of the plane.
+struct Triangulation {
+    std::vector<Vec2> points;        ///< the given ones first, unchanged, then the added ones
+    std::vector<Triangle> triangles; ///< counter-clockwise
+};
+
+/// Options of `triangulate()`. Lengths are in the units of the points.
+struct TriangulateOptions {
+    bool interior_points = true; ///< false: use the given points only
+    std::function<double(const Vec2&)>
+        size{}; ///< target edge length, > 0; the smaller of this and the rim's is used
+    /// Growth of edges with the distance from the rim [length per length, >= 0]: the target length at x is
+    /// the minimum of (spacing at p) + grading × |x − p| over the rim points p. 0: the smallest spacing
+    /// everywhere; infinity: only `size` counts.
+    double grading = 0.2;
+    std::size_t max_points = 1'000'000; ///< refinement stops at this many added points
+};
+
+/// Constrained Delaunay triangulation of the region inside closed loops.
+///
+/// Loops may have any order and direction: a loop inside no other is an outer loop, a loop inside an outer
+/// loop is an island, and so on alternately. The segments of the loops are kept: each is a triangle side, and
+/// no point is added on them. Inside, points are added frontally by Delaunay refinement with size-bound
+/// off-centres (Rebay 1993; Üngör 2004), where a triangle is too large or has a circumradius above √2 × its
+/// shortest side, unless the point would be inside the diametral circle of a rim segment (which only
+/// splitting the segment could cure). Added points keep a minimum distance from visible
+/// points, so the refinement terminates.
+///
+///
+/// @param loops  point numbers in order, the first not repeated; at least 3 in each, no point twice. Points
+///               in no loop are returned but not used.
+/// @throw InvalidInput  a loop has fewer than 3 points or only collinear ones, a point does not exist or is
+///                      not finite, loops cross or touch; names the loops, counted from 1. Cancelled.
+/// @note  Deterministic; orientation and circle tests are exact. O(n log n) in practice.
+Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vector<Index>> loops,
+                          const TriangulateOptions& options = {}, const RunContext& context = {});
+
+/// Two segments that intersect; segment k of a loop runs from its point k to the next.
+struct LoopCrossing {
+    std::size_t loop_a, segment_a, loop_b, segment_b;
+};
+
+/// The first pair of segments (by loop, then segment) that cross, touch without being neighbours or overlap,
+/// decided exactly; nothing where the loops are clean.
+/// @note  O(n log n) for segments that do not crowd.
+std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
+                                          std::span<const std::vector<Index>> loops);
+
+} // namespace lacuna::geometry

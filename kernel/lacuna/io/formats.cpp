@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/format_table.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/msh_file.h>
+#include <lacuna/io/detail/vtk_writer.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace lacuna::io {
+
+/// OpenFOAM's folder. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells with middle nodes.
+void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
+
+namespace {
+
+constexpr std::string_view kDeckOptions = "with without renumber first_node first_cell interfaces";
+
+FormatRow mesh_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck)
+{
+    FormatRow row{};
+    row.ending = ending, row.name = name, row.word = word, row.deck = deck;
+    row.is_read = row.is_written = true;
+    return row;
+}
+
+FormatRow view_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck,
+                      std::string_view options, decltype(FormatRow::view_file) write)
+{
+    FormatRow row = mesh_format(ending, name, word, deck);
+    row.options = options, row.view_file = write;
+    row.streamed = row.streamed_parts = row.has_lines = row.has_hex27 = true;
+    return row;
+}
+
+FormatRow deck_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck,
+                      Format::Skin skin, decltype(FormatRow::deck_file) write,
+                      void (*read)(Cursor&, DeckBuilder&))
+{
+    FormatRow row = mesh_format(ending, name, word, deck);
+    row.options = kDeckOptions, row.skin = skin, row.deck_file = write, row.read = read;
+    row.is_numbered = row.streamed = row.streamed_parts = true;
+    row.numbers_regions = deck != DeckFormat::abaqus;
+    return row;
+}
+
+std::vector<FormatRow> make_table()
+{
+    using enum DeckFormat;
+    std::vector<FormatRow> table;
+    const auto to_vtu = [](const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions&,
+                           const mesh::ViewParts*) { return vtu_file(view); };
+    const auto to_vtk = [](const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions& options,
+                           const mesh::ViewParts*) { return vtk_file(view, options.binary); };
+    constexpr std::string_view kNoSides = "sets of sides are not written: VTK has none";
+
+    FormatRow row = view_format(".msh", "an MSH file", "MSH", msh,
+                                "version binary quality groups gmsh_options "
+                                "partitions ghosts with without "
+                                "renumber first_node first_cell interfaces",
+                                msh_file);
+    row.read = read_msh, row.has_node_sets = false;
+    row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH are of elements";
+    table.push_back(row);
+    row = view_format(".vtu", "a VTU file", "VTK", vtu,
+                      "quality with without renumber first_node first_cell interfaces", to_vtu);
+    row.read = read_vtu, row.unwritten_sets = kNoSides;
+    table.push_back(row);
+    row = view_format(".pvtu", "a PVTU file", "VTK", vtu, "quality partitions ghosts interfaces", nullptr);
+    row.is_read = row.streamed_parts = false;
+    table.push_back(row);
+    row = view_format(".vtk", "a legacy VTK file", "VTK", vtk,
+                      "binary quality with without renumber first_node first_cell interfaces", to_vtk);
+    row.read = read_vtk, row.unwritten_sets = kNoSides;
+    table.push_back(row);
+    row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
+                      read_abaqus);
+    row.options = "element with without renumber first_node first_cell interfaces";
+    table.push_back(row);
+    for (const char* ending : {".bdf", ".nas", ".dat"})
+        table.push_back(deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes,
+                                    nastran_file, read_nastran));
+    table.push_back(
+        deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv));
+    for (const char* ending : {".exo", ".e"}) {
+        row = deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,
+                          exodus_file, read_exodus);
+        row.has_hex27 = true, row.streamed_parts = false;
+        table.push_back(row);
+    }
+    row = mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh);
+    row.is_folder = true, row.is_read = row.has_hex20 = row.has_node_sets = false;
+    row.options = "with without renumber interfaces", row.view_folder = write_poly_mesh;
+    row.unwritten_sets = "sets of nodes or sides are not written: a polyMesh has patches of faces";
+    table.push_back(row);
+    row = mesh_format(".mesh", "a Medit file", "Medit", medit);
+    row.read = read_medit, row.is_written = false, row.numbers_regions = true;
+    table.push_back(row);
+    row = mesh_format(".stl", "an STL file", "STL", stl);
+    row.read = read_stl, row.is_written = row.is_mesh = false;
+    table.push_back(row);
+    row = mesh_format(".obj", "a Wavefront OBJ file", "OBJ", obj);
+    row.read = read_obj, row.is_written = row.is_mesh = false;
+    table.push_back(row);
+    return table;
+}
+
+} // namespace
+
+std::span<const FormatRow> format_table()
+{
+    static const std::vector<FormatRow> table = make_table();
+    return table;
+}
+
+const Format* find_format(const std::string& path)
+{
+    const std::string name = std::filesystem::path(path).filename().string();
+    const std::string ending = ending_of(path);
+    for (const FormatRow& row : format_table())
+        if (row.ending == (row.is_folder ? name : ending)) return &row;
+    return nullptr;
+}
+
+const Format& needed_mesh_format(const std::string& call, const std::string& path, bool decks)
+{
+    const auto is_written = [](const Format& of) { return of.is_written; };
+    const auto holds_decks = [](const Format& of) { return of.has_option("with"); };
+    const Format* const format = find_format(path);
+    if (format != nullptr && (decks ? holds_decks(*format) : is_written(*format))) return *format;
+    throw InvalidInput("lua.unknown_ending", call + ": the ending of " + path +
+                                                 " says no format; meshes are written as " +
+                                                 (decks ? endings_of(holds_decks) : endings_of(is_written)));
+}
+
+const Format& format_of(DeckFormat deck)
+{
+    return *std::ranges::find(format_table(), deck, [](const FormatRow& row) { return row.deck; });
+}
+
+std::string endings_of(bool (*which)(const Format&))
+{
+    std::string all;
+    for (const FormatRow& row : format_table())
+        if (which(row)) all.append(all.empty() ? "" : " ").append(row.ending);
+    return all;
+}
+
+const FormatRow& needed_reader(const std::string& path, std::string_view others)
+{
+    const Format* const format = find_format(path);
+    if (format != nullptr && format->is_read) return row_of(*format);
+    const std::string known = endings_of([](const Format& of) { return of.is_read; });
+    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending_of(path) +
+                                                "\" is unknown; files are read that end in " +
+                                                std::string(others) + (others.empty() ? "" : " ") + known);
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+//
+// OpenFOAM's polyMesh: a folder of points, faces, the cells on both sides of each face, and the patches that
+// the faces outside are in. https://doc.openfoam.com/2306/fundamentals/mesh
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/sections.h>
+#include <lacuna/io/detail/whole_folder.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <type_traits>
+
+namespace lacuna::io {
+
+void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
+
+namespace {
+
+using mesh::MeshView;
+
+/// A face of a cell: its corners as seen from outside the cell, the fourth of a triangle -1.
+struct CellFace {
+    Quad corners;
+    Index cell;
+};
+
+Quad rising(Quad corners)
+{
+    std::ranges::sort(corners);
+    return corners;
+}
+
+/// A word as OpenFOAM has it.
+std::string word_of(const std::string& name)
+{
+    std::string word = name;
+    for (char& c : word)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+    if (word.empty() || std::isalpha(static_cast<unsigned char>(word[0])) == 0) word.insert(0, "g_");
+    return word;
+}
+
+/// Words of names: two names have two words.
+class Words {
+public:
+    const std::string& operator[](const std::string& name)
+    {
+        const auto [at, fresh] = words_.try_emplace(name);
+        if (!fresh) return at->second;
+        std::string word = word_of(name);
+        for (int i = 2; !taken_.insert(word).second; ++i) word = word_of(name) + "_" + std::to_string(i);
+        return at->second = word;
+    }
+
+private:
+    std::map<std::string, std::string> words_;
+    std::set<std::string> taken_;
+};
+
+/// Faces, in OpenFOAM's order: those between two cells by the lower cell and then the higher, then those
+/// outside, patch after patch.
+class PolyMesh {
+public:
+    PolyMesh(const MeshView& view, const RunContext& context) : view_(view), context_(context)
+    {
+        gather_cells();
+        number_points();
+        find_faces();
+        find_patches();
+    }
+
+    struct Patch {
+        std::string name;
+        std::size_t first, count;
+    };
+    mesh::Ranges points;           ///< places in the view of the points that cells use
+    std::vector<Quad> faces;       ///< numbers of points, as seen from outside the owner
+    std::vector<Index> owners;     ///< of all faces
+    std::vector<Index> neighbours; ///< of those between two cells, which come first
+    std::vector<Patch> patches;
+    std::vector<std::pair<std::string, mesh::Ranges>> zones; ///< cells by the regions that they are of
+    std::size_t cells = 0;
+    std::vector<std::string> notes;
+
+private:
+    static std::string group_of(const MeshView::Entity& entity, const char* otherwise)
+    {
+        return entity.groups.empty() ? otherwise : entity.groups[entity.main];
+    }
+
+    void gather_cells()
+    {
+        std::map<std::string, std::size_t> known;
+        for (const MeshView::Block& block : view_.blocks) {
+            const mesh::CellShapeInfo& info = mesh::shape_info(block.shape);
+            if (info.dimension != 3 || block.count == 0) continue;
+            if (info.nodes != info.corners)
+                throw InvalidInput("io.no_such_element", "polyMesh has no middle nodes, and " +
+                                                             std::to_string(block.count) + " cells have " +
+                                                             std::to_string(info.nodes) +
+                                                             " nodes each; sweep with order = 1");
+            mesh::each_run(block.entities, 0, block.count,
+                           [&](std::size_t first, std::size_t last, Index entity) {
+                               const std::string name = group_of(view_.entities[index(entity)], "volume");
+                               const auto [at, fresh] = known.try_emplace(name, zones.size());
+                               if (fresh) zones.emplace_back(name, mesh::Ranges());
+                               zones[at->second].second.add(cells + first, cells + last);
+                           });
+            const std::span<const Quad> sides = mesh::face_corners(block.shape);
+            block.each_cell(0, block.count, [&](std::size_t i, std::span<const Index> nodes) {
+                for (const Quad& side : sides) {
+                    CellFace& face = found_.emplace_back();
+                    face.cell = static_cast<Index>(cells + i);
+                    std::ranges::transform(side, face.corners.begin(),
+                                           [&](Index c) { return c < 0 ? c : nodes[index(c)]; });
+                }
+            });
+            cells += block.count;
+            check_cancelled(context_);
+        }
+        if (cells == 0)
+            throw InvalidInput("io.no_such_element", "a polyMesh needs cells, and the mesh has none");
+    }
+
+    /// Points that no cell uses are left out: checkMesh takes them for an error.
+    void number_points()
+    {
+        place_.assign(view_.points, -1);
+        for (const CellFace& face : found_)
+            for (const Index corner : face.corners)
+                if (corner >= 0) place_[index(corner)] = 0;
+        for (std::size_t p = 0; p < place_.size(); ++p) {
+            if (place_[p] < 0) continue;
+            place_[p] = static_cast<Index>(points.count());
+            points.add(p, p + 1);
+        }
+    }
+
+    void put(const CellFace& face)
+    {
+        Quad& own = faces.emplace_back(face.corners);
+        for (Index& corner : own)
+            if (corner >= 0) corner = place_[index(corner)];
+        owners.push_back(face.cell);
+    }
+
+    /// Faces by their lowest corner, so that those of the same corners are near each other.
+    void find_faces()
+    {
+        std::vector<std::size_t> begin(view_.points + 1, 0);
+        const auto lowest = [](const CellFace& face) {
+            return index(std::ranges::min(
+                face.corners, {}, [](Index c) { return c < 0 ? std::numeric_limits<Index>::max() : c; }));
+        };
+        for (const CellFace& face : found_) ++begin[lowest(face) + 1];
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        std::vector<Index> order(found_.size());
+        {
+            std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+            for (std::size_t f = 0; f < found_.size(); ++f)
+                order[next[lowest(found_[f])]++] = static_cast<Index>(f);
+        }
+        struct Inner {
+            Index owner, neighbour, face;
+        };
+        std::vector<Inner> inner;
+        for (std::size_t p = 0; p + 1 < begin.size(); ++p) {
+            const auto row = std::span(order).subspan(begin[p], begin[p + 1] - begin[p]);
+            std::ranges::stable_sort(row, {}, [&](Index f) { return rising(found_[index(f)].corners); });
+            for (std::size_t k = 0; k < row.size();) {
+                const CellFace& face = found_[index(row[k])];
+                std::size_t end = k + 1;
+                while (end < row.size() && rising(found_[index(row[end])].corners) == rising(face.corners))
+                    ++end;
+                if (end - k > 2)
+                    throw InvalidInput("io.not_conformal", "a face of cell " + std::to_string(face.cell + 1) +
+                                                               " is one of " + std::to_string(end - k) +
+                                                               " cells; two have a face in common at most");
+                // Faces were found cell after cell, and sorting kept that order.
+                if (end - k == 2)
+                    inner.push_back({face.cell, found_[index(row[k + 1])].cell, row[k]});
+                else
+                    outer_.push_back(row[k]);
+                k = end;
+            }
+        }
+        std::ranges::sort(inner, {}, [](const Inner& of) { return std::pair(of.owner, of.neighbour); });
+        for (const Inner& of : inner) {
+            put(found_[index(of.face)]);
+            neighbours.push_back(of.neighbour);
+        }
+        std::ranges::sort(outer_); // by cell
+    }
+
+    /// Faces outside go by the group of the quad or triangle that lies on them.
+    void find_patches()
+    {
+        std::vector<std::pair<Quad, Index>> skin;
+        for (const MeshView::Block& block : view_.blocks) {
+            const mesh::CellShapeInfo& info = mesh::shape_info(block.shape);
+            if (info.dimension != 2) continue;
+            mesh::each_run(block.entities, 0, block.count,
+                           [&](std::size_t first, std::size_t last, Index entity) {
+                               block.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
+                                   Quad corners{-1, -1, -1, -1};
+                                   std::copy_n(nodes.begin(), info.corners, corners.begin());
+                                   skin.emplace_back(rising(corners), entity);
+                               });
+                           });
+        }
+        std::ranges::sort(skin);
+        std::map<Index, std::vector<Index>> of_entity; // -1: none
+        std::size_t outside = 0;
+        for (const Index f : outer_) {
+            const auto at = std::ranges::lower_bound(skin, rising(found_[index(f)].corners), {},
+                                                     &std::pair<Quad, Index>::first);
+            const bool known = at != skin.end() && at->first == rising(found_[index(f)].corners);
+            of_entity[known ? at->second : -1].push_back(f);
+            outside += known ? 1 : 0;
+        }
+        if (const std::size_t inside = skin.size() - outside; inside > 0)
+            notes.push_back(std::to_string(inside) + " quads and triangles that are no faces outside are not "
+                                                     "written: a polyMesh has patches there alone");
+        // Entities of one group are one patch; faces in no group come last.
+        std::vector<std::pair<std::string, std::vector<Index>>> groups;
+        const auto add = [&](const std::string& name, const std::vector<Index>& own) {
+            auto group = std::ranges::find(groups, name, &std::pair<std::string, std::vector<Index>>::first);
+            if (group == groups.end()) group = groups.insert(group, {name, {}});
+            group->second.insert(group->second.end(), own.begin(), own.end());
+        };
+        for (const auto& [entity, own] : of_entity)
+            if (entity >= 0) add(group_of(view_.entities[index(entity)], kNoGroup), own);
+        if (of_entity.contains(-1)) add(kNoGroup, of_entity[-1]);
+        Words words;
+        for (auto& [name, own] : groups) {
+            std::ranges::sort(own);
+            patches.push_back({words[name], faces.size(), own.size()});
+            for (const Index f : own) put(found_[index(f)]);
+        }
+        found_ = {};
+    }
+
+    static constexpr const char* kNoGroup = "defaultFaces"; // OpenFOAM's own name for them
+
+    const MeshView& view_;
+    const RunContext& context_;
+    std::vector<CellFace> found_; ///< cell after cell
+    std::vector<Index> outer_;    ///< those that one cell has
+    std::vector<Index> place_;    ///< of the view's points among those that are used; -1: it is not
+};
+
+std::string head_of(const char* kind, const char* object, const std::string& note = {})
+{
+    return std::string("FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       ") + kind +
+           ";\n" + (note.empty() ? "" : "    note        \"" + note + "\";\n") +
+           "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
+}
+
+/// A list of `count` entries, each a line of `numbers` numbers at most.
+std::vector<Section> list(const std::string& head, std::size_t count, std::size_t numbers, Fill fill)
+{
+    return {{head + std::to_string(count) + "\n(\n", count, numbers * kNumberBytes + 4, std::move(fill)},
+            {")\n", 0, 0, {}}};
+}
+
+/// Numbers in brackets on a line of their own.
+template <class Values>
+char* put_row(char* out, const Values& values)
+{
+    *out++ = '(';
+    for (const auto& value : values) {
+        if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
+            out = put_text(out, static_cast<long long>(value));
+        else
+            out = put_text(out, value);
+        *out++ = ' ';
+    }
+    out[-1] = ')';
+    *out++ = '\n';
+    return out;
+}
+
+char* put_label(char* out, Index label)
+{
+    out = put_text(out, static_cast<long long>(label));
+    *out++ = '\n';
+    return out;
+}
+
+std::string zones_text(const PolyMesh& mesh)
+{
+    Words words;
+    std::string text = head_of("regIOobject", "cellZones") + std::to_string(mesh.zones.size()) + "\n(\n";
+    for (const auto& [name, cells] : mesh.zones) {
+        text += words[name] + "\n{\n    type cellZone;\n    cellLabels List<label>\n" +
+                std::to_string(cells.count()) + "\n(\n";
+        cells.each(0, cells.count(), [&](std::size_t first, std::size_t last) {
+            for (; first < last; ++first) text += std::to_string(first) + "\n";
+        });
+        text += ")\n;\n}\n";
+    }
+    return text + ")\n";
+}
+
+/// Files that OpenFOAM and its tools put into a polyMesh and that are of no use with another mesh.
+bool is_of_mesh(std::string_view name)
+{
+    constexpr std::array<std::string_view, 14> kFiles{
+        "points",     "faces", "owner",     "neighbour",  "boundary",   "cellZones",    "faceZones",
+        "pointZones", "cells", "cellLevel", "pointLevel", "level0Edge", "surfaceIndex", "meshModifiers"};
+    if (name.ends_with(".gz")) name.remove_suffix(3);
+    return std::ranges::find(kFiles, name) != kFiles.end();
+}
+
+} // namespace
+
+void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunContext& context)
+{
+    WholeFolder folder(path, is_of_mesh);
+    const PolyMesh mesh(view, context);
+    for (const std::string& note : mesh.notes) log_line(context, "note: " + path.text() + ": " + note);
+    const auto write = [&](const char* name, const std::vector<Section>& sections) {
+        write_file(folder.file(name), sections, Sizes::varying, context);
+    };
+    const auto put_points = [&](std::size_t begin, std::size_t end, char* out) {
+        mesh.points.each(begin, end, [&](std::size_t first, std::size_t last) {
+            view.each_point(first, last, [&](std::span<const Vec3> points) {
+                for (const Vec3& point : points) out = put_row(out, point);
+            });
+        });
+        return out;
+    };
+    write("points", list(head_of("vectorField", "points"), mesh.points.count(), 3, put_points));
+    write("faces",
+          list(head_of("faceList", "faces"), mesh.faces.size(), 5, each([&](std::size_t i, char* out) {
+                   const Quad& face = mesh.faces[i];
+                   const std::size_t corners = face[3] < 0 ? 3 : 4;
+                   *out++ = static_cast<char>('0' + corners);
+                   return put_row(out, std::span(face).first(corners));
+               })));
+    const std::string note = "nPoints:" + std::to_string(mesh.points.count()) +
+                             " nCells:" + std::to_string(mesh.cells) +
+                             " nFaces:" + std::to_string(mesh.faces.size()) +
+                             " nInternalFaces:" + std::to_string(mesh.neighbours.size());
+    const auto labels = [&](const char* name, const std::vector<Index>& of) {
+        write(name, list(head_of("labelList", name, note), of.size(), 1,
+                         each([&](std::size_t i, char* out) { return put_label(out, of[i]); })));
+    };
+    labels("owner", mesh.owners);
+    labels("neighbour", mesh.neighbours);
+    std::string boundary = head_of("polyBoundaryMesh", "boundary") + std::to_string(mesh.patches.size()) +
+                           "\n(\n";
+    for (const PolyMesh::Patch& patch : mesh.patches)
+        boundary += "    " + patch.name +
+                    "\n    {\n        type            patch;\n        nFaces          " +
+                    std::to_string(patch.count) + ";\n        startFace       " +
+                    std::to_string(patch.first) + ";\n    }\n";
+    write("boundary", {{boundary + ")\n", 0, 0, {}}});
+    if (mesh.zones.size() > 1) write("cellZones", {{zones_text(mesh), 0, 0, {}}});
+    folder.commit();
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/swept_view.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+using mesh::MeshView;
+using mesh::Ranges;
+
+/// Layers of a mesh with their nodes numbered from 0, and those whose skin is theirs.
+struct Layers {
+    int first = 0;                ///< of the whole
+    int skin_first = 0, skin = 0; ///< of these layers, those whose skin belongs to them, and their number
+    bool source = true, target = true;
+};
+
+/// Cells of some layers by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
+class SweptCells {
+public:
+    SweptCells(const mesh::HexMesh& own, const Layers& of)
+        : mesh(own),
+          kinds(own),
+          layers(of),
+          triangles(own.triangle_count()),
+          quads(own.quads.size() - triangles),
+          count{kinds.hexes(), own.cell_count() - kinds.hexes(), ends() * quads + rims(of.skin),
+                ends() * triangles}
+    {
+    }
+
+    [[nodiscard]] std::size_t ends() const { return std::size_t(layers.source) + std::size_t(layers.target); }
+    [[nodiscard]] std::size_t rims(int of) const { return index(of) * mesh.rim.size(); }
+    [[nodiscard]] std::size_t cell(std::size_t k, std::size_t i) const
+    {
+        return kinds.cell(k == 0 ? i : kinds.hexes() + i);
+    }
+    /// The quad of the mesh's skin that is the `i`-th quad, or triangle, of these layers'.
+    [[nodiscard]] std::size_t skin(std::size_t k, std::size_t i) const
+    {
+        const std::size_t each_end = k == 3 ? triangles : quads;
+        if (i >= ends() * each_end) // a quad of the walls
+            i += (2 - ends()) * each_end + rims(layers.skin_first);
+        else if (!layers.source)
+            i += each_end;
+        return kinds.skin(k == 3 ? kinds.skin_quads() + i : i);
+    }
+    void put_nodes(std::size_t k, std::size_t begin, std::size_t end, Index* out) const
+    {
+        if (k == 0 && mesh.order() == 1) return put_hexes(begin, end, out);
+        for (std::size_t i = begin; i < end; ++i) {
+            const mesh::CellNodes own = k < 2 ? cell_nodes(mesh, cell(k, i)) : skin_nodes(mesh, skin(k, i));
+            out = std::ranges::copy(own.all(), out).out;
+        }
+    }
+    [[nodiscard]] std::array<DeckShape, 4> shapes() const
+    {
+        return {cell_shape(mesh), DeckShape::wedge6, skin_shape(mesh), DeckShape::tri3};
+    }
+    /// Cells of a kind in a layer. @pre k < 2
+    [[nodiscard]] std::size_t in_layer(std::size_t k) const { return k == 0 ? quads : triangles; }
+
+    const mesh::HexMesh& mesh;
+    mesh::CellKinds kinds;
+    Layers layers;
+    std::size_t triangles, quads; ///< of the source
+    std::array<std::size_t, 4> count;
+
+private:
+    void put_hexes(std::size_t begin, std::size_t end, Index* out) const
+    {
+        while (begin < end) {
+            const std::size_t layer = begin / quads, stop = std::min(end, (layer + 1) * quads);
+            const Index low = static_cast<Index>(layer) * mesh.nodes_per_layer;
+            const Index high = low + mesh.nodes_per_layer;
+            for (const Quad* quad = mesh.quads.data() + begin % quads; begin < stop;
+                 ++begin, ++quad, out += 8)
+                for (std::size_t k = 0; k < 4; ++k) {
+                    out[k] = low + (*quad)[k];
+                    out[4 + k] = high + (*quad)[k];
+                }
+        }
+    }
+};
+
+/// Entities, and the numbers of those in each group.
+void add_entities(const mesh::HexMesh& mesh, MeshView& view)
+{
+    const auto list = [&](const std::string& name, int number) {
+        auto found = std::ranges::find(view.lists, name, &std::pair<std::string, std::vector<int>>::first);
+        if (found == view.lists.end()) found = view.lists.insert(found, {name, {}});
+        found->second.push_back(number);
+    };
+    for (const mesh::SkinPatch& patch : mesh.patches) {
+        for (const std::string& name : patch.groups) list(name, patch.tag);
+        MeshView::Entity entity{
+            .dimension = 2, .tag = patch.tag, .number = patch.tag, .groups = patch.groups};
+        if (entity.groups.empty()) entity.groups = {"surface:" + std::to_string(patch.tag)};
+        view.entities.push_back(std::move(entity));
+    }
+    for (const std::string& name : mesh.volume_groups) list(name, 0);
+    MeshView::Entity volume{.dimension = 3, .tag = 1, .groups = mesh.volume_groups};
+    if (volume.groups.empty()) volume.groups = {"volume"};
+    view.node_entity = view.entities.size();
+    view.entities.push_back(std::move(volume));
+}
+
+void add_blocks(const std::shared_ptr<const SweptCells>& cells, MeshView& view)
+{
+    for (std::size_t k = 0; k < 4; ++k) {
+        MeshView::Block& block = view.blocks.emplace_back();
+        block.shape = cells->shapes()[k];
+        block.count = cells->count[k];
+        block.nodes = [cells, k](std::size_t begin, std::size_t end, Index* out) {
+            cells->put_nodes(k, begin, end, out);
+        };
+        if (k < 2) mesh::add_run(block.entities, block.count, static_cast<Index>(cells->mesh.patches.size()));
+        for (std::size_t i = 0; k >= 2 && i < block.count; ++i)
+            mesh::add_run(block.entities, i + 1, skin_quad(cells->mesh, cells->skin(k, i)).patch);
+    }
+    std::vector<char> has_quads(cells->mesh.patches.size(), 0);
+    for (const std::size_t k : {std::size_t(2), std::size_t(3)})
+        for (const auto& [end, patch] : view.blocks[k].entities) has_quads[index(patch)] = 1;
+    for (std::size_t p = 0; p < has_quads.size(); ++p)
+        if (has_quads[p] != 0) view.entities.back().bounds.push_back(view.entities[p].tag);
+}
+
+/// @param skin_cells  `cells_of_skin()` of the whole
+void add_fields(const std::shared_ptr<const SweptCells>& cells, const mesh::HexMesh& whole,
+                const std::vector<FieldReader>& fields, MeshView& view)
+{
+    if (fields.empty()) return;
+    const auto skin_cells = std::make_shared<const std::vector<std::uint32_t>>(cells_of_skin(whole));
+    const std::size_t first_cell = index(cells->layers.first) * whole.quads.size();
+    const std::size_t first_wall = cells->rims(cells->layers.first), ends = 2 * whole.quads.size();
+    for (const FieldReader& field : fields)
+        view.fields.push_back(
+            {field.name(), [=, &field](std::size_t k, std::size_t begin, std::size_t end, double* out) {
+                 const auto put = [&](std::size_t, double value) { *out++ = value; };
+                 if (k < 2)
+                     return field.each_cell(
+                         begin, end, [&](std::size_t i) { return first_cell + cells->cell(k, i); }, put);
+                 const auto quad_of = [&](std::size_t i) {
+                     const std::size_t quad = cells->skin(k, i);
+                     return quad < ends ? quad : quad + first_wall;
+                 };
+                 field.each_behind_skin(begin, end, *skin_cells, quad_of, put);
+             }});
+}
+
+std::vector<Eigen::AlignedBox3d> boxes_of(const mesh::HexMesh& mesh, const NodeReader& nodes)
+{
+    std::vector<Eigen::AlignedBox3d> boxes(mesh.patches.size() + 1);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        Eigen::AlignedBox3d& box = boxes[index(skin_quad(mesh, i).patch)];
+        for (const Index node : skin_nodes(mesh, i).all()) box.extend(nodes.on_skin(node));
+    }
+    // The inside of a valid mesh reaches no further than its skin.
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p) boxes.back().extend(boxes[p]);
+    return boxes;
+}
+
+/// A range of layers as a mesh, with the part's ghosts. Its nodes are not held.
+mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
+{
+    mesh::HexMesh own;
+    own.nodes_per_layer = mesh.nodes_per_layer;
+    own.layers = part.with_last - part.with_first;
+    own.quads = mesh.quads;
+    own.rim = mesh.rim;
+    own.patches = mesh.patches;
+    own.source_patch = mesh.source_patch;
+    own.target_patch = mesh.target_patch;
+    const auto at = [&](int layer) {
+        return mesh.wall_patch.begin() + static_cast<std::ptrdiff_t>(index(layer) * mesh.rim.size());
+    };
+    own.wall_patch.assign(at(part.with_first), at(part.with_last));
+    own.volume_groups = mesh.volume_groups;
+    own.middles.full = mesh.middles.full;
+    own.middles.sides = mesh.middles.sides;
+    own.middles.side_of = mesh.middles.side_of;
+    own.middles.rim_side = mesh.middles.rim_side;
+    return own;
+}
+
+/// Nodes of the levels [first, last], or with `below` of [first, last), and the middle nodes that go with
+/// them.
+Ranges nodes_of_levels(const mesh::HexMesh& mesh, int first, int last, bool below)
+{
+    const std::size_t row = index(mesh.nodes_per_layer), corners = mesh::corner_count(mesh);
+    Ranges nodes(index(first) * row, index(last + (below ? 0 : 1)) * row);
+    if (mesh.order() == 1) return nodes;
+    const mesh::MiddlePlaces places(mesh);
+    const std::size_t end = below ? places.side(index(last), 0)
+                                  : places.side(index(last), 0) + (places.upright(0, 0) - places.side(0, 0));
+    nodes.add(corners + places.side(index(first), 0), corners + std::min(end, places.count()));
+    return nodes;
+}
+
+} // namespace
+
+void check_skin(const mesh::HexMesh& mesh)
+{
+    const auto layers = static_cast<std::size_t>(std::max(mesh.layers, 0));
+    const auto valid = [&](Index patch) {
+        return patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size();
+    };
+    const bool sizes = mesh.source_patch.size() == mesh.quads.size() &&
+                       mesh.target_patch.size() == mesh.quads.size() &&
+                       mesh.wall_patch.size() == layers * mesh.rim.size();
+    if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
+        !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
+        !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
+        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; "
+                                          "every one needs one to be written");
+    std::set<int> tags;
+    for (const mesh::SkinPatch& patch : mesh.patches)
+        if (patch.tag <= 0 || !tags.insert(patch.tag).second)
+            throw InvalidInput("io.patch_tag", "the skin patch with tag " + std::to_string(patch.tag) +
+                                                   " must have a positive tag of its own");
+}
+
+std::shared_ptr<const MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
+                                        const std::vector<FieldReader>& fields)
+{
+    check_skin(mesh);
+    auto view = std::make_shared<MeshView>();
+    view->points = nodes.count();
+    view->each_point = [&nodes](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
+        nodes.each_span(begin, end, take);
+    };
+    const auto cells = std::make_shared<const SweptCells>(mesh, Layers{.skin = mesh.layers});
+    add_entities(mesh, *view);
+    add_blocks(cells, *view);
+    add_fields(cells, mesh, fields, *view);
+    view->boxes = [&mesh, &nodes] { return boxes_of(mesh, nodes); };
+    return view;
+}
+
+mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& options)
+{
+    const std::vector<LayerPart> layers = layer_parts(mesh.layers, options);
+    const SweptCells cells(mesh, {.skin = mesh.layers});
+    mesh::ViewParts parts;
+    parts.parts = static_cast<int>(layers.size());
+    parts.has_ghosts = options.ghosts > 0;
+    parts.of.resize(4);
+    const Index last = static_cast<Index>(layers.size()) - 1;
+    // Skin quads and triangles belong to the part of the cell behind them: the source's to the first.
+    for (const std::size_t k : {std::size_t(2), std::size_t(3)}) {
+        const std::size_t each_end = k == 2 ? cells.quads : cells.triangles;
+        mesh::add_run(parts.of[k], each_end, 0);
+        mesh::add_run(parts.of[k], 2 * each_end, last);
+    }
+    for (Index p = 0; p <= last; ++p) {
+        const LayerPart& part = layers[index(p)];
+        for (const std::size_t k : {std::size_t(0), std::size_t(1)})
+            mesh::add_run(parts.of[k], index(part.last) * cells.in_layer(k), p);
+        mesh::add_run(parts.of[2], 2 * cells.quads + cells.rims(part.last), p);
+        parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
+    }
+    // Runs of layers of one part that are ghosts of the same others.
+    const auto others = [&](Index own, int layer) {
+        std::vector<int> of;
+        for (Index p = 0; p <= last; ++p)
+            if (p != own && layers[index(p)].with_first <= layer && layer < layers[index(p)].with_last)
+                of.push_back(p);
+        return of;
+    };
+    for (Index p = 0; parts.has_ghosts && p <= last; ++p)
+        for (int first = layers[index(p)].first, next = first; first < layers[index(p)].last; first = next) {
+            const std::vector<int> of = others(p, first);
+            while (next < layers[index(p)].last && others(p, next) == of) ++next;
+            for (const std::size_t k : {std::size_t(0), std::size_t(1)})
+                if (!of.empty() && cells.in_layer(k) > 0)
+                    parts.ghosts.push_back(
+                        {p, of, k, {index(first) * cells.in_layer(k), index(next) * cells.in_layer(k)}});
+        }
+    return parts;
+}
+
+PieceView piece_of(const mesh::HexMesh& mesh, const LayerPart& part, const NodeReader& nodes,
+                   const std::vector<FieldReader>& fields)
+{
+    struct Piece {
+        mesh::HexMesh mesh;
+        SweptCells cells;
+        Ranges points;
+        Piece(const mesh::HexMesh& all, const LayerPart& of)
+            : mesh(layers_of(all, of)),
+              cells(mesh, {of.with_first, of.first - of.with_first, of.last - of.first, of.first == 0,
+                           of.last == all.layers}),
+              points(nodes_of_levels(all, of.with_first, of.with_last, false))
+        {
+        }
+    };
+    const auto piece = std::make_shared<const Piece>(mesh, part);
+    const std::shared_ptr<const SweptCells> cells(piece, &piece->cells);
+    auto view = std::make_shared<MeshView>();
+    view->points = piece->points.count();
+    view->each_point = [&nodes, piece](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
+        piece->points.each(begin, end,
+                           [&](std::size_t first, std::size_t last) { nodes.each_span(first, last, take); });
+    };
+    Ranges numbers; // of points, from 1
+    piece->points.each(0, view->points,
+                       [&](std::size_t first, std::size_t last) { numbers.add(first + 1, last + 1); });
+    view->point_tags = mesh::Numbers(std::move(numbers));
+    add_entities(mesh, *view);
+    add_blocks(cells, *view);
+    add_fields(cells, mesh, fields, *view);
+    std::size_t before = 1; // number of the first cell of a kind in the file of the whole
+    const SweptCells whole(mesh, {.skin = mesh.layers});
+    for (std::size_t k = 0; k < 4; before += whole.count[k++]) {
+        Ranges tags;
+        if (k < 2) {
+            const std::size_t first = before + index(part.with_first) * cells->in_layer(k);
+            tags.add(first, first + cells->count[k]);
+        } else {
+            const std::size_t each_end = k == 2 ? cells->quads : cells->triangles;
+            if (part.first == 0) tags.add(before, before + each_end);
+            if (part.last == mesh.layers) tags.add(before + each_end, before + 2 * each_end);
+            const std::size_t walls = before + 2 * each_end;
+            if (k == 2) tags.add(walls + whole.rims(part.first), walls + whole.rims(part.last));
+        }
+        view->blocks[k].tags = mesh::Numbers(std::move(tags));
+    }
+    const auto ghost_points = [&mesh, part, piece](std::size_t begin, std::size_t end, std::uint8_t* out) {
+        // Of a point that stands in several pieces the one above its level owns it, of the highest the last.
+        const std::size_t corners = mesh::corner_count(mesh), row = index(mesh.nodes_per_layer);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t node = piece->points[i];
+            const auto level = static_cast<int>(
+                node < corners ? node / row : (node - corners) / mesh::MiddlePlaces(mesh).side(1, 0));
+            *out++ = level < part.first ||
+                     (level >= part.last && (part.last < mesh.layers || level > part.last));
+        }
+    };
+    const auto ghost_cells = [part, piece](std::size_t k, std::size_t begin, std::size_t end,
+                                           std::uint8_t* out) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const int layer = k < 2 ? static_cast<int>(i / piece->cells.in_layer(k)) + part.with_first
+                                    : part.first;
+            *out++ = layer < part.first || layer >= part.last;
+        }
+    };
+    return {std::move(view), ghost_points, ghost_cells};
+}
+
+} // namespace lacuna::io

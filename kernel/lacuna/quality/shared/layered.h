@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/team.h>
+#include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/quality/quality.h>
+
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::quality {
+
+/// Extent of the nodes of some consecutive layers (a slab).
+struct SlabPlace {
+    Index not_finite = -1; ///< a node that is not finite; the box is then not set; -1: none
+    Eigen::AlignedBox3d bounds;
+    /// Axes of the box as rows; the first points from the lowest level to the highest.
+    Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+    Eigen::AlignedBox3d box; ///< in the frame
+};
+
+/// Quality of a mesh whose nodes are computed on demand, and the extents of its slabs.
+struct MeasuredLayers {
+    Quality quality;
+    std::vector<SlabPlace> slabs; ///< in order from the source
+};
+
+/// As `measure()`, for a mesh whose nodes are computed on demand, some layers at a time. Sums may differ from
+/// those of `measure()` in the last digits. Memory does not depend on the number of layers.
+/// A team shares the layers; each process gets the whole result, which does not
+/// depend on the size of the team.
+/// @throw Cancelled; TeamFailed
+MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
+                       const Team* team = nullptr);
+
+/// Mean cell volume of such a mesh. With it, `metric_values()` of some layers has the same bits as for the
+/// whole mesh. A team shares the work as in `measure()`.
+/// @throw Cancelled; TeamFailed
+double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
+                   const Team* team = nullptr);
+
+/// Find a node of such a mesh that is not finite, or two coincident nodes. A team
+/// shares the work as in `measure()`.
+///
+/// Neighbouring slabs are searched together. Other slabs are searched only if their boxes overlap, as at a
+/// sharp bend, and only among the nodes in both boxes; nodes that do not fit into memory at once are computed
+/// again in parts.
+/// @param slabs  from `measure()`
+/// @throw Cancelled; TeamFailed
+std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::span<const SlabPlace> slabs,
+                                      const RunContext& context = {}, const Team* team = nullptr);
+
+/// As `prove()`, for such a mesh: the same checks.
+/// @param measured   the quality from `measure()`
+/// @param misplaced  the result of `find_misplaced()`
+Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,
+            double min_scaled_jacobian = 0);
+
+/// As `prove()`, for a mesh whose cells were measured after its nodes last moved.
+/// @param measured  the result of `measure()`; if empty, the cells are measured.
+Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
+            const RunContext& context = {});
+
+} // namespace lacuna::quality

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/model.h>
+
+#include <map>
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// A position on the facets of a face.
+struct FacetPosition {
+    Index triangle = -1;             ///< of the face
+    Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
+};
+
+/// Facets and the surface from which they were cut.
+struct FacetView {
+    std::span<const Vec3> points;
+    std::span<const Triangle> triangles;
+    std::span<const std::array<Vec2, 3>> uv;         ///< surface parameters at the corners
+    const geometry::ExactSurface* surface = nullptr; ///< null: the facets are the shape
+};
+
+/// Points of the exact surface at positions on facets; on the facets themselves if there is none.
+std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places);
+/// The same for one face.
+std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
+
+class Trimming;
+
+/// Closest points on a set of faces: the facets determine face and position, the exact surface the point, and
+/// the face's border keeps the point on the face.
+class Projector {
+public:
+    Projector(const topology::Model& model, std::vector<FaceId> faces);
+    Projector(Projector&&) noexcept;
+    Projector& operator=(Projector&&) noexcept;
+    ~Projector();
+
+    /// Move points to the closest position; points of the exact surface beyond the face's border move to the
+    /// nearest point of the border curves. @return the face of each.
+    std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
+
+private:
+    const topology::Model* model_;
+    std::vector<FaceId> face_of_;    ///< of each triangle in the tree
+    std::vector<Index> triangle_of_; ///< number of each triangle in its face
+    geometry::FacetTree tree_;
+    std::map<FaceId, Trimming> trimmed_; ///< of the faces with exact geometry
+};
+
+} // namespace lacuna::surface

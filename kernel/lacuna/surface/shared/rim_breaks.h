@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/size_field.h>
+
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Vertices of facets that become nodes of the rims.
+struct RimBreaks {
+    /// Of each linking surface, running lengths on the source's and the target's chain; empty: no breaks.
+    std::vector<std::vector<std::pair<double, double>>> pairs;
+    std::vector<char> on_crease; ///< of each linking surface: all its columns at breaks run along creases
+    std::map<EdgeId, std::vector<double>> edges; ///< edges with such vertices inside, and their fractions
+    std::set<Index> points;                      ///< all such vertices
+};
+
+/// A chain of facet sides up the walls, followed by a column.
+struct Crease {
+    double source_at = 0;      ///< running length of its start
+    std::vector<Index> points; ///< from the source's rim to the target's
+};
+
+/// Finds the vertices of coarse facets at which rims need nodes.
+///
+/// On a rim of facets the breaks are the vertices that the Douglas-Peucker rule keeps (@cite
+/// douglas_1973_reduction) at the sag of an arc of the edge's length and turn. They help only if a crease
+/// leads from each of them to another rim: across an end as one facet side, or up the walls, so that a column
+/// runs along it. An edge gets no breaks if creases lead elsewhere, or if it has more such vertices than its
+/// arc has sides.
+class RimFacets {
+public:
+    RimFacets(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
+
+    /// @param per_turn  sides for a full turn, >= 1. @param size  of sides; used if it is coarser.
+    [[nodiscard]] RimBreaks breaks(int per_turn, const SizeField& size);
+
+    /// Points along the sharpest facet sides from a point of a rim to another rim; empty if there are none.
+    const std::vector<Index>& crease(Index rim);
+
+private:
+    struct Vertex {
+        double at = 0; ///< running length on the chain
+        Index point = -1;
+        EdgeId edge;
+        double fraction = 0;   ///< of the edge's length
+        bool at_start = false; ///< the edge starts there: a node in any case
+    };
+    struct Side {
+        Index to = -1;
+        double turn = 0; ///< between the facets beside it [radian]
+    };
+    void find_sides();
+    [[nodiscard]] std::vector<Index> crease_from(Index rim) const;
+    [[nodiscard]] bool has_nodes_at(const LinkingSurface& link,
+                                    std::span<const std::pair<double, double>> creases) const;
+    [[nodiscard]] std::vector<Vertex> kept(const Chain& chain, int per_turn, const SizeField& size) const;
+    [[nodiscard]] std::vector<Vertex> on_creases(std::vector<Vertex> vertices);
+
+    const topology::OpenVolume& volume_;
+    std::span<const LinkingSurface> links_;
+    std::vector<char> end_of_; ///< of each model point: 1 on the source's rims, 2 on the target's
+    std::map<Index, std::vector<Side>> sides_;    ///< of facets, at each point
+    std::map<Index, std::vector<Index>> creases_; ///< from rims, as far as computed; empty: none
+};
+
+/// The starts of segments with a mark, in order.
+std::vector<Crease> creases_of(const topology::OpenVolume& volume, const LinkingSurface& link);
+
+/// Divide the segments of the rims at the breaks, and mark those that begin on creases.
+void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links);
+
+} // namespace lacuna::surface

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/size_field.h>
+
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Add rim nodes at both ends of every column that long edges of the walls require, by splitting the segments
+/// there. A break closer than a fraction of the size is used instead: the column bends.
+/// @return  minimum number of layers for edges around the walls: one more than the most above each other.
+/// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross.
+/// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
+int set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
+                    std::vector<LinkingSurface>& links);
+
+} // namespace lacuna::surface

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/shared/given_nodes.h>
+#include <lacuna/surface/shared/linking_surface.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Nodes around a linking surface, in walking order from its start; the first is not repeated.
+struct LinkingNodes {
+    std::vector<double> source_at; ///< running length on the source chain
+    std::vector<double> target_at; ///< running length on the target chain
+    std::vector<std::size_t> line; ///< node at the source end of each side line
+};
+
+/// Nodes at given shares of each segment, in [0, 1), increasing: as many on the target as on the source.
+LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
+                           std::span<const std::vector<double>> target);
+
+/// A structured quad mesh on the walls of a linking surface.
+struct WallMesh {
+    std::vector<Vec3> points; ///< (layers + 1) × nodes, layer-major from the source
+    std::vector<FaceId> face; ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
+    std::vector<std::string> notes;
+};
+
+/// Mesh the walls of all linking surfaces: one row of quads per layer.
+///
+/// A part between two side lines that is one face is meshed transfinitely in arc length and projected onto
+/// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or side by
+/// side, or no side line at all) are meshed by the harmonic map of the linking surface, where edges between
+/// faces are followed: edges around the walls by layers, edges up the walls by columns, and a node lies where
+/// they meet, turn or end. The other nodes move by a harmonic field over the grid, so that layers and columns
+/// bend towards the edges. Void faces that follow the given walls come last: two affine fits per row map
+/// their nodes like those of the other walls, so that rows stay level around the volume.
+///
+/// Columns of given nodes are used unchanged, including the quads between them.
+/// @param nodes    of each linking surface.
+/// @param columns  of each linking surface; empty: none.
+/// @param heights  layers + 1 numbers from 0 to 1.
+/// @throw NotSweepable "surface.too_few_layers"  more edges around the walls than layers; names one, and a
+///        sufficient number of layers. "surface.wall_edge": an edge between two walls that neither a layer
+///        nor a column can follow.
+/// @post  nodes on given faces and edges lie on the exact geometry; the first and last rows are points of the
+///        rims.
+std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                                 std::span<const GivenColumns> columns = {}, const RunContext& context = {});
+
+/// The same with nodes on the facets of given walls and near void ones: faster, and accurate enough to find
+/// the directions of columns.
+std::vector<WallMesh> mesh_walls_on_facets(const topology::OpenVolume& volume,
+                                           std::span<const LinkingSurface> links,
+                                           std::span<const LinkingNodes> nodes,
+                                           std::span<const double> heights, const RunContext& context = {});
+
+} // namespace lacuna::surface

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/sweep/shared/rim_columns.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Moves points onto the target surface, each to the closest position near it.
+using SurfaceProjector = std::function<void(std::span<Vec3>)>;
+
+/// The source mesh on the target.
+struct Morphed {
+    std::vector<Vec3> nodes; ///< target position of each source node [model length]
+    /// Minimum scaled Jacobian of the source's quads, along the surface's normal [-1, 1]
+    double worst_source = 1;
+    double worst = 1;   ///< the same for the quads on the target
+    std::string report; ///< one line for a person
+};
+
+/// Morph the source mesh onto the target: rim nodes go to the last row of the columns; the others follow the
+/// affine fit of the rims plus the residual, spread harmonically. Then they are projected onto the surface,
+/// and smoothed there if this improves the worst quad.
+///
+/// @param project  empty: nodes are not projected.
+/// @post  rim nodes are those of the columns, bit for bit.
+/// @throw InvalidInput  columns that do not fit the source; names the node.
+Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const SurfaceProjector& project,
+              const RunContext& context = {});
+
+} // namespace lacuna::sweep

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/shared/bytes.h>
+#include <lacuna/core/shared/team.h>
+#include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/sweep/shared/layers.h>
+#include <lacuna/sweep/shared/rim_columns.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The data that determine the middle nodes of layers, besides the corners.
+struct MiddlePlan {
+    bool full = false;      ///< hex27; else hex20
+    std::vector<Vec3> skin; ///< those of the skin, in an internal order
+};
+
+/// The data that determine the layers of a mesh: as large as the source and the rims of the walls.
+struct LayerPlan {
+    mesh::QuadMesh source; ///< without labels of its quads
+    std::vector<Vec3> target;
+    RimColumns columns;
+    PlacementOptions options;
+    /// Nodes of the skin that are moved after all are placed, increasing.
+    std::vector<std::pair<Index, Vec3>> laid{};
+    std::optional<MiddlePlan> middles{}; ///< of order 2
+};
+
+/// The numbers of a plan's middle nodes, which are not stored; empty: it is of order 1.
+/// @param cells  quads, rim and layers of the plan's mesh
+mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
+
+/// The layers of `place_layers()`, generated on demand, and its report.
+struct PlacedLayers {
+    std::shared_ptr<const LayerPlan> plan;
+    mesh::LayeredNodes nodes; ///< owns the data it needs
+    Placement placement = Placement::affine;
+    std::string report;
+};
+
+/// @throw  as `place_layers()`
+PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
+
+/// The same layers with some nodes of the skin moved. @param laid  increasing
+/// @pre  they have no middle nodes yet, which would have to move too.
+PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
+
+/// The same layers with middle nodes.
+PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
+
+/// A plan for other processes, whole and within a message.
+void put(Writer& writer, const LayerPlan& plan);
+void put(Reader& reader, LayerPlan& plan);
+
+/// Quality of the cells of placed layers, and if it is sufficient, whether a node is misplaced.
+struct LayersFound {
+    quality::Quality quality;
+    bool good_enough = false;
+    std::optional<quality::Finding> misplaced;
+};
+
+/// Measure all cells of a plan and look for misplaced nodes: with a crew, if there is one.
+/// @param least  sufficient scaled Jacobian
+/// @param crew   null: this process only
+/// @throw Cancelled; TeamFailed
+LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
+                           const RunContext& context);
+
+/// The crew's part in that, within `do_together()`.
+inline constexpr std::string_view kLayersTask = "layers";
+void help_find_in_layers(const std::string& bytes, const Team& team, const RunContext& context);
+
+} // namespace lacuna::sweep

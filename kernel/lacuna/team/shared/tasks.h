@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/team.h>
+#include <lacuna/io/partition.h>
+#include <lacuna/io/whole_file.h>
+#include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/quality/shared/metrics.h>
+#include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/shared/layer_plan.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Tasks of a process group: each process works on its own layers. Messages do not grow with the mesh.
+namespace lacuna::team {
+
+/// Options of writing a layered mesh.
+struct LayeredFile {
+    bool binary = true;
+    double version = 4.1;                   ///< of the MSH format
+    std::vector<quality::Metric> quality{}; ///< written as cell fields; not for decks
+    std::string material{};                 ///< material name, for decks
+    io::PartitionOptions partition{};       ///< for .msh and .pvtu
+    bool all_groups = false;                ///< for .msh, as `io::MeshFileOptions::all_groups`
+};
+
+/// Write a mesh whose nodes are computed while they are written, in the format given by the ending of the
+/// path. A process group, if there is one, shares the work.
+/// @param plan  computes the nodes of each layer.
+/// @pre  the format is streamed
+/// @throw  as `io::write_mesh()`; TeamFailed
+void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
+                   const LayeredFile& file, const Crew* crew, const RunContext& context);
+
+/// Write the mesh of an assembly, byte for byte as `io::write_deck()` does for its deck. A process group, if
+/// there is one, shares the work unless a part stores its nodes.
+/// @pre  parts of the format are streamed; `file` has no parts, fields or material
+/// @throw  as `write_layered()`
+void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
+                 const Crew* crew, const RunContext& context);
+
+/// Work on the share of this process in a task that rank 0 started.
+/// @throw  what went wrong; all processes of the team are told.
+void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context);
+
+} // namespace lacuna::team

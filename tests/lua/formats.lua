@@ -1,0 +1,160 @@
+-- SPDX-License-Identifier: MIT
+-- The table of formats: the reference, the errors and the help of the program list the same endings and
+-- options. Dialects of Abaqus decks, and sets of several decks that are joined.
+-- usage: lacuna formats.lua lacuna=PROGRAM scratch=FOLDER
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { lacuna = "lacuna", scratch = "." }
+local function path(name) return params.scratch .. "/" .. name end
+local function read(name)
+  local file <close> = assert(io.open(name, "rb"))
+  return file:read("a")
+end
+
+local function set_of(text, pattern)
+  local found, count = {}, 0
+  for word in text:gmatch(pattern) do found[word], count = true, count + 1 end
+  return found, count
+end
+local function same(found, expected, what)
+  for word in pairs(expected) do check.that(found[word], what .. ": lacks " .. word) end
+  for word in pairs(found) do check.that(expected[word], what .. ": has " .. word) end
+end
+
+local reference = read(arg[0]:match("^(.*/)") .. "../../docs/reference.md")
+-- Rows of the first table behind a heading: { endings, last column } …
+local function rows(heading)
+  local _, at = reference:find("\n" .. heading .. "\n", 1, true)
+  local found = {}
+  for row in reference:sub(at + 1):match("\n(|.-)\n\n"):gmatch "[^\n]+" do
+    local first, last = row:match "^| (.-) |", row:match ".*| (.-) |$"
+    if first and first:find "`" then found[#found + 1] = { first, last } end
+  end
+  return found
+end
+local function endings(table_rows)
+  local all = {}
+  for _, row in ipairs(table_rows) do
+    for ending in row[1]:gmatch "`([%w.]+)`" do all[ending] = true end
+    if row[2]:find "`%.vtu`" then all[".vtu"] = true end
+  end
+  return all
+end
+
+-- --- endings
+
+local mesh = lacuna.synthetic.prism { sides = 4 }:open_volume {}:sweep { layers = 2, size = 1 }
+local written_rows = rows "### `mesh:write`"
+local written = endings(written_rows)
+local message = check.fails(function() mesh:write(path "mesh.none") end, "lua.unknown_ending")
+local listed, count = set_of(message:match "meshes are written as ([^%[]*)", "[.%w]+")
+check.that(count > 10)
+same(listed, written, "written")
+
+check.write(path "mesh.none", "of no format")
+local all_read = check.fails(function() lacuna.load(path "mesh.none") end, "io.unknown_ending")
+local read_listed = set_of(all_read:match "files are read that end in ([^%[]*)", "%.[%w_]+")
+local described = {}
+for _, row in ipairs(rows "### Files that are read") do
+  for ending in row[1]:gmatch "`(%.[%w_]+)`" do described[ending] = true end
+end
+same(read_listed, described, "read")
+
+local function help(command)
+  local pipe <close> = assert(io.popen(("'%s' %s --help"):format(params.lacuna, command)))
+  return pipe:read("a")
+end
+local decks = {} -- that hold cells, and are written from decks
+for ending in pairs(written) do decks[ending] = ending ~= ".pvtu" or nil end
+local convert = help "convert"
+same((set_of(convert:match "says: (.-)%. Nodes", "[.%w]+")), decks, "convert writes")
+local meshes = set_of(help("check"):match "of a mesh: (.-)%.\n", "%.%w+")
+check.that(meshes[".mesh"] and meshes[".vtu"] and not meshes[".stl"] and not meshes.polyMesh)
+check.that(not (convert .. help "check"):find "%%%u", "a word was left in the help")
+
+-- --- options: the reference says which a format has, and others are refused
+
+local values = { version = 4.1, binary = false, quality = false, groups = "one", gmsh_options = false,
+  partitions = 1, element = "C3D8" }
+for _, row in ipairs(written_rows) do
+  for ending in row[1]:gmatch "`([%w.]+)`" do
+    for option, value in pairs(values) do
+      local file = path(ending:sub(1, 1) == "." and "options" .. ending or ending)
+      local fine, why = pcall(function() mesh:write(file, { [option] = value }) end)
+      local has = row[2]:find("`" .. option .. "`", 1, true) ~= nil
+      if option == "gmsh_options" and not has then goto next end -- false is no request
+      check.that(fine == has, ("%s, option %s: %s"):format(ending, option, tostring(why)))
+      if not fine then check.that(tostring(why):find("idle_option", 1, true), tostring(why)) end
+      ::next::
+    end
+  end
+end
+
+-- --- *NSET, ELSET=: all nodes of the elements of a set
+
+-- A row of `n` cells from number `first` on, with sets of all nodes and of all cells.
+local function deck(first, n, shift, nodes, cells, more)
+  local lines = { "*NODE, NSET=" .. nodes }
+  local function add(...) lines[#lines + 1] = string.format(...) end
+  for i = 0, n do
+    for k, corner in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+      add("%d, %g, %g, %g", first + 4 * i + k - 1, corner[1], corner[2], i + shift)
+    end
+  end
+  add("*ELEMENT, TYPE=C3D8, ELSET=%s", cells)
+  for i = 0, n - 1 do
+    local tags = {}
+    for k = 0, 7 do tags[#tags + 1] = first + 4 * i + k end
+    add("%d, %s", first + i, table.concat(tags, ", "))
+  end
+  return table.concat(lines, "\n") .. "\n" .. (more or "")
+end
+local function members(text, name)
+  local found = {}
+  local inside = text:match("%*NSET, NSET=" .. name .. "\n([^*]*)")
+  check.that(inside, "no set " .. name)
+  for word in inside:gmatch "%d+" do found[#found + 1] = tonumber(word) end
+  return found
+end
+check.write(path "nset.inp", deck(1, 4, 0, "NALL", "EALL", [[
+*ELSET, ELSET=ENDS
+1, 4
+*NSET, NSET=NENDS, ELSET=ENDS
+*NSET, NSET=MORE, ELSET=ENDS
+9
+]]))
+lacuna.convert(path "nset.inp", path "nset_back.inp")
+local back = read(path "nset_back.inp")
+check.equal(table.concat(members(back, "NENDS"), " "), "1 2 3 4 5 6 7 8 13 14 15 16 17 18 19 20")
+check.equal(#members(back, "MORE"), 17)
+check.write(path "nset_none.inp", deck(1, 2, 0, "NALL", "EALL", "*NSET, NSET=N, ELSET=NONE\n"))
+check.fails(function() lacuna.convert(path "nset_none.inp", path "nset_back.inp") end, "NONE", "line ")
+check.write(path "nset_part.inp", "*PART, NAME=P\n" .. deck(1, 2, 0, "N", "E") .. [[
+*END PART
+*ASSEMBLY, NAME=A
+*INSTANCE, NAME=I, PART=P
+*END INSTANCE
+*NSET, NSET=ALL, ELSET=I.E
+*END ASSEMBLY
+]])
+lacuna.convert(path "nset_part.inp", path "nset_back.inp")
+check.equal(#members(read(path "nset_back.inp"), "ALL"), 12)
+
+-- --- sets of all of one of several decks are named in a note
+
+-- Two blocks, and the void between them.
+check.write(path "low.inp", deck(1, 2, 0, "NALL", "EALL"))
+check.write(path "high.inp", deck(1, 2, 3, "NALL", "EALL"))
+check.write(path "join.lua", ([[
+local lacuna = require "lacuna"
+local low, high = lacuna.load "%s", lacuna.load "%s"
+local both = lacuna.load { "%s", "%s" }
+local function at(z) return { box = { { -0.1, -0.1, z - 0.1 }, { 1.1, 1.1, z + 0.1 } } } end
+local void = both:open_volume { name = "between", source = at(2), target = at(3) }
+void:sweep { layers = 1, size = 1 }:write("%s", { with = both, renumber = true })
+]]):format(path "low.inp", path "high.inp", path "low.inp", path "high.inp", path "joined.inp"))
+local pipe <close> = assert(io.popen(("'%s' '%s' 2>&1"):format(params.lacuna, path "join.lua")))
+local told = pipe:read("a")
+check.that(told:find("note: NALL, EALL, NALL_2, EALL_2: these sets hold all of one deck", 1, true), told)
+
+check.done()
