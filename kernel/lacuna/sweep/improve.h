@@ -16,7 +16,7 @@
 
 namespace lacuna::sweep {
 
-/// One time limit for all improving that shares it. It starts when the first of it begins.
+/// A time limit shared by all improvement steps. It starts when the first step begins.
 class ImproveDeadline {
 public:
     explicit ImproveDeadline(double seconds) : seconds_(seconds) {}
@@ -31,47 +31,47 @@ struct ImproveOptions {
     double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
     int rings = 2;            ///< rings of neighbours that move with them, >= 0
     int iterations = 60;      ///< descent steps of each minimisation, >= 1
-    double work = 4e7;        ///< cells evaluated at most, > 0; about 20 seconds of one core
-    double seconds = 0;       ///< no step is begun after this, >= 0; 0: `work` alone ends it
-    // `work` counts and does not time, so that the same comes out on every machine.
-    /// Of `seconds`, for copies of these options that share one limit; null: each has its own.
+    double work = 4e7;        ///< maximum number of cell evaluations, > 0; about 20 seconds of one core
+    double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
+    // `work` counts evaluations instead of time, so that the result is the same on every machine.
+    /// State of `seconds`, for copies of these options that share one limit; null: each has its own.
     std::shared_ptr<ImproveDeadline> deadline{};
 };
 
 /// @throw InvalidInput  an option out of range; names it.
 void check(const ImproveOptions& options);
 
-/// From here on copies of the options have one time limit, if there is any.
+/// Let later copies of the options share one time limit, if there is any.
 void share_deadline(ImproveOptions& options);
 
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {
-    std::vector<Index> surface; ///< of each node of the mesh; -1: inside, or locked. Empty: nothing slides
+    std::vector<Index> surface; ///< of each node of the mesh; -1: inside, or fixed. Empty: no node slides
     std::function<void(Index surface, std::span<Vec3> points)> project; ///< onto that surface
-    std::vector<char> held{}; ///< of each node of the mesh: it stays, inside too; empty: none
+    std::vector<char> held{}; ///< of each node of the mesh: it is fixed, also inside; empty: none
 };
 
-/// Two sides of a cell that nodes that stay keep in one line, or turned over: no node that moves opens it.
+/// Two sides of a cell that are collinear or inverted because of fixed nodes: no free node can repair them.
 struct StuckCorner {
     Index node = -1;
     std::array<Index, 2> to{-1, -1}; ///< the other ends of both sides
 };
 
 struct Improved {
-    std::size_t cells = 0;                  ///< that took part
-    std::size_t moved = 0;                  ///< nodes that took part
-    double before = 1, after = 1;           ///< least scaled Jacobian of the cells that took part
+    std::size_t cells = 0;                  ///< cells that were worked on
+    std::size_t moved = 0;                  ///< nodes that were free
+    double before = 1, after = 1;           ///< minimum scaled Jacobian of those cells
     double mean_before = 1, mean_after = 1; ///< and their mean
-    bool untangled = false;                 ///< some were folded at first
-    bool unfinished = false;                ///< work or time ran out
-    bool won = false;                       ///< nodes were moved
-    std::optional<StuckCorner> stuck{};     ///< of a cell without volume; then nothing was tried
+    bool untangled = false;                 ///< some were folded before
+    bool unfinished = false;                ///< stopped by the limit of work or time
+    bool won = false;                       ///< nodes were moved in the end
+    std::optional<StuckCorner> stuck{};     ///< set for a cell without volume; then nothing was tried
 };
 
-/// Move nodes so that folded cells open up and poor ones grow better. Nodes of edges stay, as do all of the
+/// Move nodes to unfold folded cells and improve poor ones. Nodes of edges are fixed, as are all nodes of the
 /// skin that may not slide.
 ///
-/// Two stages, both minimisations over the poor cells and their neighbours by L-BFGS:
+/// Two stages, both minimised over the poor cells and their neighbours by L-BFGS:
 /// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021). The energy is tr(JᵀJ)/χ^⅔
 ///    and (1 + det²)/χ with χ = (D + √(ε² + D²))/2 at the eight corners of each cell; ε falls as the least
 ///    determinant rises. A cell is measured against a box of its own mean edge lengths, so that thin layers
@@ -80,12 +80,12 @@ struct Improved {
 ///    corners, with k rising. A share of the first energy keeps the edges' lengths and is the barrier against
 ///    folding.
 ///
-/// @post  the least scaled Jacobian is not smaller than before; nor is the mean by more than a hundredth,
-///        where no cell was folded. Where nothing was won, nothing is changed. A cell that fixed nodes keep
-///        poor holds up no other: each is judged by what it lacks of the best it could be. Sliding nodes lie
-///        on their surfaces.
+/// @post  the minimum scaled Jacobian is not smaller than before, nor is the mean by more than a hundredth if
+///        no cell was folded. Without improvement nothing is changed. A cell that fixed nodes keep poor does
+///        not block others: each is judged by the distance from its achievable quality. Sliding nodes lie on
+///        their surfaces.
 /// @throw InvalidInput  what `check()` refuses.
-/// @note  The same for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
+/// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
                  const RunContext& context = {});
 

@@ -10,17 +10,17 @@
 
 namespace lacuna::sweep {
 
-/// Middle nodes that a deck gives between two places of it, pair by pair; not a number where it gives none.
+/// Given middle nodes between pairs of positions of a deck; NaN where it has none.
 using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from, std::span<const Vec3> to)>;
 
-/// The same of quads, by the places of their corners.
+/// The same for quads, by the positions of their corners.
 using GivenCentres = std::function<std::vector<Vec3>(std::span<const std::array<Vec3, 4>> corners)>;
 
 struct SecondOrderOptions {
     bool serendipity = false;     ///< hex20 instead of hex27
     GivenMiddles given;           ///< null: none
     GivenCentres given_centres{}; ///< of hex27; null: none
-    bool given_all_over = false;  ///< both are asked for the whole skin, not only where faces came as meshes
+    bool given_all_over = false;  ///< both are used on the whole skin, not only on faces with a given mesh
 };
 
 } // namespace lacuna::sweep

@@ -28,18 +28,19 @@ namespace lacuna::sweep {
 
 struct LayerPlan;
 
-/// How layer heights are spread.
+/// Distribution of layer heights.
 enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
-    /// Hexes along the sweep, >= 1; 0 with `heights`, or for as many as the walls' own meshes have rows, else
-    /// as the length of the sweep asks for at the size, which they follow where it changes along the sweep.
+    /// Number of layers, >= 1. With 0 it follows from `heights`, from the rows of the walls' own meshes, or
+    /// from the length of the sweep and the size; if the size varies along the sweep, the heights vary with
+    /// it.
     int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).
     double bias = 1;
     Spacing spacing = Spacing::geometric;
-    /// Instead of a count: rising, in (0, 1], the last 1 up to the rounding of sums.
+    /// Instead of a count: increasing, in (0, 1], the last one 1 up to the rounding of sums.
     std::vector<double> heights;
 };
 
@@ -47,134 +48,131 @@ struct LayerSpec {
 void check(const LayerSpec& spec);
 
 /// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
-/// @throw InvalidInput  what `check()` refuses; a bias so far from 1 that layers have no height.
+/// @throw InvalidInput  as `check()`; a bias so far from 1 that layers have no height.
 /// @pre  a count of at least 1, or heights.
 std::vector<double> layer_heights(const LayerSpec& spec);
 
 /// How source faces are meshed.
 enum class Quads { automatic, paved, mapped, gmsh, keep };
 
-/// How the inside of the layers is placed.
+/// Placement of the inner nodes of layers.
 enum class Interior {
-    automatic, ///< the best that is known
+    automatic, ///< the best known method
     affine,    ///< for comparison: the affine fit alone
     residual,  ///< for comparison: the fit with the rim's residual spread over it
     normals,   ///< for comparison: the paper's advance along local normals
 };
 
-/// Nodes of the skin that a neighbour has in the same places but for rounding.
+/// Nodes of the skin that coincide with a neighbour's up to rounding.
 struct SettledNodes {
-    std::set<FaceId> faces;                    ///< they are on; their nodes stay from then on
-    std::vector<std::pair<Index, Vec3>> nodes; ///< and where the neighbour has them; some more than once
+    std::set<FaceId> faces;                    ///< faces of these nodes; the nodes are then fixed
+    std::vector<std::pair<Index, Vec3>> nodes; ///< with the neighbour's positions; duplicates are allowed
 };
 
-/// What a volume's neighbours in an assembly have to say to its sweep.
+/// Constraints from neighbouring volumes of an assembly.
 struct Beside {
     /// Null, or called with each mesh before it is proved, and with the face of each of its patches: finds
-    /// nodes that are to be laid onto a neighbour's.
+    /// nodes to be moved onto a neighbour's.
     std::function<SettledNodes(const mesh::SkinNodes&, const std::vector<FaceId>&)> settle;
-    /// The shape that the skin is compared with, of the volume's faces; null: the volume itself.
+    /// The shape with which the skin is compared, by the volume's faces; null: the volume itself.
     const topology::OpenVolume* shape = nullptr;
-    /// Faces between this volume and others, which are skin of neither; see `FidelityOptions`.
+    /// Faces between this volume and others, which are not part of the outer skin; see `FidelityOptions`.
     std::set<FaceId> between{};
-    /// Faces whose quads a neighbour made: they stay, whatever way of meshing is named.
+    /// Faces whose quads a neighbour made: they are kept in any style.
     std::set<FaceId> handed{};
 };
 
-/// What becomes of a volume that cannot be meshed with hexahedra alone.
+/// Action for a volume that cannot be meshed with hexahedra only.
 enum class Fallback {
-    none,     ///< it is an error
-    wedges,   ///< it is tried again with `SweepOptions::wedges`
-    leave_out ///< the other volumes of an assembly are meshed without it; alone it is an error
+    none,     ///< an error
+    wedges,   ///< repeat with `SweepOptions::wedges`
+    leave_out ///< mesh the other volumes of an assembly without it; alone it is an error
 };
 
-/// Quads asked for across a narrow place of the source, and least layers, where neither a size nor these are
-/// asked for. Paving takes a size for what it is in the mean: for three there are two and more across, by two
-/// half of the places tried had one (rings and channels 0.02 to 1 wide).
+/// Default number of quads across a narrow place of the source, and of layers. Paving meets a size on
+/// average: with three there are at least two across, with two half of the tested places had one (rings and
+/// channels 0.02 to 1 wide).
 inline constexpr int kDefaultGap = 3;
 
 struct SweepOptions {
     LayerSpec layers;
-    surface::SizeField size; ///< null: `surface::default_size()`, and less as `kDefaultGap` says
+    surface::SizeField size; ///< null: `surface::default_size()`, reduced as for `kDefaultGap`
     int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
-    /// Where straight sides on bends leave the mesh's volume further off the sealed one than this share,
-    /// bends get more sides, as far as that helps [0, 1); 0: never.
+    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides as
+    /// far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0; ///< quads at least across a narrow place of the source, >= 0; 0: none, without a size 3
-    /// How far the skin may be from the sealed skin, >= 0 [model length]; 0: what `FidelityOptions` says.
+    int gap = 0; ///< least quads across a narrow place of the source, >= 0; 0: none, without a size 3
+    /// Allowed distance between the skins, >= 0 [model length]; 0: default of `FidelityOptions`.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
-    /// Triangles that an end came with stay, and wedges stand on them. Where all sides of a rim are given and
-    /// their number is odd, one triangle makes up for it. Without: such an end is an error, or a side is
-    /// divided.
+    /// Given triangles of an end are kept and swept to wedges. If all sides of a rim are given and their
+    /// number is odd, one triangle compensates for it. Without: such an end is an error, or a side is split.
     bool wedges = false;
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
     surface::SizeField row_height; ///< of those rows; null: the size
-    /// Thin rows of cells along walls and ends; a face is in one at most.
+    /// Thin rows of cells along walls and ends; each face is in at most one.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
-    quads::PlanarQuadMesher quad_mesher;      ///< what `Quads::gmsh` calls for
+    quads::PlanarQuadMesher quad_mesher;      ///< the mesher of `Quads::gmsh`
     Interior interior = Interior::automatic;
-    int order = 1;                   ///< of the cells: 1, or 2 for hex27
+    int order = 1;                   ///< of the cells: 1, or 2
     SecondOrderOptions second_order; ///< of order 2
-    double min_scaled_jacobian = 0;  ///< below it the mesh is refused [0, 1]
-    bool improve = true;             ///< move nodes where cells are folded or poor
+    double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
+    bool improve = true;             ///< move nodes of folded or poor cells
     ImproveOptions improving;        ///< how far
     Beside beside;                   ///< of volumes in an assembly, which sets it
-    /// Whether the nodes of the layers may be left to be made when they are written: `Swept::layers`.
+    /// Whether nodes of layers may be generated when they are written: `Swept::layers`.
     bool layered = false;
-    const Crew* crew = nullptr; ///< others who help with layers that are left to be made; null: nobody
+    const Crew* crew = nullptr; ///< processes that help with generated layers; null: none
 };
 
-/// Whether options can be used, before any work is done. `sweep()` asks it itself; a host may ask first.
-/// @throw InvalidInput  names the option, what it must be and what was found: layers, improving,
-///                      min_scaled_jacobian, curvature, volume_share, gap, max_deviation; rows below
-///                      0 or of quads that are not paved, a row height
-///                      without rows; boundary layers and intervals that are no lengths or counts, or go
-///                      with rows; threads of the context below 0 or above 1024.
+/// Check options before any work is done. `sweep()` calls it itself; a host may call it first.
+/// @throw InvalidInput  names the option, the allowed and the given value: layers, improving,
+///                      min_scaled_jacobian, curvature, volume_share, gap, max_deviation; rows below 0 or
+///                      with quads that are not paved, a row height without rows; boundary layers and
+///                      intervals with invalid lengths or counts, or together with rows; threads of the
+///                      context below 0 or above 1024.
 void check(const SweepOptions& options, const RunContext& context = {});
 
-/// Hexahedra and how they came about.
+/// Hexahedra with their proof and report.
 struct Swept {
     mesh::HexMesh mesh;
-    /// With `SweepOptions::layered`, where the layers came out good as they were placed: what makes the nodes
-    /// that `mesh` does not hold. Proved and compared as all are.
+    /// With `SweepOptions::layered`, if the layers are good as placed: the generator of the nodes that `mesh`
+    /// does not hold. Proved and compared like all meshes.
     std::optional<mesh::LayeredNodes> layers;
-    std::shared_ptr<const LayerPlan> plan; ///< what `layers` are placed by
+    std::shared_ptr<const LayerPlan> plan; ///< the plan by which `layers` are placed
     double min_scaled_jacobian = 1;
-    quality::Quality quality;        ///< of the cells, as they were proved
+    quality::Quality quality;        ///< of the cells, from the proof
     Fidelity fidelity;               ///< the skin against the sealed skin
-    std::vector<FaceId> faces;       ///< of the volume's model, that of each patch of the skin
-    std::vector<std::string> report; ///< a line a stage: seeds, quads, walls, target, layers, shape
-    /// Those lines of the report that say which size and number of layers were taken where none was asked
-    /// for, and that cells are poor with it. They are logged as well, once, of an assembly by whoever sweeps
-    /// the whole.
+    std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
+    std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
+    /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
+    /// They are logged as well, once, for an assembly by the caller that sweeps the whole.
     std::vector<std::string> defaults;
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
 };
 
-/// Fill a sealed volume with hexahedra, and with wedges where those are asked for. What goes with what is
-/// read off the sealed walls.
+/// Mesh a sealed volume with hexahedra, and with wedges if requested. The correspondence of the ends is
+/// derived from the sealed walls.
 ///
-/// Meshes that faces came with stay, node for node: the source's quads, rows of quads on walls, the target's
-/// quads where they are laid out as the source's, and the nodes of all their rims. The report counts them.
-/// What is a mesh and what a shape: a face that came with quads is a mesh, so that triangles among them are
-/// cells too. A face of triangles alone is a shape, whose inside is meshed anew; with `wedges` it is a mesh
-/// as well, if it keeps its nodes. Who names a way of meshing (`Quads::paved`) has all meshed anew.
+/// Given meshes of faces are kept, node for node: the source's quads, rows of quads on walls, the target's
+/// quads if they are connected like the source's, and the nodes of all their rims. The report counts them. A
+/// face with given quads is a mesh, so its triangles are cells too. A face of triangles only is a shape and
+/// is remeshed inside; with `wedges` it is a mesh if it keeps its nodes. With an explicit style
+/// (`Quads::paved`) all faces are remeshed.
 ///
-/// Edges between the faces of an end, and those that run round the walls or up them, become chains of mesh
-/// edges. The sweep runs from source to target, or back where that is better, or with the quads laid out
-/// between both outlines where both are poor; the report says which, and `mesh` counts its layers from the
-/// end it started at.
-/// @throw InvalidInput   what `check()` refuses; a size that is no positive length, or too many cells to
-///                       number.
-/// @throw NotSweepable   names the face, wall or cells, what was expected and found, and what to try. With
-///                       boundary layers what `surface::rim_rows()`, `seed_source()` and `mesh_source()`
-///                       throw, and "sweep.layers_thickness": rows that could not have their thickness.
+/// Edges between the faces of an end, and edges around or up the walls, become chains of mesh edges. The
+/// sweep runs from source to target, or in the opposite direction if that is better, or with the quads laid
+/// out between both outlines if both are poor; the report states the choice, and `mesh` counts its layers
+/// from the end where the sweep starts.
+/// @throw InvalidInput   as `check()`; a size that is not a positive length, or too many cells to number.
+/// @throw NotSweepable   names the face, wall or cells, the expected and the actual value, and a remedy. With
+///                       boundary layers as `surface::rim_rows()`, `seed_source()` and `mesh_source()`, and
+///                       "sweep.layers_thickness": rows that cannot have their thickness.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
-///        sealed skin as far as `max_deviation` says.
+///        sealed skin within `max_deviation`.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});
 
 } // namespace lacuna::sweep

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Nodes of an assembly as one mesh's. Internal to this folder.
+/// Common node numbers of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
 /// Pairs of nodes on a face of two parts.
@@ -17,15 +17,15 @@ struct SharedNodes {
     std::vector<NodePair> pairs;
 };
 
-/// Give nodes in one place one number: those within shared faces by the pairs found there; those where faces
-/// meet, and middle nodes, by their places, for volumes that touch along an edge share no face.
-/// @param shared  of each part, its pairs with those meshed before it.
+/// Give coincident nodes one number: nodes within shared faces by the pairs found there; nodes on the borders
+/// of faces, and middle nodes, by position, because volumes that touch along an edge share no face.
+/// @param shared  of each part, its pairs with parts meshed before it.
 /// @post  `number` and `nodes` of the assembly are set.
 /// @note  O(nodes + shared nodes log).
 void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNodes>> shared);
 
-/// Nodes on the edges of a part's faces against such sides of the others: volumes that touch along an edge
-/// alone have no face to agree on.
+/// Check nodes on the edges of a part's faces against sides of the other parts: volumes that touch only along
+/// an edge have no shared face to match.
 /// @throw NotSweepable "assembly.hanging_node"
 void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const AssemblyMember> members);
 

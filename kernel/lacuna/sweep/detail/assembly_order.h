@@ -8,21 +8,22 @@
 #include <span>
 #include <vector>
 
-/// In which order the members of an assembly are meshed. Internal to this folder.
+/// Order in which the members of an assembly are meshed. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Whether faces of a member came with quads or triangles that stay.
+/// Whether a member has faces with kept quads or triangles.
 bool came_with_mesh(const AssemblyMember& member);
 
-/// Of each member, those that must come before it: a shared face is what is given before what was made there.
+/// Of each member, those that must come before it: given faces come before their created counterparts.
 /// @throw NotSweepable "assembly.round"  volumes each of which lacks a face that the next one has
 std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember> members,
                                                   std::span<const SharedFace> shared);
 
-/// Members by what they wait for; of those that are free to come, fixed ones, then `first` as listed, those
-/// that came with meshes, those with boundary layers, those with both ends in parts, those that share an end
-/// with one that is there, those whose walls are no one's ends that wait, and by number.
-/// @param before  what `members_before()` gives
+/// Sort members topologically. Among those without open dependencies, the order is: fixed ones, then `first`
+/// as listed, those with given meshes, those with boundary layers, those whose ends both have several faces,
+/// those that share an end with a member already placed, those whose walls are not ends of waiting members,
+/// and by number.
+/// @param before  result of `members_before()`
 /// @note  O(members² × shared faces) at most.
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                                        std::span<const SharedFace> shared,

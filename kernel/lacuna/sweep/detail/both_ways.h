@@ -11,7 +11,7 @@
 
 namespace lacuna::sweep {
 
-/// A mesh with what its proof says.
+/// A mesh and the result of its proof.
 struct ProvedSweep {
     Swept swept;
     quality::Proof proof;
@@ -19,20 +19,20 @@ struct ProvedSweep {
     std::set<FaceId> kept;     ///< source faces whose own quads are the mesh
 };
 
-/// Sweeps a sealed volume from its source to its target, the source's quads laid out in an outline.
+/// Sweeps a sealed volume from its source to its target, with the source's quads laid out in an outline.
 using OneWay = std::function<ProvedSweep(const topology::OpenVolume&, const SweepOptions&, Outline)>;
 
-/// The sealed volume with source and target exchanged; groups keep the names the person gave.
+/// The sealed volume with source and target exchanged; groups keep the original names.
 topology::OpenVolume turned_round(topology::OpenVolume volume);
 
-/// Sweep from the end that promises more, and from the other where that is refused or its least scaled
-/// Jacobian is poor; the better mesh is given, and its report says which way it was swept. Where both are,
-/// the quads are laid out between the outlines of both ends.
+/// Sweep from the more promising end, and from the other one if that is refused or its minimum scaled
+/// Jacobian is poor. Returns the better mesh, whose report states the direction. If both are poor, the quads
+/// are laid out between the outlines of both ends.
 ///
-/// An end of several faces goes first, onto an end of one: edges inside the end swept from become mesh edges
-/// by themselves. A source whose own quads are to be kept is always swept from; so is, at first, one with
-/// rows along its rim.
-/// @throw  what `sweep_one_way` throws for the way tried first, with what the other way found added.
+/// An end of several faces is preferred as source over an end of one face: its inner edges then become mesh
+/// edges directly. A source that keeps its own quads is always the start; a source with rows along its rim is
+/// tried first.
+/// @throw  as `sweep_one_way` for the first direction, extended by the finding of the other direction.
 ProvedSweep sweep_both_ways(const topology::OpenVolume& volume, const SweepOptions& options,
                             const OneWay& sweep_one_way, const RunContext& context);
 

@@ -22,8 +22,8 @@ struct SkinOfFace {
     double mean_side = 0;     ///< of those [model length]
 };
 
-/// The nodes of a mesh's skin alone, which are few beside all of its nodes: numbered through in the mesh's
-/// order, with the quads of every face.
+/// The nodes of a mesh's skin only, which are few: numbered in the mesh's order, with the quads of every
+/// face.
 struct Skin {
     std::vector<Vec3> points;      ///< [model length]
     std::vector<Index> node;       ///< of the mesh, for each
@@ -31,25 +31,26 @@ struct Skin {
 };
 
 /// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin).
-/// @param layers  what makes the nodes of a mesh that does not hold them; null: it holds them.
+/// @param layers  generator of the nodes of a mesh that does not hold them; null: it holds them.
 Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
              const mesh::LayeredNodes* layers = nullptr, const RunContext& context = {});
 
-/// How far a face and its quads may be apart.
+/// Allowed distance between a face and its quads.
 struct DeviationLimit {
     double length = 0; ///< for all; 0: a share of the side
     double share = 0;  ///< of the side of a quad
-    double at_tip = 0; ///< the same within two sides of a tip: four quads round it are as many as can be
-    double least = 0;  ///< of both, however short the sides are
-    /// Whether quads that face the other way are folds: on sharply twisted void walls, where neither skin is
-    /// given, the facet nearest to a quad may face any way.
+    double at_tip = 0; ///< the same within two sides of a tip, where at most four quads meet
+    double least = 0;  ///< lower bound of both, for short sides
+    /// Whether inverted quads are folds: on sharply twisted void walls, where neither skin is given, the
+    /// facet nearest to a quad may have any orientation.
     bool folds = true;
 };
 
 /// Compare a face with its quads.
-/// @param sign  -1 where the faces of the model look inward, else 1.
+/// @param sign  -1 if the faces of the model look inward, else 1.
 /// @throw Cancelled
-/// @note  The same for any thread count. Near linear in quads and facets where they run along each other.
+/// @note  Deterministic for any thread count. Near linear in quads and facets if they are close to each
+///        other.
 FaceFidelity compare_face(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads,
                           surface::FaceShape shape, double sign, const DeviationLimit& limit,
                           const RunContext& context);

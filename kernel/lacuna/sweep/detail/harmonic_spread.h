@@ -13,24 +13,25 @@
 
 namespace lacuna::sweep {
 
-/// The nodes each node shares a quad side with, rising.
+/// The nodes that share a quad side with each node, increasing.
 using NodeGraph = mesh::Incidence;
 
 /// O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
-/// Weight of each side, in the order of the graph's neighbours: the length across it, between the middles of
-/// its quads, over its own. That of finite volumes: never negative, and blind to how mesh lines crowd.
+/// Weight of each side, in the order of the graph's neighbours: the length of the dual side, between the
+/// centres of its quads, over its own. These are finite-volume weights: never negative, and insensitive to
+/// grading.
 std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
                                  std::span<const Vec3> nodes);
 
 /// Spreads values given at fixed nodes over the rest, each the weighted mean of its neighbours.
 ///
-/// The graph Laplacian, factored once. The weights are positive, so a spread value never leaves the range of
-/// the given ones. A part of the mesh that no fixed node is joined to gets zero.
+/// Uses the graph Laplacian, factored once. The weights are positive, so a value never leaves the range of
+/// the given ones. Parts of the mesh without a fixed node get zero.
 class HarmonicSpread {
 public:
-    /// Fields solved together; each entry of the factor is then read once for 12 numbers.
+    /// Number of fields solved together, so that each entry of the factor is read once for 12 numbers.
     static constexpr int kFields = 4;
 
     /// @param weights  of the graph's sides, equal both ways, above 0.
@@ -39,11 +40,11 @@ public:
     HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed,
                    const RunContext& context = {});
 
-    /// Some fields spread over the nodes.
+    /// Fields after spreading.
     class Fields {
     public:
-        /// Of one node x, y and z of the first field, of the second and so on, and room for one number more
-        /// to be read behind; null: it is fixed, or joined to none.
+        /// Of one node x, y and z of the first field, of the second and so on, followed by readable padding
+        /// for one number; null: the node is fixed, or connected to no fixed node.
         [[nodiscard]] const double* of(std::size_t node) const
         {
             return place_[node] < 0 ? nullptr : &rows_[static_cast<std::size_t>(place_[node]) * 3 * kFields];
@@ -57,18 +58,18 @@ public:
 
     /// Spread up to `kFields` fields, on one thread.
     /// @param values  fields × fixed.size(), field-major.
-    /// @return  which refers to this
+    /// @return  the fields; refers to this object
     [[nodiscard]] Fields spread(std::span<const Vec3> values) const;
 
     /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] +=
     /// value.
     /// @param values  fields × fixed.size(), field-major.
-    /// The result of a field does not depend on which others it is solved with, nor on the number of threads.
+    /// The result of a field does not depend on the other fields of the call, or on the number of threads.
     void add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
              const RunContext& context = {}) const;
 
-    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 a node of
-    /// the mesh; what the fixed nodes hold is ignored, and set to zero.
+    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 per node
+    /// of the mesh; values of fixed nodes are ignored and set to zero.
     void solve(std::span<Vec3> load) const;
 
 private:
@@ -77,7 +78,7 @@ private:
         double weight;
     };
     std::size_t fixed_count_ = 0;
-    std::vector<Index> place_;       ///< of each node in the factor's order; -1: fixed or joined to none
+    std::vector<Index> place_;       ///< of each node in the factor's order; -1: fixed or not connected
     std::vector<RimSide> rim_sides_; ///< sides between a free node and a fixed one
     Eigen::SparseMatrix<double> lower_;
     Eigen::VectorXd diagonal_;

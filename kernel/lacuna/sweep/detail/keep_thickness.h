@@ -9,27 +9,27 @@
 
 namespace lacuna::sweep {
 
-/// Nodes of boundary layers, and what was reached.
+/// The nodes of boundary layers, and the accuracy reached.
 struct KeptThickness {
-    /// Of each node of the mesh: it belongs to rows or layers of given thickness. Empty: none does.
+    /// Of each node of the mesh: whether it belongs to rows or layers of given thickness. Empty: none does.
     std::vector<char> held;
-    std::vector<std::string> report; ///< a line a table
+    std::vector<std::string> report; ///< a line for each table
 };
 
-/// A row of a boundary layer may be off its thickness by this share, after all nodes were moved. What is left
-/// comes of walls and ends that bend within a cell. A choice, not a measurement.
+/// Relative tolerance of a row's thickness after all moves. The remaining error is due to walls and ends that
+/// bend within a cell. Heuristic.
 inline constexpr double kThicknessOff = 0.02;
 
-/// Move nodes so that rows along walls, in every layer, and layers along ends have the thickness asked for,
-/// square to the faces of the mesh at their foot.
+/// Move nodes so that rows along walls, in every layer, and layers along ends have the requested thickness,
+/// normal to the faces of the mesh at their base.
 ///
-/// The nodes of a row are found by walking over opposite sides of quads from the rim. Those on other walls
-/// slide along the layer's rim, and the rest of the rim with them; those inside move within their layer. The
-/// moves are spread over the layer harmonically, and nodes of the ends put back on their faces. Layers along
-/// an end are moved along their columns. Rounds of both, until the thickness is met.
+/// The nodes of a row are found by walking over opposite sides of quads from the rim. Nodes on other walls
+/// slide along the layer's rim, together with the rest of the rim; inner nodes move within their layer. The
+/// moves are spread harmonically over the layer, and nodes of the ends are projected back onto their faces.
+/// Layers along an end move along their columns. Both steps alternate until the thickness is met.
 /// @param nodes  (layers + 1) × source nodes, layer-major; moved.
-/// @throw NotSweepable "sweep.layers_thickness"  rows that cannot have their thickness; names the wall, what
-///        was asked for, what was reached and where.
+/// @throw NotSweepable "sweep.layers_thickness"  rows that cannot have their thickness; names the wall, the
+///        requested and the actual thickness, and the place.
 KeptThickness keep_thickness(const SweptParts& parts, const surface::LayerTables& tables,
                              std::vector<Vec3>& nodes, const RunContext& context);
 

@@ -13,15 +13,15 @@
 
 namespace lacuna::sweep {
 
-/// The linking surfaces of one volume, the numbers that keep its volume and the sizes of its quads, found
-/// once: whoever plans its layers asks for the same ones as each try of its sweep.
+/// A cache of one volume's linking surfaces, volume plan and quad sizes, which layer planning and each sweep
+/// attempt need.
 class KnownLinks {
 public:
-    /// @param volume  outlives this and stays where and as it is: linking surfaces refer to its model.
+    /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.
     explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
 
-    /// @param volume  any; those of another one, as a copy that was turned round, are found each time.
-    /// @throw  as `surface::linking_surfaces()`; nothing is kept then.
+    /// @param volume  any; for others, such as a reversed copy, the linking surfaces are computed each time.
+    /// @throw  as `surface::linking_surfaces()`; nothing is cached then.
     std::vector<surface::LinkingSurface> of(const topology::OpenVolume& volume, const RunContext& context)
     {
         const auto find = [&] {

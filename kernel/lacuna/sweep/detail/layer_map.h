@@ -16,9 +16,9 @@ struct LayerMap {
     Vec3 shift;
 };
 
-/// Nodes [begin, end) of some layers, and what is added to them.
+/// Compute nodes [begin, end) of some layers, with their residuals.
 ///
-/// A place has the same bits with vectors of any width, and with any other layers.
+/// The result is bit-identical for any vector width, and for any other layers in the call.
 /// @param maps       of up to `HarmonicSpread::kFields` layers
 /// @param residuals  null: none
 /// @param out        the first node of the first layer; of the next layer `stride` further

@@ -14,12 +14,12 @@
 
 namespace lacuna::sweep {
 
-/// `place_layers()` a few layers at a time: fits and factors once, then places any layer alone.
-/// Refers to the source, the target and the columns; they must outlive it.
+/// `place_layers()` a few layers at a time: fits and factors once, then places any layer on its own. Refers
+/// to the source, the target and the columns, which must outlive it.
 class LayerPlacer {
 public:
-    /// @param room  where all layers are to be placed: its pages are cleared beside the factorisation, which
-    ///              takes one thread.
+    /// @param room  memory for all layers: its pages are cleared during the factorisation, which uses one
+    ///              thread.
     LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                 const PlacementOptions& options = {}, const RunContext& context = {},
                 std::span<Vec3> room = {});
@@ -42,7 +42,7 @@ private:
     const RimColumns& columns_;
     Placement placement_ = Placement::affine;
     double residual_ = 0;                  ///< largest distance of a rim node from its fit [model length]
-    double size_ = 0;                      ///< across the rim where that was found [model length]
+    double size_ = 0;                      ///< diameter of the rim with that residual [model length]
     std::vector<LayerMap> maps_;           ///< of the inner layers 1 … layers - 1
     std::vector<Vec3> residuals_;          ///< of the inner layers' rims; only where fitted
     std::optional<HarmonicSpread> spread_; ///< only where fitted

@@ -11,18 +11,18 @@
 
 namespace lacuna::sweep {
 
-/// Places the middle nodes of a mesh by those of its skin, some layers at a time, whether the mesh holds its
-/// corners or they are made. What the walls bend is known once; any layer can then be placed alone.
+/// Places the middle nodes of a mesh from those of its skin, some layers at a time, for stored or generated
+/// corner nodes. The bends of the walls are computed once; then any layer can be placed on its own.
 class MiddlePlacer {
 public:
     /// @param corners  of a mesh with numbers of its sides; must outlive this.
     /// @param skin     as `SkinPlaces` has it; must outlive this.
     MiddlePlacer(const mesh::SkinNodes& corners, std::span<const Vec3> skin, const RunContext& context = {});
 
-    /// As `mesh::LayeredNodes::place_middles`. The same for any range and number of threads, to the bit.
+    /// As `mesh::LayeredNodes::place_middles`. Bit-identical for any range and number of threads.
     void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
 
-    /// A middle node of the skin, by its place.
+    /// A middle node of the skin, by its index.
     [[nodiscard]] const Vec3& on_skin(std::size_t place) const { return skin_[at_skin_.of(place)]; }
 
 private:
@@ -44,12 +44,13 @@ private:
     LevelBlend blend_;
     std::vector<std::uint8_t> rim_side_; ///< of each side of the source, whether it is on the rim
     std::vector<std::uint8_t> rim_node_; ///< and of each node
-    /// What the ends bend beyond their blend from the rim, and how far up each level is; empty: nothing.
+    /// The bends of the ends beyond their blend from the rim, and the relative height of each level; empty:
+    /// none.
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
-    std::optional<HarmonicSpread> spread_; ///< of what the columns' cubics leave of the walls' bends
-    std::vector<Vec3> beyond_;             ///< of each layer, of the rim: that
+    std::optional<HarmonicSpread> spread_; ///< of the walls' bends beyond the columns' cubics
+    std::vector<Vec3> beyond_;             ///< those bends of the rim, for each layer
 };
 
 } // namespace lacuna::sweep

@@ -11,25 +11,25 @@
 #include <span>
 #include <vector>
 
-/// What placing middle nodes shares. Internal to this folder.
+/// Data shared by the steps that place middle nodes. Internal to this folder.
 namespace lacuna::sweep {
 
-/// What is known of a middle node.
+/// State of a middle node.
 enum class Middle : std::uint8_t {
     inside,  ///< not on the skin
-    open,    ///< on the skin, place not known yet
-    loose,   ///< on the skin, blended; no geometry holds it
-    settled, ///< on the skin, where geometry or a given mesh puts it
+    open,    ///< on the skin, not placed yet
+    loose,   ///< on the skin, blended without geometry
+    settled, ///< on the skin, on geometry or a given mesh
 };
 
-/// Where the middle nodes of a mesh's skin stand in an array of them alone, whose length goes by the skin.
+/// Indices of the skin's middle nodes in a compact array.
 class SkinPlaces {
 public:
     static constexpr std::size_t kInside = std::numeric_limits<std::size_t>::max();
 
     /// @param mesh  with numbers of its sides
     explicit SkinPlaces(const mesh::HexMesh& mesh);
-    /// Of a place among all middle nodes; `kInside`: it is not on the skin.
+    /// Of an index among all middle nodes; `kInside`: not on the skin.
     [[nodiscard]] std::size_t of(std::size_t place) const
     {
         const std::size_t level = place / period_, slot = place % period_;
@@ -42,10 +42,10 @@ public:
 private:
     std::size_t period_, on_level_, layers_;
     std::size_t ring_ = 0;    ///< of a level and the layer over it
-    std::vector<Index> rank_; ///< of each place on a level and the layer over it, among those; -1: inside
+    std::vector<Index> rank_; ///< compact index of each place on a level and the layer above it; -1: inside
 };
 
-/// The middle nodes of a mesh's skin, by their places among all middle nodes.
+/// The middle nodes of a mesh's skin, by their index among all middle nodes.
 class SkinMiddles {
 public:
     explicit SkinMiddles(const mesh::HexMesh& mesh)
@@ -70,12 +70,12 @@ private:
     std::vector<Middle> states_;
 };
 
-/// A frame of a side: bends are told in it, over the side's length, so that they can be taken elsewhere.
+/// A local frame of a side: bends are stored in it, relative to the side's length, to transfer them.
 struct SideFrame {
     Vec3 along, across, normal;
     double length = 0;
 
-    /// @param hint  a direction that the side does not run in.
+    /// @param hint  a direction that is not parallel to the side.
     SideFrame(const Vec3& from, const Vec3& to, const Vec3& hint);
     [[nodiscard]] Vec3 local(const Vec3& bend) const;
     [[nodiscard]] Vec3 world(const Vec3& local) const;
@@ -86,13 +86,13 @@ class LevelBlend {
 public:
     explicit LevelBlend(const mesh::HexMesh& mesh);
 
-    /// Bends of all sides on a level whose `known` is not set, from those whose is.
+    /// Compute the bends of all sides on a level that are not `known` from those that are.
     /// @param nodes  of the level.
-    /// @param bend   of each side, in and out [model length].
+    /// @param bend   of each side, input and output [model length].
     /// @param extra  of each side, local: added to what is blended; empty: none.
     void blend(const Vec3* nodes, const std::vector<std::uint8_t>& known, std::vector<Vec3>& bend,
                const std::vector<Vec3>& extra = {}) const;
-    /// What the bends of a level are beyond their blend from the `known` ones, local.
+    /// The difference of a level's bends from their blend of the `known` ones, local.
     [[nodiscard]] std::vector<Vec3> beyond(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                                            const std::vector<Vec3>& bend) const;
 
@@ -112,7 +112,7 @@ private:
     std::vector<Chord> chords_;
 };
 
-/// Levels whose nodes tell how a column runs past the middle of a layer.
+/// The levels that determine how a column passes the middle of a layer.
 struct ColumnWindow {
     static constexpr int kMost = 4; ///< for a cubic
 
@@ -120,8 +120,8 @@ struct ColumnWindow {
 };
 ColumnWindow column_window(int layers, int layer);
 
-/// How a column of nodes runs past the middle of an upright side, less the straight side: a cubic through
-/// four nodes, over running lengths; fewer where there are fewer. No more than a fifth of the side.
+/// Bend of a column of nodes at the middle of a side up the layers: a cubic through four nodes (fewer if
+/// there are fewer), over running lengths, minus the straight side. At most a fifth of the side.
 /// @param column  its nodes on the levels of a `column_window()`. @param low  which of them is below
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low);
 
@@ -147,7 +147,7 @@ inline Vec3 middle_of_cell(const std::array<Vec3, 6>& faces, const std::array<Ve
     return sum(faces) / 2 - sum(sides) / 4 + sum(corners) / 8;
 }
 
-/// How many middle nodes of the skin were given, are on exact geometry, on facets.
+/// Numbers of middle nodes of the skin that were given, are on exact geometry, or on facets.
 struct SkinCounts {
     std::size_t given = 0, exact = 0, facets = 0;
 };
@@ -157,7 +157,7 @@ struct PlacedSkin {
     SkinMiddles middles;
     SkinCounts counts;
 };
-/// Place the middle nodes of the skin, those of its quads too if the mesh is to have them.
+/// Place the middle nodes of the skin, including those of its quads if the mesh has them.
 /// @param corners  of a mesh with numbers of its sides
 PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes& corners,
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,

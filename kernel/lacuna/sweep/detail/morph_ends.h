@@ -23,8 +23,8 @@ EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh
 Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh& source,
                    const RimColumns& columns, const RunContext& context);
 
-/// Morph the source mesh onto the target, a face at a time: nodes of imprinted edges go to the target's edges
-/// exactly, evenly as they stand on the source's, and are the rim of the nodes inside.
+/// Morph the source mesh onto the target, one face at a time: nodes of imprinted edges go to the target's
+/// edges exactly, with the spacing of the source's, and bound the inner nodes.
 /// @param face  the target's, of each quad.
 Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
                          const surface::Seeds& seeds, const surface::Imprint& imprint,

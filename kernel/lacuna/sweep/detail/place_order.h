@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-/// An order of places, to find equal ones by sorting. Internal to this folder.
+/// An order of positions, to find equal ones by sorting. Internal to this folder.
 namespace lacuna::sweep {
 
-/// By x, then y, then z; places that are the same to the bit, but for signs of zero, come before neither.
+/// By x, then y, then z; positions that are bit-identical, up to signs of zero, are equivalent.
 inline bool before(const Vec3& a, const Vec3& b)
 {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);

@@ -10,23 +10,23 @@
 
 namespace lacuna::sweep {
 
-/// Heights of layers, and whether bends of the columns alone made them so many.
+/// Heights of layers, and whether only bends of the columns determined their number.
 struct PlannedHeights {
     std::vector<double> heights;
     bool by_bends = false;
 };
 
-/// Heights of the layers between source and target, as shares of the columns' length.
+/// Heights of the layers between source and target, as fractions of the columns' length.
 ///
-/// Layers that are counted are spread as `LayerSpec` says. Others are about as high as the quads are wide,
-/// measured along the walls (`surface::wall_columns()`), and no fewer than the columns' bends ask for at
-/// `curvature` a full turn; where the size asked for changes along the sweep they follow it: their number and
-/// heights divide the sides it asks for evenly, in the mean over the columns. Boundary layers of the ends
-/// come first and last, and the rest shares what they leave.
-/// @param asked  what `LayerSpec` makes of a count or of heights, from the source; empty: none are asked for.
+/// Layers with a count are spread as in `LayerSpec`. Otherwise they are about as high as the quads are wide,
+/// measured along the walls (`surface::wall_columns()`), and no fewer than the columns' bends require at
+/// `curvature` per full turn. If the size varies along the sweep, their number and heights divide the
+/// cumulative number of sides evenly, averaged over the columns. Boundary layers of the ends come first and
+/// last, and the others share the remaining length.
+/// @param asked  result of `LayerSpec` for a count or heights, from the source; empty: not requested.
 /// @param sizes  of the source's quads, and layers for the walls' bends.
-/// @param least  layers that the walls need.
-/// @throw InvalidInput  more layers than can be numbered; boundary layers of ends together with heights, or
+/// @param least  minimum number of layers for the walls.
+/// @throw InvalidInput  too many layers to number; boundary layers of ends together with heights, or
 ///                      with fewer layers than they have.
 /// @throw NotSweepable "sweep.layers_room"  ends closer to each other than their boundary layers are high.
 PlannedHeights plan_heights(const topology::OpenVolume& volume,

@@ -10,13 +10,13 @@
 
 namespace lacuna::sweep {
 
-/// Prove the mesh; where cells are folded or poor, move nodes and prove it again. What was done goes to the
-/// report, and into the finding that is left.
+/// Prove the mesh; if cells are folded or poor, move nodes and prove it again. The actions are added to the
+/// report, and to the remaining finding.
 ///
 /// @param faces  of each patch of the skin.
-/// @param kept   faces whose own quads are the mesh: their nodes stay.
-/// @param held   of each node, whether it stays; empty: none does for that.
-/// @param measured  the quality of the cells as they are; nothing: it is not known.
+/// @param kept   faces that keep their own quads: their nodes are fixed.
+/// @param held   of each node, whether it is fixed; empty: none is.
+/// @param measured  the quality of the cells before; empty: unknown.
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
                                 std::optional<quality::Quality> measured, const SweepOptions& options,

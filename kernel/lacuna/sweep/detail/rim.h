@@ -22,26 +22,25 @@ std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& c
 /// Newell area vector enclosed by the rim's sides, all loops summed.
 Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);
 
-/// Rim residuals below this part of the shortest side of the mesh cannot be seen in the shape of any cell:
-/// an angle changes by less than a hundredth of a degree.
+/// Rim residuals below this share of the mesh's shortest side are invisible: angles of cells change by less
+/// than a hundredth of a degree.
 inline constexpr double kNegligible = 1e-4;
 
 /// Length of the shortest side of a quad [model length]; 0 for no quads.
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
-/// One end of the sweep, ready to be moved onto other rims.
+/// One end of the sweep with the data to map it onto other rims.
 ///
-/// The rim's points alone decide the map where they span what lies between them, the map is exact and
-/// right-handed: a skin between two circles, say. Elsewhere (planar and nearly planar rims) the
-/// pseudo-normals join in, since the map would otherwise be thrown far off the rim's plane by the smallest
-/// waves of the rim.
+/// The rim's points alone determine the map if they span its interior and the map is exact and right-handed,
+/// as for a skin between two circles. Otherwise (planar and nearly planar rims) the pseudo-normals are added,
+/// because small waves of the rim would move the map far off its plane.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.
     /// @param nodes  all nodes of the end's mesh.
     RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, std::span<const Vec3> nodes);
 
-    /// @param negligible  residual up to which a map counts as exact [model length].
+    /// @param negligible  residual below which a map counts as exact [model length].
     [[nodiscard]] geometry::AffineFit fit(std::span<const Vec3> to, const Vec3& to_area,
                                           double negligible) const;
 

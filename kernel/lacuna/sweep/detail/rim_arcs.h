@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-/// What the chords of a face's rim stand for. Internal to this folder.
+/// The arcs behind the chords of a face's rim. Internal to this folder.
 namespace lacuna::sweep {
 
 /// A chord of a rim and the arc over it.
@@ -15,18 +15,18 @@ struct RimChord {
     Vec3 bulge = Vec3::Zero(); ///< from the chord's middle to the arc's [model length]
 };
 
-/// The chords of a face's loops, each with the arc that it and those beside it bend along: its height is the
-/// length squared times the curvature, over eight. O(chords).
+/// The chords of a face's loops, each with the arc defined by its neighbours: its height is the length
+/// squared times the curvature, over eight. O(chords).
 std::vector<RimChord> rim_chords(const topology::Model& model, FaceId face);
 
-/// How far a place is off the arcs of a rim, beyond what they may be wrong by [model length]. O(chords).
+/// Distance of a position from the arcs of a rim, minus their uncertainty [model length]. O(chords).
 double off_arcs(const Vec3& p, std::span<const RimChord> rim);
 
-/// How far the corners of two rims are off each other's arcs, at the most [model length]. O(chords²).
+/// Maximum distance of the corners of two rims from each other's arcs [model length]. O(chords²).
 double arcs_apart(std::span<const RimChord> one, std::span<const RimChord> other);
 
-/// The area between chords and arcs where two rims are chords of one curve: two faces on either side of it,
-/// other chords each, lie over each other by no more [model length²]. O(chords²).
+/// The area between chords and arcs if two rims approximate one curve: an upper bound for the overlap of two
+/// faces on both sides of it with different chords [model length²]. O(chords²).
 double area_under_arcs(std::span<const RimChord> one, std::span<const RimChord> other, double tolerance);
 
 } // namespace lacuna::sweep

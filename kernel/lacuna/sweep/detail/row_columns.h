@@ -14,7 +14,7 @@
 
 namespace lacuna::sweep {
 
-/// What the layers of a sweep were made from.
+/// The inputs of the layers of a sweep.
 struct SweptParts {
     const topology::OpenVolume& volume;
     std::span<const surface::LinkingSurface> links;
@@ -22,12 +22,12 @@ struct SweptParts {
     std::span<const surface::WallMesh> walls;
     const EndFaces& ends;
     int layers = 1;
-    /// What edges within the source are swept to, where that is an edge.
+    /// Images of edges inside the source that are edges.
     std::map<EdgeId, EdgeId> target_edges{};
-    bool source_stays = false, target_stays = false; ///< their nodes were given
+    bool source_stays = false, target_stays = false; ///< their nodes are given
 
     [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }
-    /// Source node of a node of a linking surface, counted round.
+    /// Source node of a node of a linking surface, cyclic.
     [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
     {
         return index(source.first[link]) + i % size_of(link);
@@ -42,12 +42,12 @@ struct SweptParts {
 /// A column of a source's row nodes over a node of its rim.
 struct RowColumn {
     std::size_t link, node;
-    bool before = false, after = false; ///< the rows are over the sides before and after the node
+    bool before = false, after = false; ///< whether the sides before and after the node have rows
     int table = -1;
-    std::vector<Index> nodes; ///< one a row
-    std::vector<double> lean; ///< of each from the foot along the rim, on the source [model length]
+    std::vector<Index> nodes; ///< one per row
+    std::vector<double> lean; ///< tangential offset of each from the base, on the source [model length]
 
-    /// Directions along the rim at the foot, a unit long, of nodes' places.
+    /// Unit directions along the rim at the base, from the positions of nodes.
     template <class At>
     [[nodiscard]] Vec3 tangent(const SweptParts& parts, const At& at) const
     {
@@ -60,24 +60,25 @@ struct RowColumn {
     }
 };
 
-/// The rows over the sides of the rim that a wall with a table stands on: found by walking over opposite
-/// sides of quads. A side has the table of the wall at either end.
+/// The rows over the rim sides of a wall with a table: found by walking over opposite sides of quads. The
+/// table of a side is that of the wall at its source or target end.
 /// @throw NotSweepable "sweep.layers_rows"  fewer rows than the table has; names the wall.
 std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables);
 
-// --- places along a line of nodes, in sides of it ---------------------------------------------------
+// --- positions along a line of nodes, in units of its sides -----------------------------------------
 
-/// Where a line is first at a height over its start, along a normal; nothing where it does not get there.
+/// The first position at which a line reaches a height above its start, along a normal; nothing if it does
+/// not.
 std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height);
 
 /// The point at a place.
 Vec3 point_at(const std::vector<Vec3>& line, double place);
 
-/// The point of a chain nearest to another: by its polyline, then by steps along the exact curve.
+/// The point of a chain closest to another: on its polyline, then by iteration on the exact curve.
 Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
 
-/// New places of all nodes within a line: those given, others as far between these as they were.
-/// @pre  places of both ends.
+/// New positions of all nodes of a line: the given ones, and the others in proportion between them.
+/// @pre  positions of both ends.
 std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
                                                          const std::map<std::size_t, double>& place);
 

@@ -19,45 +19,45 @@
 
 namespace lacuna::sweep {
 
-/// What became of a mesh that got middle nodes.
+/// The result of adding middle nodes to a mesh.
 struct Elevated {
     quality::Quality quality; ///< of the cells of order 2
     std::string report;       ///< a line
-    /// Where its nodes were left to be made and still are; nothing: the mesh holds them all.
+    /// Set if the nodes are generated on demand; empty: the mesh holds them all.
     std::optional<PlacedLayers> layers;
 };
 
-/// Give a proved mesh of order 1 its middle nodes: it becomes one of order 2.
+/// Add middle nodes to a proved mesh of order 1, which makes it one of order 2.
 ///
-/// On the skin, given middle nodes stay bit for bit. Others lie on what their side lies on: between two faces
-/// on the exact curve there, else on the face's exact surface, inside its trimming; on facets where both ends
-/// lie on them, and straight between the nodes of a mesh that was given and stays. What has no such geometry,
-/// as most void walls, is blended between the rows that have.
+/// On the skin, given middle nodes are kept bit for bit. Others lie on the geometry of their side: between
+/// two faces on the exact curve, otherwise on the face's exact surface, inside its trimming; on facets if
+/// both ends lie on facets, and at the straight midpoint between nodes of a kept mesh. Sides without such
+/// geometry, as on most void walls, are blended between rows that have one.
 ///
-/// Inside, a level's sides are bent as the skin is: across the quads, from side to opposite side, every side
+/// Inside, a level's sides bend like the skin: across the quads, from side to opposite side, every side
 /// belongs to one chord, and its bend is interpolated between the chord's ends on the rim, in a frame that
-/// turns with the sides; over a grid this is the transfinite map. What the two ends bend beyond that is
-/// blended from layer to layer. Upright sides follow their column of nodes by cubics, and the walls' by a
-/// harmonic spread of what is left. Middles of faces and cells are transfinite.
+/// rotates with the sides; on a grid this is the transfinite map. The remaining bend of the two ends is
+/// blended from layer to layer. Sides up the layers follow their column of nodes by cubics, and the remaining
+/// bend of the walls is spread harmonically. Midpoints of faces and cells are transfinite.
 ///
-/// Where a cell is not valid by its Bézier bounds (`quality::judge()`), its middle nodes inside are moved.
+/// If a cell is not valid by its Bézier bounds (`quality::judge()`), its inner middle nodes are moved.
 /// @param faces   of each patch of the mesh.
-/// @param layers  what makes the nodes that the mesh does not hold: those in the middle are then left to be
-///                made too, if all cells are valid as they come; null: it holds them.
-/// @param crew    who share the proof of such layers; null: this process alone.
-/// @throw NotSweepable "sweep.second_order"  a cell is not valid however its inner nodes lie: names the face
-///                     whose place of a middle node makes it so, and the size that would do.
-///                     InvalidInput "sweep.too_many": more nodes than can be numbered. Cancelled.
-/// @note  The same for any number of threads. O(cells), but for the harmonic spread, which is made where
-///        columns of walls bend as no cubic does.
+/// @param layers  generator of the nodes that the mesh does not hold: middle nodes are then generated on
+///                demand too, if all cells are valid without moves; null: the mesh holds its nodes.
+/// @param crew    processes that share the proof of such layers; null: this process only.
+/// @throw NotSweepable "sweep.second_order"  a cell is not valid for any position of its inner nodes: names
+///        the face whose middle node causes it, and a sufficient size. InvalidInput "sweep.too_many": more
+///        nodes than numbers. Cancelled.
+/// @note  Deterministic for any number of threads. O(cells), plus the harmonic spread, which is needed only
+///        if columns of walls bend unlike any cubic.
 Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                  const SecondOrderOptions& options = {}, const RunContext& context = {},
                  const PlacedLayers* layers = nullptr, const Crew* crew = nullptr);
 
-/// The skin of a mesh of order 2 as one of order 1 with four quads for each.
+/// The skin of a mesh of order 2 as a mesh of order 1 with four quads for each.
 struct FinerSkin {
-    mesh::HexMesh mesh;       ///< of its nodes those of the source
-    mesh::LayeredNodes nodes; ///< of the skin alone; refers to what it was made from
+    mesh::HexMesh mesh;       ///< its nodes are those of the source
+    mesh::LayeredNodes nodes; ///< of the skin only; refers to its input
 };
 /// For comparisons. @pre  order 2
 FinerSkin finer_skin(const mesh::SkinNodes& skin);

@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
-/// Faces that members of an assembly have in common. Internal to this folder.
+/// Faces shared by members of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
 /// A pair of faces of which one covers part of the other.
 struct PartlyShared {
     SharedFace faces;
-    double limit = 0;  ///< how far the facets may be off each other [model length]
-    std::string words; ///< how much of each lies on the other
+    double limit = 0;  ///< maximum distance of the facets [model length]
+    std::string words; ///< the covered share of each, as text
 };
 
-/// Faces that members have in common, as a whole or in part.
+/// Faces shared by members, completely or in part.
 struct FacesInCommon {
     std::vector<SharedFace> whole;
     std::vector<PartlyShared> partly;
-    std::vector<NearMiss> near; ///< of faces that are no one's as a whole
+    std::vector<NearMiss> near; ///< of faces that are not shared completely
 };
 
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
@@ -30,7 +30,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
 /// @throw InvalidInput "assembly.part_of_face"  where faces are shared in part.
 void refuse_partly_shared(const FacesInCommon& found);
 
-/// How far the facets of a face may be off what they stand for, by the angles between them [model length].
+/// Maximum distance of a face's facets from the true surface, estimated from their angles [model length].
 /// O(facets).
 double facet_sag(const topology::Model& model, const topology::Face& face);
 

@@ -12,18 +12,19 @@
 
 namespace lacuna::sweep {
 
-/// Middle nodes of the skin of a mesh of order 2, to be found by the places of corners, to the bit. Internal
-/// to this folder.
+/// Middle nodes of the skin of a mesh of order 2, found by the exact positions of corners. Internal to this
+/// folder.
 class SharedMiddles {
 public:
-    /// @param wanted  whether quads of a patch are shared; others give the middles of their borders alone.
+    /// @param wanted  whether quads of a patch are shared; of others only the middles of their borders are
+    ///                included.
     SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
 
     /// The middle node between two places, or in the middle of a quad by two opposite corners.
     [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const { return find(sides_, a, b); }
     [[nodiscard]] std::optional<Vec3> centre(const std::array<Vec3, 4>& corners) const;
 
-    /// Whether two have the same middle wherever both have one. O(the smaller).
+    /// Whether common entries of both have the same middle. O(size of the smaller one).
     [[nodiscard]] bool agrees(const SharedMiddles& other) const
     {
         return agree(sides_, other.sides_) && agree(centres_, other.centres_);

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-/// What two swept meshes have on a face they share. Internal to this folder.
+/// Matching of two swept meshes on a shared face. Internal to this folder.
 namespace lacuna::sweep {
 
 /// The quads of a face in the skin of a mesh, by the mesh's nodes.
@@ -21,8 +21,8 @@ struct NodePair {
     Index own = -1, other = -1;
 };
 
-/// A number for some nodes of a mesh. Memory goes by the nodes of the mesh, or where it does not hold its
-/// nodes by those that have a number.
+/// A number for some nodes of a mesh. Uses memory for all nodes of the mesh or, if it does not hold its
+/// nodes, for the numbered ones.
 class NodeMarkers {
 public:
     void be_for(const mesh::SkinNodes& skin)
@@ -48,14 +48,14 @@ private:
     std::unordered_map<Index, Index> some_;
 };
 
-/// Finds the same quads in two meshes. Keeps its markers, one a node of each mesh, for the next face.
+/// Finds equal quads in two meshes. Keeps its markers, one per node of each mesh, between faces.
 class SameQuads {
 public:
-    /// The pairs of nodes of two meshes' quads on one face, if the quads are the same: each node within a
-    /// distance of one of the other's, and the quads between them one for one. Nothing where they differ.
+    /// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a
+    /// distance of one of the other's, and a one to one map of the quads. Nothing if they differ.
     ///
-    /// Nodes are sorted along a slanted line, so that few stand beside each other there.
-    /// @param within  >= 0; 0: to the bit [model length].
+    /// Nodes are sorted along an oblique line, so that few have similar keys.
+    /// @param within  >= 0; 0: bit-identical [model length].
     /// @note  O(n log n) for n quads.
     std::optional<std::vector<NodePair>> pairs(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
                                                const mesh::SkinNodes& other,
@@ -65,8 +65,8 @@ private:
     NodeMarkers own_number_, other_number_;
 };
 
-/// Sides of the skin's quads between two patches, the lower node first; those of the source's rim and the
-/// target's among them. O(skin).
+/// Sides of the skin's quads between two patches, the lower node first, including those of the source's and
+/// the target's rim. O(skin).
 std::vector<Segment> patch_borders(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::sweep

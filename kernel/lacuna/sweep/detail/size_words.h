@@ -13,36 +13,36 @@
 
 namespace lacuna::sweep {
 
-/// Cells that are to be expected of a sweep before anything is meshed.
+/// Estimated number of cells of a sweep.
 struct ExpectedCells {
     double all = 0;
-    double unasked = 0; ///< of sweeps for which not both the size and the layers are given
+    double unasked = 0; ///< of sweeps without both size and layers
 };
 
-/// The sizes of a sweep's quads, and where they come from.
+/// The sizes of a sweep's quads, and their origin.
 struct SourceSize {
     surface::SizeField asked;
-    std::optional<surface::DefaultSize> by_default; ///< where nobody asked
+    std::optional<surface::DefaultSize> by_default; ///< if no size is given
     surface::ShapeSizing sizing;
-    surface::ShapeSize shape; ///< asked, and smaller where the shape needs it
-    surface::SizeField along; ///< of the layers: without what narrow places ask for by default
-    /// A place too narrow for `kDefaultGap` quads across, which nobody asked for: they would be too many in
-    /// all.
+    surface::ShapeSize shape; ///< the requested size, reduced by the shape
+    surface::SizeField along; ///< of the layers: without the default reduction in narrow places
+    /// A place too narrow for the default of `kDefaultGap` quads across, which would give too many quads in
+    /// total.
     std::optional<surface::SizeCause> too_narrow;
     std::function<int(int least)> layers{}; ///< of `VolumePlan`
-    bool narrow = false;                    ///< quads are to be across places that are, or may be, narrow
+    bool narrow = false;                    ///< there are, or may be, narrow places
     ExpectedCells expected{};
 };
 
-/// How many layers there are, and whether rows of quads on walls or bends of the walls said so.
+/// Number of layers, and whether rows of quads on walls or bends of the walls determined it.
 struct LayersTaken {
     int count = 0;
     bool by_rows = false;
     bool by_bends = false;
 };
 
-/// A line for the size that was taken by default, or for one asked for that the shape makes smaller, and a
-/// line for a number of layers that nobody asked for: what they are and what they were taken from.
+/// Lines of the report on a default size, or a given one that the shape reduces, and on a default number of
+/// layers, with their origin.
 /// @param volume  whose faces `sizes` names. @param split  whose edges `seeds` names.
 std::vector<std::string> sizes_in_words(const topology::OpenVolume& volume, const topology::OpenVolume& split,
                                         const SourceSize& sizes, const surface::Seeds& seeds,

@@ -11,7 +11,7 @@
 
 namespace lacuna::sweep {
 
-/// Give every quad of a mesh's skin its patch: one a face, with the groups a person reads.
+/// Assign a patch to every quad of a mesh's skin: one per face, with the user's groups.
 /// @param ends  faces of each quad on the source and on the target.
 /// @return  face of each patch.
 std::vector<FaceId> set_patches(const topology::OpenVolume& volume, const surface::SourceMesh& source,

@@ -14,35 +14,34 @@ namespace lacuna::sweep {
 /// Area vector around each node: the sum of those of its quads.
 std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
-/// Smallest scaled Jacobian at the corners of a quad, seen along its own normal turned to the side its nodes'
-/// normals are on: 1 for a rectangle, or an even triangle, 0 for a corner without an angle, negative
-/// where folded over.
+/// Minimum scaled Jacobian at the corners of a quad, along its normal oriented like its nodes' normals: 1 for
+/// a rectangle or an equilateral triangle, 0 for a degenerate corner, negative if folded.
 double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
 
 /// The worst of all quads; 1 for none.
 double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context = {});
 
-/// Put some nodes on the surface, all at once.
+/// Project some nodes onto the surface in one call.
 void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const SurfaceProjector& project);
 
-/// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a model mesh.
+/// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
+/// mesh.
 ///
-/// Two ways, each kept only as far as it betters the worst quad. Relaxation: every node goes where its
-/// neighbours put it with the weights that hold the model's node in place, so the model's grading survives;
-/// solved for all nodes at once with the graph Laplacian as preconditioner. Then the nodes of the quads still
-/// poor try the neighbours' mean and steps along the surface, and take what betters the worst of their own
-/// quads.
+/// Two methods, each kept only as far as it improves the worst quad. Relaxation: every node moves to the
+/// weighted mean of its neighbours, with the weights that reproduce the reference mesh, so its grading is
+/// kept; solved for all nodes at once with the graph Laplacian as preconditioner. Then the nodes of quads
+/// that are still poor try the neighbours' mean and steps along the surface, and keep moves that improve the
+/// worst of their own quads.
 class SurfaceSmoother {
 public:
-    /// All are referred to and must outlive the smoother. @param spread  with the nodes that must not move
-    /// fixed.
+    /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.
     SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph, std::span<const double> weights,
                     const HarmonicSpread& spread, std::span<const Index> free_nodes,
                     const SurfaceProjector& project);
 
-    /// Put the free nodes on the surface.
+    /// Project the free nodes onto the surface.
     void project(std::vector<Vec3>& nodes) const { project_nodes(nodes, free_nodes_, project_); }
-    /// @return  the nodes with the worst quad bettered, or as they came in.
+    /// @return  the nodes with an improved worst quad, or the input.
     std::vector<Vec3> relax(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
     std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
 
@@ -61,7 +60,7 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    /// Of the neighbours, in the graph's order; their sum is that of the sides' own.
+    /// Of the neighbours, in the graph's order; normalised like the sides' own weights.
     std::vector<double> weights_;
     mesh::Incidence quads_at_; ///< of each node
     std::vector<char> is_free_;

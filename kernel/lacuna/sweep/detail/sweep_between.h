@@ -13,13 +13,12 @@
 
 namespace lacuna::sweep {
 
-/// What the mesh's shape is to be: in an assembly, without the nodes and meshes of neighbours.
+/// The requested shape of the mesh: in an assembly, without the nodes and meshes of neighbours.
 const topology::OpenVolume& shape_of(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// Seeds, quads, walls, target, layers and proof between the rims of linking surfaces that say what goes with
-/// what.
-/// @param asked  heights of the layers from 0 to 1, from the source on; empty: nobody asked.
-/// @throw  as `sweep()`; what a proof finds is no error here, but in the result.
+/// Seeds, quads, walls, target, layers and proof for linking surfaces with known correspondence.
+/// @param asked  heights of the layers from 0 to 1, from the source; empty: not requested.
+/// @throw  as `sweep()`; findings of the proof are returned in the result, not thrown.
 ProvedSweep sweep_between(const topology::OpenVolume& volume,
                           std::vector<surface::LinkingSurface> given_links, const std::vector<double>& asked,
                           const SourceSize& sizes, const SweepOptions& options, Outline outline,

@@ -8,36 +8,36 @@
 #include <functional>
 #include <span>
 
-/// Volume that straight sides on bends miss, worked out before anything is meshed. Internal to this folder.
+/// Volume that straight sides on bends lose, computed before meshing. Internal to this folder.
 ///
-/// Of the walls by a model of the mesh's skin there: what the quads between its nodes enclose, of order 2
-/// with the parabolas through their middles. Of the ends in closed form: a side h on a curvature k has the
-/// sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over it. Facets count as the surface
-/// they stand for. What bends inwards gains as much and counts against it.
+/// For the walls by a model of the mesh's skin there: the volume enclosed by its quads, at order 2 with
+/// parabolas through the middle nodes. For the ends in closed form: a side h on a curvature k has the sag
+/// k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over it. Facets count as the surface they
+/// approximate. Concave bends gain as much, with the opposite sign.
 namespace lacuna::sweep {
 
-/// Whether nobody asked for a size, layers or sides for a turn: then the volume decides.
+/// Whether size, layers and curvature are all defaults: then the volume determines them.
 bool sizes_by_default(const SweepOptions& options);
 
-/// Whether sides between the nodes that rims came with may be divided: nothing was asked for, no face came
-/// with quads, and no neighbour has nodes there.
+/// Whether sides between given nodes of rims may be split: all numbers are defaults, no face has given quads,
+/// and no neighbour has nodes there.
 bool may_divide_rims(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// One size everywhere.
+/// A constant size field.
 surface::SizeField even_size(double length);
 
-/// Share of the sealed volume that is missing in a mesh.
+/// Relative loss of the sealed volume in a mesh.
 double volume_lost(const Fidelity& fidelity);
 
 /// Numbers by which a mesh keeps the volume.
 struct VolumePlan {
-    int per_turn = 12;                      ///< sides for a full turn: as many as are asked for, or more
+    int per_turn = 12;                      ///< sides for a full turn: the requested number, or more
     double part = 1;                        ///< of the default size, for the bends of the ends, in (0, 1]
-    std::function<int(int least)> layers{}; ///< for the bends of the walls; null: as many as there are
+    std::function<int(int least)> layers{}; ///< for the bends of the walls; null: unchanged
 };
 
-/// Where nobody asked for numbers the volume is to be within 1 %; where somebody did, rims and layers that
-/// lose more than `SweepOptions::volume_share` get more.
+/// With default numbers the volume must be within 1 %; with given numbers, rims and layers that lose more
+/// than `SweepOptions::volume_share` get more.
 /// @param size  of the source's quads. @throw Cancelled
 VolumePlan plan_volume(const topology::OpenVolume& volume, std::span<const surface::LinkingSurface> links,
                        const SweepOptions& options, const surface::SizeField& size,

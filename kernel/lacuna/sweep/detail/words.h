@@ -5,7 +5,7 @@
 
 #include <string>
 
-/// Numbers and places in messages. Internal to this folder.
+/// Numbers and positions in messages. Internal to this folder.
 namespace lacuna::sweep {
 
 /// Two significant digits: "0.034", for reports.
@@ -14,7 +14,7 @@ std::string in_short(double value);
 /// A place in such numbers: "(1.2, 0, 3)".
 std::string place_in_short(const Vec3& p);
 
-/// The fewest digits that read back as the same number: "0.1", for refusals.
+/// The shortest digits that read back as the same number: "0.1", for errors.
 std::string in_full(double value);
 
 } // namespace lacuna::sweep

@@ -18,31 +18,31 @@
 
 namespace lacuna::sweep {
 
-/// What the middle nodes of layers are placed by, beside the corners.
+/// The data that determine the middle nodes of layers, besides the corners.
 struct MiddlePlan {
     bool full = false;      ///< hex27; else hex20
-    std::vector<Vec3> skin; ///< those of the skin, in an order of this folder's own
+    std::vector<Vec3> skin; ///< those of the skin, in an internal order
 };
 
-/// All that the layers of a mesh are placed by: as large as the source and the rims of the walls.
+/// The data that determine the layers of a mesh: as large as the source and the rims of the walls.
 struct LayerPlan {
     mesh::QuadMesh source; ///< without labels of its quads
     std::vector<Vec3> target;
     RimColumns columns;
     PlacementOptions options;
-    /// Nodes of the skin that are laid elsewhere once all are placed, rising.
+    /// Nodes of the skin that are moved after all are placed, increasing.
     std::vector<std::pair<Index, Vec3>> laid{};
     std::optional<MiddlePlan> middles{}; ///< of order 2
 };
 
-/// The numbers of a plan's middle nodes, which are not held; empty: it is of order 1.
+/// The numbers of a plan's middle nodes, which are not stored; empty: it is of order 1.
 /// @param cells  quads, rim and layers of the plan's mesh
 mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 
-/// The layers of `place_layers()` to be made when they are asked for, and its report.
+/// The layers of `place_layers()`, generated on demand, and its report.
 struct PlacedLayers {
     std::shared_ptr<const LayerPlan> plan;
-    mesh::LayeredNodes nodes; ///< keeps what it needs
+    mesh::LayeredNodes nodes; ///< owns the data it needs
     Placement placement = Placement::affine;
     std::string report;
 };
@@ -50,8 +50,8 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with nodes of the skin laid elsewhere. @param laid  rising
-/// @pre  they have no middle nodes yet, which would follow.
+/// The same layers with some nodes of the skin moved. @param laid  increasing
+/// @pre  they have no middle nodes yet, which would have to move too.
 PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// The same layers with middle nodes.
@@ -61,16 +61,16 @@ PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunCont
 void put(Writer& writer, const LayerPlan& plan);
 void put(Reader& reader, LayerPlan& plan);
 
-/// How good the cells of placed layers are, and where they are good enough whether a node is misplaced.
+/// Quality of the cells of placed layers, and if it is sufficient, whether a node is misplaced.
 struct LayersFound {
     quality::Quality quality;
     bool good_enough = false;
     std::optional<quality::Finding> misplaced;
 };
 
-/// Measure all cells of a plan and look for misplaced nodes: with a crew, where there is one.
-/// @param least  scaled Jacobian that is good enough
-/// @param crew   null: this process alone
+/// Measure all cells of a plan and look for misplaced nodes: with a crew, if there is one.
+/// @param least  sufficient scaled Jacobian
+/// @param crew   null: this process only
 /// @throw Cancelled; TeamFailed
 LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
                            const RunContext& context);

@@ -11,7 +11,7 @@
 
 namespace lacuna::sweep {
 
-/// How the inside of the layers was found.
+/// The method by which the inside of the layers was placed.
 enum class Placement { straight, affine, fitted, normals };
 
 struct PlacementOptions {
@@ -24,7 +24,7 @@ struct PlacementOptions {
 struct LayerNodes {
     std::vector<Vec3> nodes; ///< (layers + 1) × source.nodes, layer-major from the source [model length]
     Placement placement = Placement::affine;
-    std::string report; ///< one line for a person: which method, which residual
+    std::string report; ///< one line of text: the method and the residual
 };
 
 /// Place the nodes of every layer between the source and the target mesh.

@@ -12,7 +12,7 @@ namespace lacuna::sweep {
 /// The walls' node columns over the source rim.
 struct RimColumns {
     int layers = 0;
-    std::vector<Index> rim;   ///< source node under each column; every node of the source's boundary, once
+    std::vector<Index> rim;   ///< source node of each column; every node of the source's boundary, once
     std::vector<Vec3> points; ///< (layers + 1) × rim.size(), layer-major; row 0 is the source rim itself
 
     /// Points of one layer's rim, in the order of `rim`.
