@@ -86,7 +86,7 @@ void check_content(const std::string& name, const FormatRow& format, std::string
                                                 ", which is not read; export it as .vtu, .unv or .msh");
     const std::string_view found = ending_by_content(bytes);
     if (found.empty() || found == format.ending) return;
-    const Format* const other = find_format(std::string(found));
+    const Format* const other = find_format("file" + std::string(found));
     if (other != nullptr && row_of(*other).read == format.read) return; // several endings mean the same
     throw InvalidInput("io.unreadable",
                        "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +

@@ -496,42 +496,63 @@ private:
             numbers_.room(1 + middle.size() + size, sizeof(Tag) * (1 + size) + sizeof(int) * middle.size()),
             [view = view_, &block, tags = tags_[row.block], cells = row.cells, middle,
              to = numbers_](std::size_t begin, std::size_t end, char* out) {
-                cells.each(begin, end, [&](std::size_t first, std::size_t last) {
-                    for (; first < last; first += MeshView::Block::kAtOnce)
-                        out = put_elements<Tag>(*view, block, tags, first,
-                                                std::min(first + MeshView::Block::kAtOnce, last), middle, to,
-                                                out);
-                });
+                each_chunk<Tag>(cells, begin, end, tags,
+                                [&](std::size_t first, std::size_t last, const Tag* own) {
+                                    out = put_elements(*view, block, own, first, last, middle, to, out);
+                                });
                 return out;
             });
     }
 
-    /// At most `kAtOnce` of them.
+    /// Call `visit(first, last, tags)` for the cells that are the list's places [begin, end), at most
+    /// `kAtOnce` at a time, with their numbers.
+    template <class Tag, class Visit>
+    static void each_chunk(const Ranges& cells, std::size_t begin, std::size_t end, const Numbers& tags,
+                           const Visit& visit)
+    {
+        std::array<Tag, MeshView::Block::kAtOnce> own;
+        cells.each(begin, end, [&](std::size_t first, std::size_t last) {
+            while (first < last) {
+                const std::size_t stop = std::min(first + own.size(), last);
+                tags.each(first, stop, [&](std::size_t i, std::int64_t number) {
+                    own[i - first] = static_cast<Tag>(number);
+                });
+                visit(first, stop, own.data());
+                first = stop;
+            }
+        });
+    }
+
+    /// Records of a number and eight nodes that are counted: the most there are.
     template <class Tag>
-    static char* put_elements(const MeshView& view, const MeshView::Block& block, const Numbers& tags,
+    static char* put_hexes(const MeshView::Block& block, const Tag* tags, std::size_t begin, std::size_t end,
+                           char* out)
+    {
+        block.each_cell(begin, end, [&](std::size_t i, std::span<const Index> nodes) {
+            std::array<Tag, 9> record{tags[i - begin]};
+            for (std::size_t k = 0; k < 8; ++k) record[k + 1] = static_cast<Tag>(nodes[k]) + 1;
+            out = put(out, record);
+        });
+        return out;
+    }
+
+    /// @param tags  of the cells [begin, end)
+    template <class Tag>
+    static char* put_elements(const MeshView& view, const MeshView::Block& block, const Tag* tags,
                               std::size_t begin, std::size_t end, const std::vector<int>& middle,
                               const MshNumbers& to, char* out)
     {
-        std::array<Tag, MeshView::Block::kAtOnce> tag;
-        tags.each(begin, end,
-                  [&](std::size_t i, std::int64_t number) { tag[i - begin] = static_cast<Tag>(number); });
-        const std::span<const std::uint8_t> places = gmsh_places(block.shape);
         const bool counted = !view.point_tags.given();
+        if (to.binary && counted && middle.empty() && block.shape == DeckShape::hex8)
+            return put_hexes(block, tags, begin, end, out);
+        const std::span<const std::uint8_t> places = gmsh_places(block.shape);
         block.each_cell(begin, end, [&](std::size_t i, std::span<const Index> nodes) {
             std::array<Tag, 27> own;
-            if (counted)
-                for (std::size_t k = 0; k < nodes.size(); ++k)
-                    own[places.empty() ? k : places[k]] = static_cast<Tag>(nodes[k]) + 1;
-            else
-                for (std::size_t k = 0; k < nodes.size(); ++k)
-                    own[places.empty() ? k : places[k]] = static_cast<Tag>(view.point_tags[index(nodes[k])]);
-            out = to.add(out, tag[i - begin]);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                own[places.empty() ? k : places[k]] = static_cast<Tag>(
+                    counted ? nodes[k] + 1 : view.point_tags[index(nodes[k])]);
+            out = to.add(out, tags[i - begin]);
             for (const int number : middle) out = to.add(out, number);
-            if (to.binary) {
-                std::memcpy(out, own.data(), nodes.size() * sizeof(Tag));
-                out += nodes.size() * sizeof(Tag);
-                return;
-            }
             for (std::size_t k = 0; k < nodes.size(); ++k) out = to.add(out, own[k]);
             out = to.end(out);
         });
@@ -573,12 +594,12 @@ private:
                 add(row.cells.count(), numbers_.room(2, sizeof(std::int32_t) + sizeof(double)),
                     [view = view_, f, b = row.block, tags = tags_[row.block], cells = row.cells,
                      to = numbers_](std::size_t begin, std::size_t end, char* out) {
-                        cells.each(begin, end, [&](std::size_t first, std::size_t last) {
+                        const auto put = [&](std::size_t first, std::size_t last, const std::int32_t* own) {
                             view->fields[f].each(b, first, last, [&](std::size_t i, double value) {
-                                out = to.add(out, static_cast<std::int32_t>(tags[i]));
-                                out = to.end(to.add(out, value));
+                                out = to.end(to.add(to.add(out, own[i - first]), value));
                             });
-                        });
+                        };
+                        each_chunk<std::int32_t>(cells, begin, end, tags, put);
                         return out;
                     });
             text_ += numbers_.gap() + "$EndElementData\n";
