@@ -122,8 +122,9 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
     sweep::share_deadline(request.options.improving);
     std::vector<std::string> failed; // a line for each sweep
     std::exception_ptr first;
-    Volume now = volume;
+    std::optional<Volume> other;
     for (std::size_t next = 0;; ++next) {
+        const Volume& now = other ? *other : volume;
         const bool pieces = closure::has_pieces(now.volume, context);
         const auto note_failure = [&](const Error& why) {
             if (!first && !volume.others) throw;
@@ -147,8 +148,8 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
         }
         if (next == volume.others->ways.size()) std::rethrow_exception(first);
         const bool told = now.told || !pieces;
-        now = with_other_sweep(volume, next);
-        now.told = told;
+        other = with_other_sweep(volume, next);
+        other->told = told;
     }
 }
 
