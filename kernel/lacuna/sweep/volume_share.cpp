@@ -133,7 +133,7 @@ public:
         for (const surface::LinkingSurface& link : links_) {
             Ring& ring = rings_.emplace_back();
             const std::vector<double> turning = surface::turning_of_segments(volume.model, link);
-            std::vector<int> counts;
+            std::vector<std::vector<double>> shares; // of each segment: its nodes, evenly spaced
             int first = 0;
             for (const surface::RimSegment& segment : link.segments) {
                 const double length = segment.source_to - segment.source_from;
@@ -142,11 +142,12 @@ public:
                 const double middle[] = {(segment.source_from + segment.source_to) / 2};
                 ring.segments.push_back({first, static_cast<int>(fine), fixed,
                                          length / size(link.source.points(middle).front()),
-                                         turning[counts.size()]});
-                counts.push_back(static_cast<int>(fine));
-                first += counts.back();
+                                         turning[shares.size()]});
+                std::vector<double>& even = shares.emplace_back();
+                for (int k = 0; k < static_cast<int>(fine); ++k) even.push_back(k / fine);
+                first += static_cast<int>(fine);
             }
-            ring.nodes = surface::linking_nodes(link, counts);
+            ring.nodes = surface::linking_nodes(link, shares, shares);
             ring.rows = surface::wall_rows(volume, link, ring.nodes, 1, {});
         }
         origin_ = rings_.front().rows.front().front();
