@@ -11,8 +11,10 @@
 #include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace lacuna::quads {
 namespace {

@@ -169,6 +169,19 @@ private:
 
 int open_corners(PlanarQuads& mesh, const PlanarRegion& region) { return CornerOpener(mesh, region).run(); }
 
+int pillow_folds(PlanarQuads& mesh, double least)
+{
+    int count = 0;
+    for (std::size_t q = 0, n = mesh.quads.size(); q < n; ++q) {
+        if (scaled_jacobian(mesh.points, mesh.quads[q]) > least) continue;
+        const std::array<Quad, 5> made = pillow(mesh.points, mesh.quads[q]);
+        mesh.quads[q] = made[0];
+        mesh.quads.insert(mesh.quads.end(), made.begin() + 1, made.end());
+        ++count;
+    }
+    return count;
+}
+
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)
 {
     std::vector<Index> number(mesh.points.size(), -1);

@@ -165,13 +165,15 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
-    if (static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
+    if (options.smooth && static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
         const std::vector<Symmetry> symmetries = mesh_symmetries(best.mesh, region);
         const bool is_symmetric = symmetrise(best.mesh, region.points.size(), symmetries) > 1;
         square_rows(best.mesh, region, is_symmetric ? symmetries : std::vector<Symmetry>());
         if (!is_symmetric) symmetrise(best.mesh, region.points.size(), symmetries);
     }
     best.mesh.how = best.report.used;
+    if (best.report.refilled > 0)
+        best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
     return {std::move(best.mesh), std::move(best.report)};
 }
 

@@ -8,6 +8,7 @@
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/raise_flat_quads.h>
+#include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/shared/clean_quads.h>
@@ -42,20 +43,33 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::find(opposite.begin(), opposite.end(), mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes; where that leaves some, by fewer irregular nodes first.
+/// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
+/// together with two rings of neighbours, and the cavity is remeshed.
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
-    raise_flat_quads(attempt.mesh, fixed);
-    judge(attempt);
-    if (attempt.worst > setting.flat) return;
-    clean_quads(attempt.mesh, fixed, {.size = setting.size}, context);
-    raise_flat_quads(attempt.mesh, fixed);
-    judge(attempt);
-    if (attempt.worst > setting.flat) return;
-    // Untangling alone: what opens here is smoothed with the rest later.
-    smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed,
-                 {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
+    for (int round = 0; round < 2; ++round) {
+        Attempt tried = attempt;
+        if (round > 0) pillow_folds(tried.mesh, setting.flat);
+        raise_flat_quads(tried.mesh, fixed);
+        judge(tried);
+        if (tried.worst <= setting.flat && round == 0 && setting.options.clean) {
+            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+            raise_flat_quads(tried.mesh, fixed);
+            judge(tried);
+        }
+        if (tried.worst <= setting.flat) {
+            // Untangling alone: what opens here is smoothed with the rest later.
+            smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
+                         {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
+            judge(tried);
+        }
+        const bool better = round == 0 || tried.worst > attempt.worst;
+        if (better) attempt = std::move(tried);
+        if (!better || attempt.worst > setting.flat) break;
+    }
+    if (attempt.worst > 0) return;
+    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, 0, setting.size);
     judge(attempt);
 }
 
@@ -63,13 +77,16 @@ void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thor
                       const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
-    clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
-    smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
-    correct_row_heights(attempt.mesh, setting.region, setting.size);
+    if (setting.options.clean)
+        clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
+    if (setting.options.smooth) {
+        smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
+        correct_row_heights(attempt.mesh, setting.region, setting.size);
+    }
     judge(attempt);
 }
 
-/// Pave rows from the loops, cut the rest and fill it; no quads where a part can neither be filled nor cut.
+/// Pave rows from the loops, cut the rest and fill it.
 void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
                    const RunContext& context)
 {
@@ -94,10 +111,12 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const std::optional<CoreCount> count = fill_core(partial, loops, style == RowStyle::mapped, context);
-    if (!count) return;
-    attempt.report.used = count->cuts == 0 && count->patches == 1 && attempt.report.rows == 0 ? "mapped"
-                                                                                              : "paved";
+    const CoreCount count = fill_core(partial, loops, style == RowStyle::mapped, context);
+    attempt.report.mapped = count.patches;
+    attempt.report.cuts = count.cuts;
+    attempt.report.templates = count.templates;
+    attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
+                                                                                            : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);
 }
@@ -125,11 +144,12 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
     if (style == RowStyle::triangles) {
         attempt.mesh = quads_of_triangles(region);
         attempt.report.used = "triangles";
+        if (attempt.mesh.quads.empty()) return attempt;
     } else {
         PartialMesh partial{region.points, {}, region.points.size(), setting.size, setting.flat, {}, weights};
         pave_and_fill(attempt, partial, region, style, context);
     }
-    if (attempt.mesh.quads.empty() || !is_conforming(attempt.mesh)) return attempt;
+    if (!is_conforming(attempt.mesh)) return attempt;
     if (style != RowStyle::triangles) open_corners(attempt.mesh, region);
     judge(attempt);
     return attempt;
@@ -138,7 +158,7 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough, const RunContext& context)
 {
     if (attempt.worst < -1) return; // there are no quads, or they do not conform
-    open_folds(attempt, setting, context);
+    if (setting.options.smooth) open_folds(attempt, setting, context);
     if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
 }
 

@@ -124,6 +124,7 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
     if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
+    attempt.report.mapped = 1;
     correct_row_heights(attempt.mesh, setting.region, setting.size);
     judge(attempt);
     return attempt;
@@ -220,7 +221,7 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewQuads),
       few_graded_(quads_within(region) < kFewForGrading && region.size),
-      setting_{region_, {}, flat_below(region)}
+      setting_{region_, options_, {}, flat_below(region)}
 {
     BoundarySizes sizes = sizes_with_boundary(region);
     setting_.size = std::move(sizes.usual);
@@ -330,7 +331,7 @@ void AttemptChooser::try_grids()
 
 bool AttemptChooser::try_coarse()
 {
-    if (!cut_ || quads_within(region_) < kManyQuads) return false;
+    if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kManyQuads) return false;
     std::optional<Paved> paved = pave_in_four(region_, options_, judged_.size, context_);
     if (!paved) return false;
     Attempt attempt{std::move(paved->mesh), std::move(paved->report)};

@@ -51,7 +51,7 @@ PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, Pa
                       const RunContext& context)
 {
     check(region);
-    const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
+    const AttemptSetting setting{region, options, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
     if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {

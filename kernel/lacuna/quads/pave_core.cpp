@@ -98,13 +98,13 @@ private:
     std::vector<Known> known_;
 };
 
-/// Join all loops to one, the nearest first; nothing where no line leads from one to another.
-std::optional<Cycle> join_all(PartialMesh& partial, std::vector<Cycle> loops)
+/// Join all loops to one, the nearest first.
+Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
 {
     BridgeFinder finder(partial, loops);
     for (std::size_t left = loops.size(); left > 1; --left) {
-        const std::optional<LoopBridge> best = finder.find();
-        if (!best) return std::nullopt;
+        std::optional<LoopBridge> best = finder.find();
+        if (!best) best = blind_bridge(partial, loops);
         const Index from = loops[best->loop_a][best->cut.from], to = loops[best->loop_b][best->cut.to];
         const Cycle line = nodes_along(partial, from, to, best->cut.edges);
         if (best->cut.edges == 1) partial.link(line.front(), line.back());
@@ -127,16 +127,14 @@ double good_patch(const CutWeights& weights, std::size_t nodes)
 
 } // namespace
 
-std::optional<CoreCount> fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
-                                   const RunContext& context)
+CoreCount fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
+                    const RunContext& context)
 {
     CoreCount count;
     for (const Cycle& loop : loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) partial.link(loop[i], loop[(i + 1) % loop.size()]);
     }
-    std::optional<Cycle> joined = join_all(partial, loops);
-    if (!joined) return std::nullopt;
-    std::vector<Cycle> parts{std::move(*joined)};
+    std::vector<Cycle> parts{join_all(partial, loops)};
     while (!parts.empty()) {
         check_cancelled(context);
         const Cycle cycle = std::move(parts.back());
@@ -144,6 +142,7 @@ std::optional<CoreCount> fill_core(PartialMesh& partial, const std::vector<Cycle
         if (cycle.size() < 4) continue;
         if (cycle.size() <= 6) {
             fill_small(partial, cycle);
+            ++count.templates;
             continue;
         }
         const std::vector<double> angles = angles_of(partial, cycle);
@@ -155,7 +154,7 @@ std::optional<CoreCount> fill_core(PartialMesh& partial, const std::vector<Cycle
             ++count.patches;
             continue;
         }
-        if (!cut) return std::nullopt;
+        if (!cut) cut = blind_cut(partial, cycle);
         const Cycle line = nodes_along(partial, cycle[cut->from], cycle[cut->to], cut->edges);
         if (cut->edges == 1) partial.link(line.front(), line.back());
         auto [one, two] = divide(cycle, *cut, line);

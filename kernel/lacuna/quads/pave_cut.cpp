@@ -406,6 +406,40 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
     return best;
 }
 
+LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops)
+{
+    LoopBridge best;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 1; b < loops.size(); ++b) {
+        for (const std::size_t i : spread(loops[0].size())) {
+            for (const std::size_t j : spread(loops[b].size())) {
+                const Vec2 &p = partial.at(loops[0][i]), &q = partial.at(loops[b][j]);
+                const double length = (q - p).norm();
+                if (length >= best.cost) continue;
+                const double edges = length / local_size(partial, p, q);
+                best = {0, b, {i, j, static_cast<std::size_t>(std::max(2L, std::lround(edges)))}, length};
+            }
+        }
+    }
+    return best;
+}
+
+Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)
+{
+    const std::size_t n = cycle.size();
+    Cut best;
+    double best_quality = -3;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = (i + 3) % n;
+        const double quality = least_sine(partial,
+                                          {cycle[i], cycle[(i + 1) % n], cycle[(i + 2) % n], cycle[j]});
+        if (quality <= best_quality || cycle[i] == cycle[j] || partial.linked(cycle[i], cycle[j])) continue;
+        best_quality = quality;
+        best = {std::min(i, j), std::max(i, j), 1};
+    }
+    return best;
+}
+
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 {
     // At even steps of the integral of 1 / size along the line, sampled.

@@ -8,6 +8,7 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -8,6 +8,7 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lacuna::quads {
 namespace {

@@ -12,6 +12,11 @@ namespace lacuna::quads::paving {
 /// @return how many changes were made.
 int open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
+/// Pillow each quad whose least sine is at most `least`: a smaller quad inside it and four around that, so
+/// that it has nodes that can move.
+/// @return how many quads were pillowed.
+int pillow_folds(PlanarQuads& mesh, double least);
+
 /// Remove the points no quad uses, except the first `fixed` ones. Points are renumbered by their first use.
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed);
 

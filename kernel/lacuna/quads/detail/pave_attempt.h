@@ -32,6 +32,7 @@ void judge(Attempt& attempt);
 /// What is the same for all attempts at a region.
 struct AttemptSetting {
     const PlanarRegion& region;
+    const PaveOptions& options;
     std::function<double(const Vec2&)> size; ///< of the region, with its boundary's
     double flat = 0;                         ///< quads with a smaller sine count as folded
 };

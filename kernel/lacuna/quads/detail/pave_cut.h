@@ -31,6 +31,13 @@ struct LoopBridge {
 std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
                                       std::size_t a, std::size_t b);
 
+/// The shortest line from the first loop to another, whatever it crosses: folds are opened later.
+LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops);
+
+/// Cut one quad off a loop where it is best shaped: for loops that `best_cut()` finds no line in. Both parts
+/// are even and smaller.
+Cut blind_cut(const PartialMesh& partial, const Cycle& cycle);
+
 /// New nodes along a line, spaced as the size asks at both ends; both ends included.
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges);
 

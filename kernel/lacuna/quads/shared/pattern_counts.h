@@ -53,6 +53,9 @@ inline constexpr double kFewestEven = 8;
 /// wanted are rounded. Of fewer than 200 quads a grid is then made with each of the cheapest four numbers,
 /// and the best by measure is taken; among them are those of headings with fewer soft turns.
 ///
+/// A region of three or five sides that no grid fills gets numbers for three or five of them round one node,
+/// of which it would have too many quads or too few with the numbers wanted.
+///
 /// Of more than `kManyQuads` quads every other node can be left out between corners: where it could not be,
 /// segments get twice the numbers of a region half as fine, unless some are given or short.
 ///

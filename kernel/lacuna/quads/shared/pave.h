@@ -10,8 +10,12 @@ namespace lacuna::quads {
 
 /// How `pave()` filled a region.
 struct PaveReport {
-    int rows = 0;     ///< rows of quads paved inward, over all loops
-    std::string used; ///< "mapped": one patch without rows; "submapped", "paved"
+    int rows = 0;      ///< rows of quads paved inward, over all loops
+    int mapped = 0;    ///< parts filled by a template, with at most a few irregular nodes
+    int cuts = 0;      ///< splitting lines drawn
+    int templates = 0; ///< loops of six nodes or fewer closed
+    int refilled = 0;  ///< places where rows and cuts folded, filled with split triangles
+    std::string used;  ///< "mapped": one patch without rows; "submapped", "paved"
 };
 
 /// Options of `pave()`.
@@ -20,7 +24,9 @@ struct PaveOptions {
     /// laid; a loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as
     /// the region's shape needs, and are free to move.
     int exact_rows = 0;
-    bool grids = true; ///< a region may be filled by one grid
+    bool grids = true;  ///< a region may be filled by one grid
+    bool clean = true;  ///< improve irregular nodes
+    bool smooth = true; ///< move inner nodes
 };
 
 /// What `pave()` built, and how.
@@ -38,8 +44,9 @@ struct Paved {
 /// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
 ///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
 ///    5 sides is filled with grids that meet in one or two irregular nodes.
-/// 4. Boundary corners that lack a quad get one. Folded quads are opened, irregular nodes paired off, nodes
-///    smoothed, row heights corrected.
+/// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity
+///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
+///    corrected.
 ///
 /// A symmetric region is cut along two mirror axes square to each other, or about a hole in its middle along
 /// all, if its boundary nodes allow it. The part is filled and its images are joined, unless that is poor.
