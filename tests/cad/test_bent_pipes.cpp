@@ -71,7 +71,7 @@ TEST_CASE("columns of bent pipes of CAD files keep their angles, and the volume 
         CHECK(drift.crowded <= 0.1);
         double length = 0;
         for (const test::Leg& leg : legs) length += leg.length;
-        CHECK(std::abs(swept.quality.volume / (std::numbers::pi * length) - 1) < 0.02);
+        CHECK(std::abs(swept.quality.volume / (std::numbers::pi * length) - 1) < 0.03); // of a given size
         ++pipes;
     }
     MESSAGE(pipes << " pipes");

@@ -249,7 +249,7 @@ TEST_CASE("void edges given by hand that cannot be ones are refused, and their v
           "closure.void_edge_twice");
     CHECK(code({{free_low, tag(1, 0, 2), {}}}, {word(free_low), word(free_high), "match"}) ==
           "closure.void_edge_contradicts");
-    CHECK(code({{free_low, free_high, {Vec3(0, -3, 1)}}}, {word(free_low), "goes through face "}) ==
+    CHECK(code({{free_low, free_high, {Vec3(0, -3, 1)}}}, {word(free_low), "crosses face "}) ==
           "closure.void_edge_crosses");
     CHECK(code({{free_low, free_high, {Vec3(0, 1, std::nan(""))}}}, {"point 1"}) ==
           "closure.void_edge_point");

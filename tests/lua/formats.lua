@@ -67,7 +67,7 @@ end
 local decks = {} -- that hold cells, and are written from decks
 for ending in pairs(written) do decks[ending] = ending ~= ".pvtu" or nil end
 local convert = help "convert"
-same((set_of(convert:match "says: (.-)%. Nodes", "[.%w]+")), decks, "convert writes")
+same((set_of(convert:match "of OUT: (.-)%. Nodes", "[.%w]+")), decks, "convert writes")
 local meshes = set_of(help("check"):match "of a mesh: (.-)%.\n", "%.%w+")
 check.that(meshes[".mesh"] and meshes[".vtu"] and not meshes[".stl"] and not meshes.polyMesh)
 check.that(not (convert .. help "check"):find "%%%u", "a word was left in the help")

@@ -155,7 +155,8 @@ local counts = {}
 for _, facets in ipairs { 20, 40, 80 } do
   local mesh = block(4, 3, 2, facets):open_volume({}):sweep()
   counts[#counts + 1] = mesh:quality().hexes
-  check.that(only(mesh, "size: "):find("by default, a twentieth of the box of the source's rims", 1, true))
+  check.that(only(mesh, "size: "):find("by default, a twentieth of the diagonal of the source rims' box", 1,
+    true))
   check.that(only(mesh, "layer count: "):find "%d+ by default")
 end
 check.that(math.max(table.unpack(counts)) <= 1.1 * math.min(table.unpack(counts)), "finer facets, finer mesh")

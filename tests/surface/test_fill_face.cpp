@@ -260,7 +260,7 @@ TEST_CASE("a curved face in two parts is refused by its name and with what to do
             const std::string words = error.what();
             CHECK(error.code() == "surface.not_flat");
             CHECK(words.find("face 1") != std::string::npos);
-            CHECK(words.find(made ? "give the face" : "split it") != std::string::npos);
+            CHECK(words.find(made ? "add the missing face" : "split it") != std::string::npos);
         }
     }
 }

@@ -73,7 +73,7 @@ TEST_CASE("without a size finer facets make no finer mesh, and the report says t
             const Swept swept = swept_by_default(test::sealed({.sides = sides, .cuts = cuts}));
             CAPTURE(sides);
             CAPTURE(cuts);
-            CHECK(says(swept, "size: ", "[model length] by default, a twentieth of the box"));
+            CHECK(says(swept, "size: ", "[model length] by default, a twentieth of the diagonal"));
             CHECK(says(swept, "layer count: ", "by default"));
             least = least == 0 ? swept.mesh.cell_count() : std::min(least, swept.mesh.cell_count());
             most = std::max(most, swept.mesh.cell_count());

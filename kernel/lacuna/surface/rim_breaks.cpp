@@ -351,7 +351,10 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         const auto is_up = [&](const Vertex& v) {
             return v.at_start || end_of_[index(creases_.at(v.point).back())] == 2;
         };
-        const bool whole = link.lines.empty() && !up.empty() && up.front().source_at == 0 &&
+        // Given meshes of walls have columns of their own.
+        const bool meshed = std::ranges::any_of(link.walls,
+                                                [&](FaceId wall) { return volume_.model[wall].keeps_nodes; });
+        const bool whole = !meshed && link.lines.empty() && !up.empty() && up.front().source_at == 0 &&
                            std::ranges::all_of(low, is_up);
         Pairs pairs = given
                           ? whole && has_nodes_at(link, joined) ? with_starts(joined, link) : boundaries(link)
