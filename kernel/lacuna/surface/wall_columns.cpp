@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace lacuna::surface {
 
@@ -44,11 +46,28 @@ std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& 
     return points;
 }
 
-/// The point of a wall's column at a share of the way up.
-Vec3 mapped_point(const Model& model, const LinkingMap& map, double s, double share)
+/// A point of a wall's column: where it starts on the source's rim, as a share of the rim, and how far up.
+struct ColumnPlace {
+    double s, share;
+};
+
+/// The points of columns, with one request for each face: exact surfaces lie in another process.
+std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
+                                const std::vector<ColumnPlace>& places)
 {
-    const WallPosition place = map.locate(s, map.from_even(share));
-    return points_at(model, place.face, std::array{place.at}).front();
+    std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> of_face;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const WallPosition place = map.locate(places[i].s, map.from_even(places[i].share));
+        auto& [at, index] = of_face[place.face];
+        at.push_back(place.at);
+        index.push_back(i);
+    }
+    std::vector<Vec3> points(places.size());
+    for (const auto& [face, own] : of_face) {
+        const std::vector<Vec3> found = points_at(model, face, own.first);
+        for (std::size_t i = 0; i < found.size(); ++i) points[own.second[i]] = found[i];
+    }
+    return points;
 }
 
 } // namespace
@@ -73,10 +92,10 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
     const LinkingMap map(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kPlaces; ++k) {
-        std::vector<Vec3>& column = columns.emplace_back();
+        std::vector<ColumnPlace> places;
         for (int i = 0; i <= steps; ++i)
-            column.push_back(
-                mapped_point(volume.model, map, (k + 0.5) / kPlaces, static_cast<double>(i) / steps));
+            places.push_back({(k + 0.5) / kPlaces, static_cast<double>(i) / steps});
+        columns.push_back(mapped_points(volume.model, map, places));
     }
     return columns;
 }
@@ -89,13 +108,14 @@ std::vector<std::vector<Vec3>> wall_rows(const OpenVolume& volume, const Linking
     std::vector<std::vector<Vec3>> rows{link.source.points(nodes.source_at)};
     if (steps > 1) {
         const LinkingMap map(volume, link, true, context);
-        for (int k = 1; k < steps; ++k) {
-            check_cancelled(context);
-            std::vector<Vec3>& row = rows.emplace_back();
+        std::vector<ColumnPlace> places;
+        for (int k = 1; k < steps; ++k)
             for (const double at : nodes.source_at)
-                row.push_back(mapped_point(volume.model, map, at / link.source.length(),
-                                           static_cast<double>(k) / steps));
-        }
+                places.push_back({at / link.source.length(), static_cast<double>(k) / steps});
+        check_cancelled(context);
+        const std::vector<Vec3> points = mapped_points(volume.model, map, places);
+        for (auto at = points.begin(); at != points.end(); at += std::ssize(nodes.source_at))
+            rows.emplace_back(at, at + std::ssize(nodes.source_at));
     }
     rows.push_back(link.target.points(high));
     return rows;
