@@ -9,8 +9,11 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
+#include <functional>
 #include <utility>
 #include <vector>
+
+#include <lacuna/core/shared/list_text.h>
 
 namespace lacuna::lua {
 
@@ -160,9 +163,7 @@ const char* push_sorted_names(lua_State* L, int index)
     }
     push_text(L, [&] {
         std::sort(names.begin(), names.end());
-        std::string all;
-        for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-        return all;
+        return full_list(names, std::identity());
     });
     return lua_tostring(L, -1);
 }

@@ -2,6 +2,7 @@
 #include "bindings/faces.h"
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/healing/shared/grow_face.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -431,9 +433,7 @@ void mark_found_nothing(lua_State* L, int selector)
     lua_createtable(L, 0, 1);
     push_text(L, [&] {
         std::ranges::sort(words);
-        std::string all;
-        for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-        return all;
+        return full_list(words, std::identity());
     });
     lua_setfield(L, -2, kFoundNothing);
     lua_setmetatable(L, array);

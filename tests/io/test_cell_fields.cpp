@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 #include "support/blocks.h"
+#include "support/write_vtk.h"
 
-#include <lacuna/io/detail/vtk.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/quality/shared/metrics.h>

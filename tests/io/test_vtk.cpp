@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
 #include "support/blocks.h"
-
-#include <lacuna/io/detail/vtk.h>
+#include "support/write_vtk.h"
 
 #include <doctest/doctest.h>
 

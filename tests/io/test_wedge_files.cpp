@@ -2,10 +2,10 @@
 #include "folder.h"
 #include "support/blocks.h"
 #include "support/prove_cells.h"
+#include "support/write_vtk.h"
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
-#include <lacuna/io/detail/vtk.h>
 #include <lacuna/io/msh.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/metrics.h>

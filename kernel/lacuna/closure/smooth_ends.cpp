@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/smooth_ends.h>
-
-#include <lacuna/closure/detail/turns.h>
+#include <lacuna/topology/shared/patches.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,17 +34,18 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 }
 
 /// The walls that meet an end smoothly, directly or through each other; empty if they must not join it.
-std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& turns)
+std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
+                                 const std::vector<std::vector<FaceUse>>& uses,
+                                 const std::vector<double>& angle)
 {
     const Model& model = volume.model;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     const std::vector<FaceId> given = volume.faces(end);
     std::vector<FaceId> extended = given;
     for (std::size_t i = 0; i < extended.size(); ++i) {
         if (!is_free_of_meshes(model[extended[i]])) return {};
         for (const Loop& loop : model[extended[i]].loops) {
             for (const EdgeUse& use : loop.uses) {
-                if (std::abs(turns[use.edge.index()]) >= kRimTurn) continue;
+                if (angle[use.edge.index()] >= kSmooth) continue;
                 for (const FaceUse& user : uses[use.edge.index()]) {
                     if (std::ranges::find(extended, user.face) != extended.end()) continue;
                     if (volume.role[user.face.index()] != Role::wall) return {};
@@ -72,10 +72,11 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::
 
 std::vector<FaceId> extend_smooth_ends(OpenVolume& sealed, const RunContext& context)
 {
-    const std::vector<double> turns = concave_turns(sealed, context);
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(sealed.model);
+    const std::vector<double> angle = angles_across(sealed.model, uses, context);
     std::vector<FaceId> joined;
     for (const Role end : {Role::source, Role::target}) {
-        for (const FaceId wall : smooth_walls(sealed, end, turns)) {
+        for (const FaceId wall : smooth_walls(sealed, end, uses, angle)) {
             sealed.role[wall.index()] = end;
             joined.push_back(wall);
         }

@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 
 namespace lacuna::closure {
@@ -26,6 +27,8 @@ namespace {
 
 /// Number of facets of a target region that vote for the source part below it.
 constexpr std::size_t kVotes = 50;
+/// An end turns into the walls at a step by more than half of a right angle [degrees].
+constexpr double kStep = 45;
 
 /// Each cut reduces the number of steps; more rounds than this indicate an error.
 constexpr int kRounds = 64;
@@ -56,7 +59,7 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kRimTurn) {
+                if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
                     if (uses[use.edge.index()].size() > 1) ++onward;
                     continue;
                 }

@@ -5,6 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/shared/left_out.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <sstream>
@@ -43,10 +44,10 @@ const char* word(Role role)
 void list_faces(std::ostream& out, const char* title, const topology::OpenVolume& volume, Role role,
                 Origin origin)
 {
-    std::string names;
-    for (const FaceId face : volume.faces(role))
-        if (volume.model[face].origin == origin)
-            names += (names.empty() ? "" : ", ") + topology::name_of(volume.model, face);
+    std::vector<FaceId> faces = volume.faces(role);
+    std::erase_if(faces, [&](FaceId face) { return volume.model[face].origin != origin; });
+    const std::string names = full_list(faces,
+                                        [&](FaceId face) { return topology::name_of(volume.model, face); });
     if (origin == Origin::given || !names.empty()) out << title << (names.empty() ? "none" : names) << '\n';
 }
 
@@ -113,12 +114,8 @@ std::string pieces_in_words(const Volume& volume, const RunContext& context)
 std::string ends_in_words(const topology::OpenVolume& volume)
 {
     const auto list = [&](topology::Role role) {
-        constexpr std::size_t kMost = 6; // what a person reads in a line
         const std::vector<FaceId> faces = volume.faces(role);
-        std::string text = faces.empty() ? "what is missing" : "";
-        for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
-            text += (i == 0 ? "" : ", ") + topology::name_of(volume.model, faces[i]);
-        return text + (faces.size() > kMost ? ", …" : "");
+        return faces.empty() ? "a missing end" : topology::names_of(volume.model, faces);
     };
     return "from " + list(Role::source) + " to " + list(Role::target);
 }

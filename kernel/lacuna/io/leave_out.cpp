@@ -2,6 +2,7 @@
 #include <lacuna/io/leave_out.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
@@ -332,12 +333,7 @@ private:
         }
     }
 
-    [[nodiscard]] std::string list() const
-    {
-        std::string text;
-        for (const std::string& part : parts_) text += (text.empty() ? "" : ", ") + part;
-        return text;
-    }
+    [[nodiscard]] std::string list() const { return full_list(parts_, std::identity()); }
 
     void note(std::size_t elements)
     {

@@ -4,12 +4,14 @@
 #include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 namespace lacuna::matching {
@@ -381,14 +383,9 @@ std::string Nearest::clashes(std::size_t l) const
 
 void Nearest::refuse_loop(std::size_t l, const std::string& why) const
 {
-    std::string list;
-    for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
-        if (s - source_.first[l] == 6) {
-            list += ", …";
-            break;
-        }
-        list += (list.empty() ? "" : ", ") + tag(source_.vertex[s]);
-    }
+    const std::span<const VertexId> loop(source_.vertex.data() + source_.first[l],
+                                         source_.first[l + 1] - source_.first[l]);
+    const std::string list = short_list(loop, [&](VertexId v) { return tag(v); });
     throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match source loop " +
                                                    std::to_string(l + 1) + " (vertices " + list +
                                                    "): " + why);

@@ -7,6 +7,7 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/paired_breaks.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +31,6 @@ constexpr double kFlat = 1e-6;
 /// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
 /// sharpest and straightest is taken.
 constexpr double kGoesOn = 0.25;
-
-Vec3 area_vector(const Model& model, const Triangle& t)
-{
-    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
-}
 
 /// The points that the Douglas-Peucker rule keeps, both ends included: the others lie within `sag` of the
 /// chords.
@@ -202,7 +198,7 @@ void RimFacets::find_sides()
                 const Index a = t[k], b = t[(k + 1) % 3];
                 const bool across = end_of_[index(a)] != 0 && end_of_[index(b)] != 0;
                 if ((!wall && !across) || rim.contains(edge_key(a, b))) continue;
-                const Vec3 own = area_vector(model, t);
+                const Vec3 own = facet_area_vector(model, t);
                 const auto [other, fresh] = first.try_emplace(edge_key(a, b), own);
                 if (fresh) continue;
                 const double turn = geometry::angle_between(other->second, own);

@@ -8,6 +8,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/graded_points.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -49,11 +50,6 @@ constexpr double kWayRound = 1.5;
 /// isotropic, so a sharp bend would cost hundreds of them for the sag in one direction. Heuristic.
 constexpr double kLeastShare = 0.5;
 
-Vec3 area_vector(const Model& model, const Triangle& t)
-{
-    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
-}
-
 /// Keep the cause with the smaller size.
 void take_least(std::optional<SizeCause>& least, const SizeCause& cause)
 {
@@ -88,7 +84,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
     first.reserve(2 * f.triangles.size());
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
         const Triangle& t = f.triangles[i];
-        const Vec3 normal = area_vector(model, t);
+        const Vec3 normal = facet_area_vector(model, t);
         const std::array<std::size_t, 3> own{place(t[0]), place(t[1]), place(t[2])};
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = t[k], b = t[(k + 1) % 3];
@@ -98,7 +94,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             for (Around* end : {&from, &to}) end->shortest = std::min(end->shortest, side.norm());
             const auto [found, fresh] = first.try_emplace(edge_key(a, b), i);
             if (fresh) continue;
-            const Vec3 other = area_vector(model, f.triangles[found->second]);
+            const Vec3 other = facet_area_vector(model, f.triangles[found->second]);
             const double length = side.norm();
             if (!(length > 0) || !(normal.norm() > 0) || !(other.norm() > 0)) continue;
             const double bend = std::atan2(other.cross(normal).dot(side) / length, other.dot(normal));

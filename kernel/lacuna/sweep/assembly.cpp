@@ -2,6 +2,7 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_order.h>
@@ -270,9 +271,8 @@ private:
     void note_order(const std::vector<std::size_t>& order)
     {
         if (order.size() < 2) return;
-        std::string names;
-        for (const std::size_t m : order) names += (names.empty() ? "" : ", ") + members_[m].region;
-        result_.report.push_back("meshed in this order: " + names);
+        const auto name = [&](std::size_t m) { return members_[m].region; };
+        result_.report.push_back("meshed in this order: " + full_list(order, name));
     }
 
     /// What a part came out of: the neighbours that were there, and how often each had been swept.

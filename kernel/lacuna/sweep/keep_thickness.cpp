@@ -5,6 +5,7 @@
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/words.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <array>
@@ -276,10 +277,9 @@ private:
     {
         const Reached found = reached(table);
         if (!found.face.valid() && found.asked == 0) return;
-        std::string faces;
-        for (const auto& [face, own] : tables_.of) {
-            if (own == table) faces += (faces.empty() ? "" : ", ") + name_of(model_, face);
-        }
+        std::vector<FaceId> faces;
+        for (const auto& [face, own] : tables_.of)
+            if (own == table) faces.push_back(face);
         const std::vector<double>& heights = heights_of(table);
         if (found.off > kThicknessOff) {
             throw NotSweepable(
@@ -290,11 +290,11 @@ private:
                     ": there is no room to move their nodes, or these were given; ask for fewer or thinner "
                     "rows, or for a smaller size");
         }
-        lines.push_back("boundary layers of " + faces + ": " + std::to_string(heights.size()) +
-                        (heights.size() == 1 ? " row" : " rows") + ", the first " + in_short(found.least) +
-                        " to " + in_short(found.most) + " thick (" + in_short(found.asked) +
-                        " asked), each within " + in_short(100 * found.off) + " % of its thickness, " +
-                        in_short(heights.back()) + " in all");
+        lines.push_back("boundary layers of " + names_of(model_, faces) + ": " +
+                        std::to_string(heights.size()) + (heights.size() == 1 ? " row" : " rows") +
+                        ", the first " + in_short(found.least) + " to " + in_short(found.most) + " thick (" +
+                        in_short(found.asked) + " asked), each within " + in_short(100 * found.off) +
+                        " % of its thickness, " + in_short(heights.back()) + " in all");
     }
 
     // --- moving rows along walls --------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/shape_size.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -60,11 +61,6 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-Vec3 facet_normal(const Model& model, const Triangle& t)
-{
-    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized();
-}
-
 /// What an end loses by its own bends, but for creases between nodes of its rims.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
@@ -85,7 +81,8 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
                 const auto [other, fresh] = first.try_emplace(edge_key(a, b), &t);
                 if (fresh || (kept.contains(a) && kept.contains(b))) continue;
                 const Vec3 side = model.at(b) - model.at(a);
-                const Vec3 own = facet_normal(model, t), beside = facet_normal(model, *other->second);
+                const Vec3 own = facet_area_vector(model, t).stableNormalized();
+                const Vec3 beside = facet_area_vector(model, *other->second).stableNormalized();
                 const double turn = std::atan2(beside.cross(own).dot(side.stableNormalized()),
                                                own.dot(beside));
                 if (turn == 0) continue;

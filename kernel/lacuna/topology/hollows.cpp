@@ -5,8 +5,8 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
-#include <lacuna/topology/detail/patches.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/left_out.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 
@@ -17,7 +18,7 @@ std::string name_of(const LeftOutFace& face)
 /// Names of the void faces along any of the edges.
 std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
 {
-    std::string names;
+    std::vector<FaceId> faces;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const Face& face = model.faces[f];
         if (face.origin != Origin::made_void) continue;
@@ -25,9 +26,9 @@ std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edge
             return std::ranges::any_of(
                 loop.uses, [&](const EdgeUse& use) { return std::ranges::binary_search(edges, use.edge); });
         });
-        if (along) names += (names.empty() ? "" : ", ") + name_of(model, FaceId(f));
+        if (along) faces.emplace_back(f);
     }
-    return names;
+    return names_of(model, faces);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/gaps.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <array>
@@ -92,7 +93,7 @@ void check_walls_touch(const OpenVolume& volume)
 /// Walls that end at a vertex and do not contain the edge, for messages.
 std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
 {
-    std::string names;
+    std::vector<FaceId> walls;
     for (const FaceId wall : volume.faces(Role::wall)) {
         bool meets = false, along = false;
         for (const Loop& loop : volume.model[wall].loops) {
@@ -101,9 +102,9 @@ std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
                 along = along || use.edge == edge;
             }
         }
-        if (meets && !along) names += (names.empty() ? "" : ", ") + name_of(volume.model, wall);
+        if (meets && !along) walls.push_back(wall);
     }
-    return names;
+    return names_of(volume.model, walls);
 }
 
 /// Ends of a pie slice share its axis, where layers have no height; along that axis it can be swept.

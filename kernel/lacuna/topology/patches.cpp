@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/topology/detail/patches.h>
+#include <lacuna/topology/shared/patches.h>
 
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +79,7 @@ private:
 
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const
     {
-        return (model_.at(t[1]) - model_.at(t[0]))
-            .cross(model_.at(t[2]) - model_.at(t[0]))
-            .stableNormalized();
+        return facet_area_vector(model_, t).stableNormalized();
     }
 
     const Model& model_;

@@ -4,13 +4,9 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <numbers>
 #include <vector>
 
 namespace lacuna::closure {
-
-/// An end has a rim where it meets its walls at more than 45° [radians].
-inline constexpr double kRimTurn = std::numbers::pi / 4;
 
 /// Mean turn of the skin towards the void at each edge between two faces [radians]: positive if the interior
 /// angle of the void exceeds 180°, 0 for free edges and seams.

@@ -17,17 +17,16 @@ std::string full_list(const Items& items, Text text)
     return list;
 }
 
-/// "a, b, c, d, e, f and 3 more": at most six items and a count, to keep messages short.
+/// "a, b, c, d, e, f and 3 more": at most `most` items and a count, to keep messages short.
 template <class Items, class Text>
-std::string short_list(const Items& items, Text text)
+std::string short_list(const Items& items, Text text, std::ptrdiff_t most = 6)
 {
-    constexpr std::ptrdiff_t kListed = 6;
     std::string list;
     const auto count = std::ssize(items);
     auto item = std::begin(items);
-    for (std::ptrdiff_t i = 0; i < std::min(count, kListed); ++i, ++item)
+    for (std::ptrdiff_t i = 0; i < std::min(count, most); ++i, ++item)
         list += (i == 0 ? "" : ", ") + text(*item);
-    return count > kListed ? list + " and " + std::to_string(count - kListed) + " more" : list;
+    return count > most ? list + " and " + std::to_string(count - most) + " more" : list;
 }
 
 } // namespace lacuna

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/list_text.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,11 +16,8 @@ namespace lacuna::io {
 /// "a, b, c and 4 more"
 inline std::string listed(const std::vector<std::string>& names)
 {
-    constexpr std::size_t kMost = 20; // what still reads as a list
-    std::string text;
-    for (std::size_t n = 0; n < std::min(names.size(), kMost); ++n) text += (n > 0 ? ", " : "") + names[n];
-    if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
-    return text;
+    constexpr int kMost = 20; // sets are renamed by the dozen, and each new name is needed
+    return short_list(names, std::identity(), kMost);
 }
 
 /// Call `take(line)` for every line of a text, without its end.

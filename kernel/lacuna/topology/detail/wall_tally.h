@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/topology/detail/patches.h>
+#include <lacuna/topology/shared/patches.h>
 
 #include <span>
 #include <utility>
