@@ -76,7 +76,7 @@ std::string faces_in_words(const topology::OpenVolume& volume)
     return out.str();
 }
 
-/// The pieces that a volume with branches or steps is cut into, and which faces they share.
+/// The pieces that a volume with branches or steps is cut into, and the faces that they share.
 std::string pieces_in_words(const Volume& volume, const RunContext& context)
 {
     if (volume.closure || !closure::has_pieces(volume.volume, context)) return "";
@@ -113,7 +113,7 @@ std::string pieces_in_words(const Volume& volume, const RunContext& context)
 std::string ends_in_words(const topology::OpenVolume& volume)
 {
     const auto list = [&](topology::Role role) {
-        constexpr std::size_t kMost = 6; // what a person reads in a line
+        constexpr std::size_t kMost = 6; // faces listed on one line before the list is truncated
         const std::vector<FaceId> faces = volume.faces(role);
         std::string text = faces.empty() ? "what is missing" : "";
         for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
