@@ -77,7 +77,7 @@ std::string faces_in_words(const topology::OpenVolume& volume)
     return out.str();
 }
 
-/// The pieces that a volume with branches or steps is cut into, and which faces they share.
+/// The pieces that a volume with branches or steps is cut into, and the faces that they share.
 std::string pieces_in_words(const Volume& volume, const RunContext& context)
 {
     if (volume.closure || !closure::has_pieces(volume.volume, context)) return "";

@@ -8,14 +8,15 @@
 
 namespace lacuna::fill {
 
-/// Faces, loops and edges of a volume with their geometry, and the pieces it is cut into to be swept.
+/// The faces, loops and edges of a volume with their geometry, and the pieces that it is cut into for
+/// sweeping.
 /// @throw Cancelled
 std::string tree(const Volume& volume, const RunContext& context = {});
 
-/// Roles, class and why, void faces, match.
+/// The roles, the class with its reason, the void faces and the match of a volume.
 std::string describe(const Volume& volume);
 
-/// The ends of a volume: "from face 1 to face 2, face 3".
+/// The ends of a volume, as in "from face 1 to face 2, face 3".
 std::string ends_in_words(const topology::OpenVolume& volume);
 
 } // namespace lacuna::fill

@@ -10,7 +10,7 @@ namespace lacuna::fill {
 
 namespace {
 
-/// Add a region of the same turn: distances are means over its volume.
+/// Add the fidelity of another region of the same full turn; distances are averaged by volume.
 void add(const sweep::Fidelity& other, sweep::Fidelity& own)
 {
     const double all = own.sealed_volume + other.sealed_volume;
@@ -21,7 +21,7 @@ void add(const sweep::Fidelity& other, sweep::Fidelity& own)
     own.sealed_volume = all;
 }
 
-/// Count cells by group, as first met.
+/// Count cells by group, in the order in which groups are first met.
 void count(std::vector<Group>& groups, const std::string& name, int dim, std::size_t cells)
 {
     auto known = std::ranges::find(groups, name, &Group::name);
@@ -101,7 +101,7 @@ std::vector<Group> groups(const FilledParts& mesh)
     for (const sweep::Swept& part : mesh.swept.parts) {
         const std::string& region = part.mesh.volume_groups.front();
         count_skin(all, part.mesh);
-        if (region != "volume") count(regions, region, 3, part.mesh.cell_count()); // else without a name
+        if (region != "volume") count(regions, region, 3, part.mesh.cell_count()); // default: unnamed
         sum += part.mesh.cell_count();
     }
     std::ranges::sort(all, {}, &Group::name);

@@ -19,41 +19,41 @@ namespace lacuna::fill {
 /// The mesh of one volume.
 struct FilledVolume {
     sweep::Swept swept;
-    std::string material; ///< of the volume
+    std::string material; ///< material of the volume
 };
 
 /// The mesh of an assembly, or of a volume that was cut.
 struct FilledParts {
     sweep::SweptAssembly swept;
-    std::vector<std::string> regions;   ///< of each part; pieces of a full turn have one
-    std::vector<std::string> materials; ///< of each part; empty ones: none
+    std::vector<std::string> regions;   ///< one for each part; the pieces of a full turn share one
+    std::vector<std::string> materials; ///< one for each part; empty: no material
     std::vector<sweep::LeftOut> left_out;
 };
 
-/// A mesh, and the volumes as they were swept.
+/// A mesh, and the volumes with the roles that they were swept with.
 struct Filled {
     std::vector<Volume> volumes;
     std::variant<FilledVolume, FilledParts> mesh;
 };
 
-/// The sweeps that a mesh is of: one, or one of each part.
+/// The sweeps that produced a mesh: a single one, or one for each part.
 std::span<const sweep::Swept> parts(const FilledVolume& mesh);
 std::span<const sweep::Swept> parts(const FilledParts& mesh);
 std::span<const sweep::Swept> parts(const Filled& filled);
 
-/// The lines of a mesh's report, those of parts after the name of their region.
+/// The report of a mesh, one entry a line; lines about a part start with the name of its region.
 std::vector<std::string> report(const FilledParts& mesh);
 
-/// A part, or the parts of a full turn.
+/// One part, or all parts of one full turn.
 struct Region {
     std::string name;
     int layers = 0;
     sweep::Fidelity fidelity;
 };
-/// In the order of the parts.
+/// The regions of a mesh, in the order of its parts.
 std::vector<Region> regions(const FilledParts& mesh);
 
-/// Of all parts, without faces.
+/// The fidelity of all parts together, without that of single faces.
 sweep::Fidelity fidelity(const FilledParts& mesh);
 
 struct Group {
@@ -61,26 +61,26 @@ struct Group {
     int dim = 3;
     std::size_t cells = 0;
 };
-/// The groups of the skin, then those of cells.
+/// The groups of the skin, followed by the groups of cells.
 std::vector<Group> groups(const FilledVolume& mesh);
 std::vector<Group> groups(const FilledParts& mesh);
 
 /// The nodes and cells of all parts, numbered as one mesh.
 struct WholeCells {
     std::vector<Vec3> nodes;
-    std::vector<Hex> hexes;              ///< corners; wedges as `mesh::is_wedge()` has them
-    std::vector<mesh::CellNodes> curved; ///< of order 2: all nodes
-    std::vector<Index> column;           ///< that each cell is of, numbered over all parts
+    std::vector<Hex> hexes;              ///< corners; for wedges see `mesh::is_wedge()`
+    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell
+    std::vector<Index> column;           ///< column that each cell belongs to, numbered over all parts
 };
 WholeCells whole_cells(const sweep::SweptAssembly& swept);
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context = {});
 
-/// The place of a node of the whole. @pre node < swept.nodes
+/// The coordinates of a node, by its number in the whole mesh. @pre node < swept.nodes
 Vec3 node(const sweep::SweptAssembly& swept, std::size_t node);
 
-/// The corners of a cell by its number among hexahedra or among wedges, those of one part after the other.
-/// @pre  there is one.
+/// The corners of a cell, by its number among the hexahedra or among the wedges; parts are counted in order.
+/// @pre  such a cell exists.
 Hex cell(const sweep::SweptAssembly& swept, bool wedge, std::size_t number);
 
 } // namespace lacuna::fill

@@ -8,7 +8,7 @@ namespace lacuna::fill {
 
 namespace {
 
-/// The assembly puts a member's name before its groups again.
+/// Remove a member's name from its group names: the assembly prefixes it again.
 void remove_name(mesh::HexMesh& mesh, const std::string& name)
 {
     const std::string before = name + ":";

@@ -21,20 +21,21 @@ namespace lacuna::fill {
 
 namespace {
 
-/// A part of the assembly to be: a volume or a piece of one with its options, or a mesh that stays.
+/// A part of the assembly: a volume, or a piece of one, with its options; or a finished mesh.
 struct Part {
-    const Member* asked = nullptr; ///< null of a mesh
-    std::string asked_name;        ///< of the volume that `asked` is of, for messages
+    const Member* asked = nullptr; ///< null for a finished mesh
+    std::string asked_name;        ///< name of the member volume, for messages
     Volume volume;
     std::unique_ptr<KeptMesh> kept;
-    bool left_out = false;            ///< its faces may be named all the same
-    const Volume* piece_of = nullptr; ///< the volume that it is a piece of; null: it is no piece
-    std::string whole{};              ///< the name of that volume
+    bool left_out = false;            ///< left out of the sweep; options may still name its faces
+    const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is no piece
+    std::string whole{};              ///< name of that volume
 };
 
 // --- options that name faces ------------------------------------------------------------------------------
 
-/// Give each option that names faces: its name, whether it was given for one volume alone, and the faces.
+/// Visit each option that names faces, with its name, whether it was given for one volume alone, and its
+/// faces.
 template <class Options, class Do>
 void for_each_names(Options& options, const Do& give)
 {
@@ -43,7 +44,8 @@ void for_each_names(Options& options, const Do& give)
         if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
 }
 
-/// Options for many volumes name faces that one alone has: leave out those that this one has not.
+/// Options for several volumes may name faces of one volume only: drop the faces that this volume does not
+/// have.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
     for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
@@ -62,7 +64,7 @@ void keep_known_faces(sweep::AssemblyMember& member)
 
 constexpr const char* kWhereFacesAre = "; volume:tree() lists faces";
 
-/// "; the nearest is …": of the names of faces of some volumes.
+/// "; the nearest is …", with the most similar face name among the given volumes.
 std::string nearest_face_name(const std::vector<Part>& all, const std::string& wanted, const Member* of)
 {
     std::set<std::string> known;
@@ -80,7 +82,7 @@ std::string nearest_face_name(const std::vector<Part>& all, const std::string& w
     return "; the nearest is \"" + std::string(keys[nearest_word(wanted.c_str(), keys)]) + "\"";
 }
 
-/// Refuse a face that is named and that no volume has; of options of one volume, that one.
+/// Refuse a named face that no volume has or, for an option of one volume, that this volume does not have.
 void check_known_faces(const std::vector<Part>& all)
 {
     std::set<std::tuple<const Member*, std::string, std::string>> seen;
@@ -114,10 +116,10 @@ void check_known_faces(const std::vector<Part>& all)
 
 // --- full turns -------------------------------------------------------------------------------------------
 
-/// A turn of fewer layers would have one of 120° and more, which no hexahedron spans.
+/// With fewer layers one would span 120° or more, which no hexahedron can.
 constexpr int kLeastPerTurn = 4;
 
-/// A piece of a full turn has its share of the layers asked for.
+/// Give a piece of a full turn its share of the requested layers.
 void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 {
     const double share = volume.turn_to - volume.turn_from;
@@ -138,9 +140,9 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 
 // --- parts ------------------------------------------------------------------------------------------------
 
-/// A volume, or the pieces it has to be cut into.
-/// @param name   of regions; those of pieces have a number behind it.
-/// @param whole  the group of the pieces' cells.
+/// Add a volume, or the pieces that it has to be cut into.
+/// @param name   region name; pieces get a number appended.
+/// @param whole  group of the cells of all pieces.
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
@@ -162,8 +164,8 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     }
 }
 
-/// Do something to a volume of an assembly; where it fails and may be left out, note that.
-/// @return  whether it was done.
+/// Run `what` on a volume of an assembly. If it fails and the volume may be left out, record that.
+/// @return  whether it succeeded.
 template <class Do>
 bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
                      const Do& what)
@@ -194,7 +196,7 @@ sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)
     return member;
 }
 
-/// Layers asked for are those of the pieces that go from end to end.
+/// Requested layers apply to the pieces from source to target only; other pieces take the layers that remain.
 sweep::AssemblyMember member_of(const Part& part, const std::string& region, bool alone)
 {
     const Volume& volume = part.volume;
@@ -207,9 +209,9 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
     return member;
 }
 
-/// Close the volumes and sweep the parts as one.
-/// @param left_out  what was left out before.
-/// @param alone     they are the pieces of one volume that is all there is.
+/// Close the volumes and sweep all parts as one mesh.
+/// @param left_out  volumes that were left out before.
+/// @param alone     whether the parts are the pieces of a single volume, with no other member.
 FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
                         const RunContext& context)
 {

@@ -16,8 +16,8 @@ namespace {
 using topology::Model;
 using topology::Roles;
 
-/// Find the walls from the rim of the one end that is named.
-/// @return  which faces were left out, and why.
+/// Find the walls from the rim of the one end that was named.
+/// @return  the faces left out, each with the reason.
 std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunContext& context)
 {
     if (roles.source.empty() && roles.target.empty())
@@ -48,7 +48,7 @@ std::vector<FaceId> faces_of(const Roles& roles)
     return all;
 }
 
-/// The roles found for faces, or for walls named alone; none where they are as they were named.
+/// Find the roles of faces, also when only walls were named. None: use the named roles.
 std::optional<closure::Reading> find_roles(const Model& model, const std::vector<FaceId>& faces,
                                            const RoleRequest& request, const RunContext& context)
 {

@@ -19,13 +19,13 @@ namespace {
 
 // --- middle nodes of decks --------------------------------------------------------------------------------
 
-/// The decks that a volume's faces came from. What asks them may outlive the volume, where layers are left
-/// to be made.
+/// The decks that the faces of a volume came from. Shared, because a sweep whose layers are still to be
+/// created may outlive its volume.
 struct GivenMiddles {
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double tolerance = 0, scale = 1;
 
-    /// Nodes where `ask(deck)` finds them; the first deck that has one gives it.
+    /// The nodes that `ask(deck)` finds; the first deck with a node at a place supplies it.
     template <class Ask>
     std::vector<Vec3> find(std::size_t count, const Ask& ask) const
     {
@@ -42,7 +42,7 @@ struct GivenMiddles {
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
 {
     constexpr double kTogether =
-        1e-9; // of the diagonal: kept nodes are the decks' to the bit, but for the scale
+        1e-9; // of the diagonal: reused nodes equal those of the deck except for scaling
     const GivenMiddles given{volume.decks, kTogether * volume.volume.model.diagonal, volume.scale};
     options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
         return given.find(from.size(), [&](const io::Deck& deck) {
@@ -58,7 +58,8 @@ void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options
 
 // --- one sweep of a volume --------------------------------------------------------------------------------
 
-/// Report what closing assumed, and report and log what a match was unsure of that void edges were drawn by.
+/// Report what closing assumed. If void edges were drawn from the match, also report and log
+/// the notes of the match.
 void report_closure(const Volume& volume, std::vector<std::string>& report, const RunContext& context)
 {
     report_left_out(volume, report);
@@ -97,7 +98,7 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
 
 // --- other sweeps of the same void ------------------------------------------------------------------------
 
-/// A volume with the roles of another sweep of its void.
+/// The same volume with the roles of an alternative sweep of its void.
 Volume with_other_sweep(const Volume& volume, std::size_t number)
 {
     Volume other = volume;
@@ -120,7 +121,7 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
 {
     SweepRequest request = asked;
     sweep::share_deadline(request.options.improving);
-    std::vector<std::string> failed; // a line for each sweep
+    std::vector<std::string> failed; // one line for each sweep that failed
     std::exception_ptr first;
     std::optional<Volume> other;
     for (std::size_t next = 0;; ++next) {

@@ -34,7 +34,7 @@ void match_ends(Volume& volume, const matching::MatchOptions& options, const Run
     volume.match = matching::match(volume.volume, options, context);
 }
 
-/// The ends match when their holes are covered, and not before.
+/// Whether closing needs a match. The ends of a volume with holes match only after these are covered.
 bool must_match(const Volume& volume, const closure::CloseOptions& options, const RunContext& context)
 {
     const topology::OpenVolume& open = volume.volume;
@@ -70,7 +70,7 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options, const RunContext& context)
 {
     if (options) volume.others.reset();
-    if (volume.closure) { // sealed as its roles were found: its assumptions were not logged yet
+    if (volume.closure) { // sealed while its roles were found, without logging its assumptions
         if (!std::exchange(volume.told, true)) closure::log_notes(*volume.closure, context);
         return volume;
     }
@@ -82,7 +82,7 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
     }
     report_progress(context, "closing");
     volume.told = true;
-    // Assumptions of a trial with void edges are measured and logged where it is closed anew.
+    // A trial closing with void edges has neither measured nor logged its assumptions: close again then.
     if (volume.as_read && asks_nothing(asked) && volume.as_read->closure.void_edges.empty()) {
         volume.closure = std::move(volume.as_read->closure);
         volume.volume = std::move(volume.as_read->volume);

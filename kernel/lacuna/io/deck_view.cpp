@@ -14,7 +14,7 @@ namespace {
 
 using mesh::MeshView;
 
-/// Finds the entities of a deck's elements.
+/// Groups the elements of a deck into entities.
 class EntityFinder {
 public:
     EntityFinder(const Deck& deck, const BulkReader& bulk, MeshView& view)
@@ -51,7 +51,7 @@ private:
             if (set.kind != DeckSet::Kind::elements || bulk_.count(set) == 0) continue;
             const DeckTag first = bulk_.member(set, 0);
             if (set.members.empty() || first != set.members.front())
-                view_.group_tags.push_back({3, set.name, set.tag}); // a cell that is made
+                view_.group_tags.push_back({3, set.name, set.tag}); // a cell created on writing
             else if (const Index e = places.find(first); e >= 0)
                 view_.group_tags.push_back({dimension_[index(e)], set.name, set.tag});
         }
@@ -83,7 +83,7 @@ private:
 
     void find_runs()
     {
-        // All cells of a part that is made are in the same sets.
+        // All created cells of a part are in the same sets.
         std::map<const BulkPart*, int> list_of_part;
         for (std::size_t s = 0; s < deck_.sets.size(); ++s)
             for (const BulkPart* part : bulk_.parts_of(deck_.sets[s]))
@@ -106,7 +106,7 @@ private:
         }
     }
 
-    /// Entities of an MSH file keep their tags, as far as these are one's own.
+    /// Entities of an MSH file keep their tags where these are unique.
     void tag_entities()
     {
         std::set<std::pair<int, int>> taken;
@@ -148,9 +148,9 @@ private:
     const BulkReader& bulk_;
     MeshView& view_;
     SetLists lists_;
-    std::vector<int> list_, dimension_; ///< of each element
+    std::vector<int> list_, dimension_; ///< for each element
     std::map<std::tuple<int, Index, int>, Index> known_;
-    std::vector<Index> place_of_region_; ///< of each entity
+    std::vector<Index> place_of_region_; ///< for each entity
 };
 
 MeshView::Block block_of(const DeckBlock& block, const BulkReader& bulk)
@@ -196,7 +196,7 @@ std::shared_ptr<MeshView> view_of(const Deck& deck, const BulkReader& bulk)
     view->each_point = [&deck, bulk](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
         if (begin < end && end <= deck.points.size())
             return take(std::span(deck.points).subspan(begin, end - begin));
-        std::array<Vec3, 512> room; // stays in the first-level cache: a choice
+        std::array<Vec3, 512> room; // 12 kB, which fits into the first-level cache
         std::size_t count = 0;
         const auto hand_over = [&] { take(std::span<const Vec3>(room).first(std::exchange(count, 0))); };
         bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
@@ -223,8 +223,8 @@ mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition)
     parts.parts = partition.parts;
     parts.has_ghosts = partition.lists.size() > 1;
     std::vector<Index> lowest(deck.points.size(),
-                              partition.parts - 1);                                // part that has a point
-    std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts; // part and list, block
+                              partition.parts - 1);                                // part that owns a point
+    std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts; // by part and list, block
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         mesh::Runs& runs = parts.of.emplace_back();
@@ -251,18 +251,18 @@ mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition)
 PieceView piece_of(const std::shared_ptr<const MeshView>& whole, const mesh::ViewParts& parts, Index part)
 {
     struct Piece {
-        std::vector<mesh::Ranges> cells; ///< of each block of the whole
-        std::vector<mesh::Runs> ghosts;  ///< of each block of the piece, 1 for ghosts
+        std::vector<mesh::Ranges> cells; ///< for each block of the whole view
+        std::vector<mesh::Runs> ghosts;  ///< for each block of the piece: 1 for ghosts
         mesh::Ranges points;
         mesh::Runs ghost_points;
-        std::vector<Index> place; ///< of the whole's points in the piece
+        std::vector<Index> place; ///< index in the piece of each point of the whole view
     };
     const auto piece = std::make_shared<Piece>();
     auto view = std::make_shared<MeshView>(*whole);
     std::vector<char> used(whole->points, 0);
     for (std::size_t b = 0; b < whole->blocks.size(); ++b) {
         const MeshView::Block& from = whole->blocks[b];
-        std::vector<std::array<std::size_t, 3>> found; // first, last, whether they are ghosts
+        std::vector<std::array<std::size_t, 3>> found; // first, last, whether ghosts
         mesh::each_run(parts.of[b], 0, from.count, [&](std::size_t first, std::size_t last, Index of) {
             if (of == part) found.push_back({first, last, 0});
         });

@@ -11,7 +11,8 @@
 
 namespace lacuna::io {
 
-/// OpenFOAM's folder. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells with middle nodes.
+/// Write the polyMesh folder of OpenFOAM. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells
+/// with mid-side nodes.
 void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
 
 namespace {

@@ -10,30 +10,30 @@
 
 namespace lacuna::io {
 
-/// What files of an ending are and can hold: a row of the one table of formats. To add a format, write its
-/// reader or writer, its row in formats.cpp and its row in docs/reference.md.
+/// A file format and its capabilities, one row of the table of formats. To add a format, write its reader or
+/// writer, its row in formats.cpp and its row in docs/reference.md.
 struct Format {
-    std::string_view ending; ///< in lower case with its dot; of a folder its name: "polyMesh"
+    std::string_view ending; ///< file extension in lower case with its dot; for a folder its name: "polyMesh"
     std::string_view name;   ///< "an Abaqus deck"
-    std::string_view word;   ///< "Abaqus", for messages about what the format has not
-    DeckFormat deck;         ///< what is read from it, and what meshes are made into to be written
+    std::string_view word;   ///< "Abaqus", for messages about features that the format lacks
+    DeckFormat deck;         ///< type of the deck that is read, or that a mesh is converted to for writing
     bool is_read = false, is_written = false;
-    bool is_mesh = true;    ///< cells and not facets alone
-    bool is_folder = false; ///< of files
+    bool is_mesh = true;    ///< holds cells, not only facets
+    bool is_folder = false; ///< a folder of files
 
-    /// Of `mesh:write`, a blank between; "with": the mesh may be joined to decks.
+    /// The options of `mesh:write`, separated by blanks; "with": the mesh may be joined to decks.
     std::string_view options{};
-    bool is_numbered = false;    ///< as decks: nodes and cells have numbers, there are no fields
-    bool streamed = false;       ///< layers are written as they are made
-    bool streamed_parts = false; ///< likewise of several meshes that have nodes in common
+    bool is_numbered = false;    ///< a deck: nodes and cells have numbers, there are no fields
+    bool streamed = false;       ///< layers can be written as they are created
+    bool streamed_parts = false; ///< the same for several meshes with shared nodes
 
-    /// What a group of the skin is.
+    /// How the format stores a group of the skin.
     enum class Skin { quads, nodes, nodes_and_sides };
     Skin skin = Skin::quads;
     bool has_lines = false, has_hex20 = true, has_hex27 = false;
-    bool numbers_regions = false;      ///< regions are properties that people know by their numbers
-    std::string_view unwritten_sets{}; ///< sets of a deck that it has not, and why; empty: it has all
-    bool has_node_sets = true;         ///< then these are of sides alone
+    bool numbers_regions = false;      ///< users know regions by property number
+    std::string_view unwritten_sets{}; ///< deck sets that it cannot hold, and why; empty: holds all
+    bool has_node_sets = true;         ///< else sets are of sides only
 
     [[nodiscard]] bool has_option(std::string_view option) const
     {
@@ -41,15 +41,15 @@ struct Format {
     }
 };
 
-/// The format that the ending of a path, or the name of a folder, says; null: none.
+/// The format of a path, by its file extension or the name of the folder; null: unknown.
 const Format* find_format(const std::string& path);
-/// The format of meshes that the path says; with `decks` one in which decks are written too.
-/// @param call  for the message.
-/// @throw InvalidInput "lua.unknown_ending"  none; lists them.
+/// The mesh format of a path. With `decks`, a format in which decks can be written as well.
+/// @param call  name of the calling function, for the message.
+/// @throw InvalidInput "lua.unknown_ending"  no such format; the message lists the known ones.
 const Format& needed_mesh_format(const std::string& call, const std::string& path, bool decks = false);
-/// The first format with these decks.
+/// The first format with this type of deck.
 const Format& format_of(DeckFormat deck);
-/// Endings of the formats for which `which` holds, a blank between.
+/// The file extensions of all formats for which `which` holds, separated by blanks.
 std::string endings_of(bool (*which)(const Format&));
 
 } // namespace lacuna::io

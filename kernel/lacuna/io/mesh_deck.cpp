@@ -20,7 +20,7 @@
 namespace lacuna::io {
 namespace {
 
-/// The first of `count` numbers that none has. @param highest  of those that are not in use any more.
+/// The first of `count` consecutive free numbers. @param highest  highest number in use before.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
                   std::vector<DeckTag>& taken, DeckTag highest, const char* option, const char* what)
 {
@@ -43,8 +43,8 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     return first;
 }
 
-/// Abaqus's side of its cell that a quad of the skin is: S1 below, S2 above, S3 to S6 round it, to S5 round a
-/// wedge.
+/// The Abaqus face of the cell at each quad of the skin: S1 at the bottom, S2 at the top, and S3 to S6 (to S5
+/// for a wedge) on the sides.
 std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std::uint32_t>& cells)
 {
     std::vector<int> sides(mesh.skin_count(), 1);
@@ -85,7 +85,7 @@ public:
         add_points();
         add_cells();
         if (added_.joins) update_sets(of_all);
-        if (abaqus) add_groups(); // surfaces keep their names, sets of elements make room
+        if (abaqus) add_groups(); // surfaces keep their names, element sets are renamed
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
@@ -97,7 +97,7 @@ public:
     }
 
 private:
-    /// The word of an element of as many nodes as the mesh's.
+    /// Check that the requested element type has as many nodes as the cells of the mesh.
     void check_element()
     {
         const bool second = mesh_.order() == 2;
@@ -110,14 +110,14 @@ private:
                                          "middle nodes"));
     }
 
-    /// Look at the context every so often: a choice, about a millisecond.
+    /// Check for cancellation about once a millisecond.
     void poll(std::size_t done) const
     {
         constexpr std::size_t kPolled = 65536;
         if (done % kPolled == 0) check_cancelled(context_);
     }
 
-    /// The deck's point that a node of the mesh is, and its number.
+    /// The point of the deck for a node of the mesh; for numbered parts, its number.
     [[nodiscard]] Index point(Index node) const
     {
         if (added_.bulk == nullptr) return point_[index(node)];
@@ -209,7 +209,8 @@ private:
                                    [&](const std::string& of) { return same_word(of, name); });
     }
 
-    /// Whether the volume is called as a region whose elements were left out: then it is that region.
+    /// Whether the volume has the name of a region that lost its elements: the mesh then replaces that
+    /// region.
     [[nodiscard]] bool takes_place() const { return place_ >= 0; }
 
     void find_place()
@@ -233,7 +234,7 @@ private:
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
         DeckSet cells;
-        cells.listed = added_.region >= 0; // of several pieces
+        cells.listed = added_.region >= 0; // for several pieces
         for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -242,7 +243,7 @@ private:
             added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
     }
 
-    /// Sets of the deck that the mesh joins get what they are to hold of it.
+    /// Update the sets of the deck that the mesh joins. @param of_all  `sets_of_all()` before the mesh
     void update_sets(const std::vector<std::size_t>& of_all)
     {
         if (of_all.empty() && deck_.gap.gone.empty()) return;
@@ -257,7 +258,7 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may be in a set: not where its section would give them a second material.
+    /// Whether the cells may join a set: not if its section would give them a second material.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
@@ -271,8 +272,8 @@ private:
         return has_section_ = true;
     }
 
-    /// Add the set of a group, whose name is `wanted` where that is free: to that of the meshes added before,
-    /// to one that lost all members, or as a new one.
+    /// Add a group as a set, named `wanted` if that is free. It is merged with the set of a mesh added
+    /// before, reuses a set that lost all members, or is a new set.
     const DeckSet& add_set(DeckSet& set, const std::string& group, const std::string& wanted)
     {
         tidy(set);
@@ -318,7 +319,7 @@ private:
         });
     }
 
-    /// Sets that Nastran's cards and case control list by numbers stay as they are.
+    /// Nastran's cards and case control refer to some sets by number, so these sets are not changed.
     void tell_kept_sets() const
     {
         if (!added_.joins || deck_.format != DeckFormat::nastran) return;
@@ -349,7 +350,7 @@ private:
 
     void add_skin_cells()
     {
-        // A UNV needs a property of each, an MSH file one group; elsewhere the skin is in its groups alone.
+        // In UNV each skin element needs a property, in MSH one group; other formats only have skin groups.
         const mesh::CellKinds kinds(mesh_);
         std::map<std::string, Index> regions;
         const auto region_of = [&](std::size_t i) {
@@ -359,7 +360,7 @@ private:
             const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
             if (!fresh) return found->second;
             const auto same = std::ranges::find_if(deck_.regions, [&](const DeckRegion& of) {
-                return of.tag == 0 && of.name == groups.front(); // of a mesh added before
+                return of.tag == 0 && of.name == groups.front(); // from a mesh added before
             });
             found->second = static_cast<Index>(same - deck_.regions.begin());
             if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
@@ -380,7 +381,7 @@ private:
         add(DeckShape::tri3, "91", kinds.skin_quads(), mesh_.skin_count());
     }
 
-    /// Whether a mesh added before has this quad of the skin too; if not, it is noted.
+    /// Whether a mesh added before has the same quad of the skin; if not, the quad is recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
@@ -392,7 +393,8 @@ private:
         return !fresh;
     }
 
-    /// Between two pieces of a volume, which is in no group; or between meshes, where that is no element.
+    /// Whether a quad is an interface: between pieces of a volume (no group), or between meshes if not
+    /// written.
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
         const bool several = added_.groups != nullptr;
@@ -437,8 +439,8 @@ private:
                 of.push_back(static_cast<std::uint32_t>(i));
             }
         }
-        // A name that Abaqus holds as it is was given so, and keeps it: "wall:3" makes room for wall_3. Those
-        // with a colon are made up, and come last.
+        // A name that is valid in Abaqus is kept: of "wall:3" and "wall_3", the former is renamed. Names with
+        // a colon are generated ones, and are placed last.
         const auto rank = [&](const std::string& name) {
             if (options_.format != DeckFormat::abaqus || abaqus_name(name) == name) return 0;
             return name.find(':') == std::string::npos ? 1 : 2;
@@ -475,18 +477,18 @@ private:
         add_set(sides, name, name);
     }
 
-    /// The one that is asked for, else that of the elements beside the mesh.
+    /// Use the requested material or, by default, that of the elements next to the mesh.
     void choose_material()
     {
         material_ = options_.material;
-        if (deck_.points.empty()) return; // nothing it joins
+        if (deck_.points.empty()) return; // there is nothing to join
         const std::vector<std::string> known = materials_in_text(deck_);
         const auto find = [&](const std::string& name) {
             return std::ranges::find_if(known, [&](const std::string& of) { return same_word(of, name); });
         };
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
-            if (added_.region >= 0) return; // it is more of a mesh added before
+            if (added_.region >= 0) return; // another piece of a mesh added before
             log_line(context_, volume() + " takes the place of the region of that name, whose cards stay" +
                                    (options_.material.empty() ? "" : "; material is not looked at"));
             return;
@@ -506,7 +508,7 @@ private:
                            "material = " + material_ + ": " + deck_.path + " has " +
                                (known.empty() ? "no materials" : "the materials " + listed(known)));
     }
-    static constexpr const char* kSkin = "\n"; // tells groups of the skin from the volume's: in no name
+    static constexpr const char* kSkin = "\n"; // keeps keys of skin and cell groups apart; in no name
 
     [[nodiscard]] std::string volume() const
     {
@@ -518,7 +520,7 @@ private:
         if (options_.format != deck_.format || takes_place()) return;
         const DeckRegion& region = deck_.regions[index(region_)];
         if (deck_.format == DeckFormat::nastran) {
-            // A name is of another format: then the number is left for the person to set.
+            // A material name comes from another format: write 1, and the user sets the number.
             const std::string number = parse_integer<int>(material_) ? material_ : "1";
             std::string text = "$ property of " + volume_;
             if (number != material_ && !material_.empty()) text += ", material " + material_;
@@ -537,15 +539,15 @@ private:
     const RunContext& context_;
     TextNumbers texts_;
     std::string material_;
-    std::vector<Index> point_; ///< of each node of the mesh
+    std::vector<Index> point_; ///< for each node of the mesh
     std::string volume_, element_;
-    bool has_section_ = false;                   ///< by a set of the deck that the cells are in
-    std::map<std::string, std::string> renamed_; ///< groups whose names were taken
-    Index place_ = -1, region_ = -1; ///< the region that the volume takes the place of, and the cells' own
+    bool has_section_ = false;                   ///< from a set of the deck that the cells join
+    std::map<std::string, std::string> renamed_; ///< groups whose names were in use
+    Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     DeckTag first_cell_ = 1;
-    std::vector<std::uint32_t> cells_;       ///< behind each quad of the skin
-    std::vector<int> sides_;                 ///< of these cells
-    std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that were elements already
+    std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
+    std::vector<int> sides_;                 ///< face number in these cells
+    std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that already are elements
 };
 
 } // namespace
@@ -558,7 +560,7 @@ Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, co
 
 namespace {
 
-/// A deck without a mesh.
+/// An empty deck of a format.
 Deck empty_deck(DeckFormat format)
 {
     Deck deck;
@@ -593,8 +595,8 @@ Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options
 
 namespace {
 
-/// Of each quad of each skin, whether another mesh has it too.
-/// @param rising  `rising(mesh, quad)`: its nodes as those of the whole, rising
+/// Whether another mesh has the same quad, for each quad of each skin.
+/// @param rising  `rising(mesh, quad)`: the nodes of the quad, numbered over all meshes, ascending
 template <class Rising>
 std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const> meshes, const Rising& rising)
 {
@@ -616,10 +618,10 @@ std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const>
     return inner;
 }
 
-/// Put several meshes into one deck.
-/// @param number  of a node of a mesh, from 0: `number(mesh, node)`
-/// @param fill    tells where nodes and cells of a mesh go: `fill(mesh, added)`
-/// @param added   called behind each mesh
+/// Merge several meshes into one deck.
+/// @param number     `number(mesh, node)`: the number of a node over all meshes, from 0
+/// @param fill       `fill(mesh, added)`: sets where the nodes and cells of a mesh go
+/// @param was_added  called after each mesh
 template <class Meshes, class Number, class Fill, class Added>
 Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill, const Added& was_added,
                     MeshDeckOptions options, bool interfaces, const RunContext& context)
@@ -636,7 +638,7 @@ Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill
     std::vector<std::vector<char>> inner(meshes.size());
     if (cells && !interfaces) inner = inner_quads(std::span(meshes), rising);
     std::map<Quad, DeckTag> skin_tags;
-    std::map<std::string, Index> regions; // parts of one name are one region
+    std::map<std::string, Index> regions; // parts of one name form one region
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const mesh::HexMesh& mesh = *meshes[m];
         AddedMesh added{.points = {}, .skin_cells = cells, .groups = &groups};
@@ -666,7 +668,7 @@ std::vector<const mesh::HexMesh*> meshes_of(const Parts& parts, const MeshOf& me
 Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces,
              const RunContext& context)
 {
-    std::vector<Index> point, points; // of each node of the whole, and of a mesh
+    std::vector<Index> point, points; // for each node of the whole, and of one mesh
     return deck_of_meshes(
         meshes_of(parts, [](const mesh::MeshPart& part) { return part.mesh; }),
         [&](std::size_t m, Index node) { return parts[m].number[index(node)]; },

@@ -12,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-/// @param team  whose first process speaks
+/// @param team  only rank 0 logs
 void tell(const std::vector<std::string>& notes, const OutputPath& path, const RunContext& context,
           const Team* team = nullptr)
 {
@@ -20,7 +20,7 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
     for (const std::string& note : notes) log_line(context, "note: " + path.text() + ": " + note);
 }
 
-/// The options, with all groups only where the format holds them, which the log says.
+/// Clear `all_groups` if the format cannot hold it, and log that.
 DeckFileOptions options_for(const Format& format, DeckFileOptions options, const OutputPath& path,
                             const RunContext& context)
 {
@@ -45,7 +45,7 @@ void check_version(const Format& format, const MeshFileOptions& options)
                            "parts are written in MSH version 4.1 alone; leave out the version");
 }
 
-/// Write a swept mesh in a format that is no deck.
+/// Write a swept mesh in a format other than a deck.
 void write_view(const FormatRow& format, const mesh::HexMesh& mesh, const NodeReader& nodes,
                 const std::vector<FieldReader>& fields, const OutputPath& path,
                 const MeshFileOptions& options, const RunContext& context, const Team* team = nullptr)
@@ -69,7 +69,7 @@ void write_view(const FormatRow& format, const mesh::HexMesh& mesh, const NodeRe
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// The view of a deck for a format that is none. @param bulk  of this deck
+/// View a deck for a format other than a deck. @param bulk  reader of this deck
 std::shared_ptr<const mesh::MeshView> view_for(const FormatRow& format, const Deck& deck,
                                                const BulkReader& bulk)
 {
@@ -110,7 +110,7 @@ void write_bulk(const Format& format, const Deck& deck, std::vector<BulkPart> pa
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// The deck without its lines, which sets do not name either.
+/// A copy of the deck without line elements, also removed from sets.
 Deck without_lines(const Deck& deck)
 {
     Deck less = deck;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block, of one
-// entity; elements lie entity after entity. In files in parts $Entities are those of the whole, and each has
-// an entity in $PartitionedEntities for every part that has some of it; nodes and elements are of these.
+// The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of one
+// entity; elements are written entity by entity. In partitioned files $Entities lists the entities of the
+// whole mesh; $PartitionedEntities has one for each part of each of them, and nodes and elements refer to
+// these.
 #include <lacuna/io/detail/msh_file.h>
 
 #include <lacuna/core/error.h>
@@ -26,9 +27,9 @@ using mesh::ViewParts;
 
 // ---- Physical groups
 
-constexpr std::size_t kLongestName = 127; // what Gmsh reads
+constexpr std::size_t kLongestName = 127; // limit of Gmsh
 
-/// A name the format can hold: it knows no escape for a quote, and a name ends with its line.
+/// Make a name safe for the format, which has no escape for quotes and ends a name at the end of its line.
 std::string printable(const std::string& name)
 {
     std::string result;
@@ -43,7 +44,7 @@ std::string printable(const std::string& name)
     return result;
 }
 
-/// The first bytes of a name, no UTF-8 character cut in two.
+/// The first bytes of a name, without splitting a UTF-8 character.
 std::string shortened(const std::string& name, std::size_t bytes)
 {
     if (name.size() <= bytes) return name;
@@ -57,11 +58,11 @@ struct PhysicalName {
     std::string name;
 };
 
-/// Gives each group one tag. Tags are unique over all dimensions, for readers that know a tag alone.
+/// Assigns each group a tag. Tags are unique over all dimensions, since some readers ignore the dimension.
 class GroupTags {
 public:
-    /// Give a group the tag it has in a file; its name is not written where that is `unnamed_group()`. Of two
-    /// groups that want the same tag in one dimension the first has it. Before any other is asked for.
+    /// Give a group the tag that it had in a file; its name is not written if it is `unnamed_group()`. If two
+    /// groups of one dimension had the same tag, the first keeps it. Call before any other tag is assigned.
     void keep(int dimension, const std::string& group, int tag)
     {
         if (tag < 1 || tag == std::numeric_limits<int>::max() || tags_.contains({dimension, group}) ||
@@ -71,7 +72,7 @@ public:
         next_ = std::max(next_, tag + 1);
         if (group != unnamed_group(tag)) names_.push_back({dimension, tag, unique_name(dimension, group)});
     }
-    /// Of several groups, rising.
+    /// The tags of several groups, ascending.
     std::vector<int> tags_of(int dimension, const std::vector<std::string>& groups)
     {
         std::set<int> tags;
@@ -85,7 +86,7 @@ public:
     std::vector<PhysicalName> take() { return std::move(names_); }
 
 private:
-    /// Two groups stay two, even where shortening makes their names alike.
+    /// Names that shortening makes equal are made distinct again.
     std::string unique_name(int dimension, const std::string& group)
     {
         const std::string whole = printable(group);
@@ -100,11 +101,11 @@ private:
     std::map<std::pair<int, std::string>, int> tags_;
     std::set<std::pair<int, std::string>> written_;
     std::vector<PhysicalName> names_;
-    std::set<std::pair<int, int>> kept_; ///< dimensions and tags
+    std::set<std::pair<int, int>> kept_; ///< dimension and tag
     int next_ = 1;
 };
 
-// ---- Numbers as text or as they lie in memory
+// ---- Numbers as text or binary
 
 struct MshNumbers {
     bool binary;
@@ -120,7 +121,7 @@ struct MshNumbers {
         *out++ = ' ';
         return out;
     }
-    /// End a line, which holds a number at least.
+    /// End a line that holds at least one number.
     [[nodiscard]] char* end(char* out) const
     {
         if (!binary) out[-1] = '\n';
@@ -135,7 +136,7 @@ struct MshNumbers {
         text.resize(static_cast<std::size_t>(end(out) - text.data()));
         return text;
     }
-    /// A box, then lists of tags with their lengths, on the line that `text` ends with.
+    /// Append a box and lists of tags, each after its length, to the last line of `text`.
     void add_lists(std::string& text, const Eigen::AlignedBox3d& box,
                    std::initializer_list<std::vector<int>> lists) const
     {
@@ -158,12 +159,12 @@ struct MshNumbers {
     {
         return binary ? bytes : numbers * kNumberBytes + 1;
     }
-    /// What stands before the end of a section of numbers.
+    /// Separates a block of numbers from the end of its section.
     [[nodiscard]] std::string gap() const { return binary ? "\n" : ""; }
     static std::uint64_t size_of(std::size_t count) { return count; }
 };
 
-// ---- What a file says
+// ---- Content of a file
 
 /// Elements of one entity, part and block.
 struct Row {
@@ -171,13 +172,13 @@ struct Row {
     Index part;
     std::size_t block;
     Ranges cells;
-    int tag = 0; ///< of the entity they are written under
+    int tag = 0; ///< tag of the entity that the elements are written under
 };
 
-/// An entity of one part: a part of another, whose groups it has.
+/// The share that one part has of an entity; it has the groups of that entity.
 struct PartEntity {
     int dimension, tag;
-    int parent; ///< of the same dimension
+    int parent; ///< tag of the whole entity, of the same dimension
     Index part;
 };
 
@@ -225,7 +226,7 @@ public:
         return take();
     }
 
-    /// An element carries one physical group and its entity.
+    /// In version 2.2 an element has one physical group and its entity.
     DeckFile write_22()
     {
         open("2.2");
@@ -258,7 +259,7 @@ private:
     static std::uint64_t size_of(std::size_t count) { return count; }
     static std::uint64_t size_of(std::int64_t number) { return static_cast<std::uint64_t>(number); }
 
-    /// Rows entity after entity, part after part, in the order of the blocks.
+    /// Rows sorted by entity, then by part; blocks keep their order.
     [[nodiscard]] std::vector<Row> rows_of(const ViewParts* parts) const
     {
         std::vector<Row> rows;
@@ -283,7 +284,7 @@ private:
         return rows;
     }
 
-    /// Elements have the numbers that the view gives, or those of their order in a file without parts.
+    /// Use the element numbers of the view or, in an unpartitioned file, number the elements in file order.
     void number_cells()
     {
         struct Run {
@@ -316,14 +317,14 @@ private:
         }
     }
 
-    /// Physical groups of entities: all, or one each.
+    /// Assign physical groups to entities. @param all  all groups of each, else one
     void name_groups(bool all)
     {
         std::set<std::string> lost;
         GroupTags tags;
         for (const MeshView::GroupTag& kept : view_->group_tags)
             tags.keep(kept.dimension, kept.group, kept.tag);
-        std::set<std::pair<int, int>> used; // dimensions and tags
+        std::set<std::pair<int, int>> used; // dimension and tag
         for (std::size_t e = 0; e < used_.size(); ++e) {
             const MeshView::Entity& entity = view_->entities[e];
             std::vector<std::string> groups = entity.groups;
@@ -340,7 +341,7 @@ private:
         std::erase_if(names_, [&](const PhysicalName& name) {
             return !used.contains({name.dimension, name.tag});
         });
-        std::erase_if(lost, [](const std::string& name) { // what a swept mesh has by itself
+        std::erase_if(lost, [](const std::string& name) { // default groups of a swept mesh
             return name == "volume" || topology::is_role_group(name) ||
                    topology::is_role_group(name.substr(name.find(':') + 1));
         });
@@ -354,7 +355,7 @@ private:
     void open(const char* version)
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
-        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // tells the order of bytes
+        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // tells readers the byte order
         text_ += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
         for (const PhysicalName& name : names_)
             text_ += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name +
@@ -384,10 +385,10 @@ private:
                  all + numbers_.gap() + "$EndEntities\n";
     }
 
-    /// Give each part of an entity one of its own.
+    /// Add an entity for each part of each entity.
     void add_part_entities()
     {
-        // Where entities of all dimensions are numbered together, so are those of parts.
+        // If entities are numbered over all dimensions, so are those of parts.
         std::array<int, 4> next{};
         for (const MeshView::Entity& entity : view_->entities)
             for (const int dimension : {0, 1, 2, 3})
@@ -421,7 +422,8 @@ private:
                  all[0] + all[1] + all[2] + all[3] + numbers_.gap() + "$EndPartitionedEntities\n";
     }
 
-    /// A block of all nodes; in parts one of each that has nodes, under its first volume.
+    /// Write all nodes as one block; in partitioned files one block for each part with nodes, under its first
+    /// volume.
     void add_nodes()
     {
         struct Block {
@@ -486,7 +488,7 @@ private:
         return out;
     }
 
-    /// Elements of a row: number, `middle`, nodes. Numbers are of the type `Tag`.
+    /// Write the elements of a row: number, `middle`, nodes. Numbers are of type `Tag`.
     template <class Tag>
     void add_elements(const Row& row, const std::vector<int>& middle)
     {
@@ -504,8 +506,8 @@ private:
             });
     }
 
-    /// Call `visit(first, last, tags)` for the cells that are the list's places [begin, end), at most
-    /// `kAtOnce` at a time, with their numbers.
+    /// Call `visit(first, last, tags)` with the numbers of the cells at the list positions [begin, end), at
+    /// most `kAtOnce` cells a call.
     template <class Tag, class Visit>
     static void each_chunk(const Ranges& cells, std::size_t begin, std::size_t end, const Numbers& tags,
                            const Visit& visit)
@@ -523,7 +525,7 @@ private:
         });
     }
 
-    /// Records of a number and eight nodes that are counted: the most there are.
+    /// The most frequent records: a number and eight nodes that are numbered from 1.
     template <class Tag>
     static char* put_hexes(const MeshView::Block& block, const Tag* tags, std::size_t begin, std::size_t end,
                            char* out)
@@ -536,7 +538,7 @@ private:
         return out;
     }
 
-    /// @param tags  of the cells [begin, end)
+    /// @param tags  numbers of the cells [begin, end)
     template <class Tag>
     static char* put_elements(const MeshView& view, const MeshView::Block& block, const Tag* tags,
                               std::size_t begin, std::size_t end, const std::vector<int>& middle,
@@ -584,7 +586,7 @@ private:
         text_ += numbers_.gap() + "$EndGhostElements\n";
     }
 
-    /// $ElementData of each field, with a value of every element: meshio takes no field that lacks one.
+    /// $ElementData of each field. Values cover all elements, since meshio rejects a field that lacks some.
     void add_fields()
     {
         for (std::size_t f = 0; f < view_->fields.size(); ++f) {
@@ -606,7 +608,7 @@ private:
         }
     }
 
-    /// Records behind the text so far.
+    /// Append records after the pending text.
     void add(std::size_t records, std::size_t bytes, decltype(Section::fill) fill)
     {
         file_.sections.push_back({std::exchange(text_, {}), records, bytes, std::move(fill)});
@@ -623,15 +625,15 @@ private:
     MshNumbers numbers_;
     const ViewParts* parts_;
     std::vector<Row> rows_, part_rows_;
-    std::vector<char> used_;    ///< entities that have elements
-    std::vector<Numbers> tags_; ///< of the elements of each block
+    std::vector<char> used_;    ///< whether an entity has elements
+    std::vector<Numbers> tags_; ///< element numbers, for each block
     std::pair<std::int64_t, std::int64_t> elements_,
         nodes_;                              ///< lowest and highest number
-    std::vector<std::vector<int>> physical_; ///< tags of each entity's groups, rising
-    std::vector<Eigen::AlignedBox3d> boxes_; ///< of each entity
+    std::vector<std::vector<int>> physical_; ///< group tags of each entity, ascending
+    std::vector<Eigen::AlignedBox3d> boxes_; ///< one for each entity
     std::vector<PhysicalName> names_;
     std::vector<PartEntity> entities_;
-    std::string text_; ///< before the next section
+    std::string text_; ///< text before the next section
     DeckFile file_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// OpenFOAM's polyMesh: a folder of points, faces, the cells on both sides of each face, and the patches that
-// the faces outside are in. https://doc.openfoam.com/2306/fundamentals/mesh
+// OpenFOAM's polyMesh: a folder of files with the points, the faces, the owner and neighbour cell of each
+// face, and the patches of boundary faces. https://doc.openfoam.com/2306/fundamentals/mesh
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/sections.h>
@@ -24,7 +24,8 @@ namespace {
 
 using mesh::MeshView;
 
-/// A face of a cell: its corners as seen from outside the cell, the fourth of a triangle -1.
+/// A face of a cell: its corners, counter-clockwise seen from outside the cell; the fourth is -1 for a
+/// triangle.
 struct CellFace {
     Quad corners;
     Index cell;
@@ -36,7 +37,7 @@ Quad rising(Quad corners)
     return corners;
 }
 
-/// A word as OpenFOAM has it.
+/// Convert a name to a valid OpenFOAM word.
 std::string word_of(const std::string& name)
 {
     std::string word = name;
@@ -46,7 +47,7 @@ std::string word_of(const std::string& name)
     return word;
 }
 
-/// Words of names: two names have two words.
+/// Maps names to words; different names get different words.
 class Words {
 public:
     const std::string& operator[](const std::string& name)
@@ -63,8 +64,7 @@ private:
     std::set<std::string> taken_;
 };
 
-/// Faces, in OpenFOAM's order: those between two cells by the lower cell and then the higher, then those
-/// outside, patch after patch.
+/// Faces in OpenFOAM's order: internal faces by owner, then by neighbour; boundary faces by patch.
 class PolyMesh {
 public:
     PolyMesh(const MeshView& view, const RunContext& context) : view_(view), context_(context)
@@ -79,12 +79,12 @@ public:
         std::string name;
         std::size_t first, count;
     };
-    mesh::Ranges points;           ///< places in the view of the points that cells use
-    std::vector<Quad> faces;       ///< numbers of points, as seen from outside the owner
-    std::vector<Index> owners;     ///< of all faces
-    std::vector<Index> neighbours; ///< of those between two cells, which come first
+    mesh::Ranges points;           ///< view indices of the points that cells use
+    std::vector<Quad> faces;       ///< point numbers, counter-clockwise seen from outside the owner
+    std::vector<Index> owners;     ///< one for each face
+    std::vector<Index> neighbours; ///< one for each internal face; these come first
     std::vector<Patch> patches;
-    std::vector<std::pair<std::string, mesh::Ranges>> zones; ///< cells by the regions that they are of
+    std::vector<std::pair<std::string, mesh::Ranges>> zones; ///< cells of each region
     std::size_t cells = 0;
     std::vector<std::string> notes;
 
@@ -128,7 +128,7 @@ private:
             throw InvalidInput("io.no_such_element", "a polyMesh needs cells, and the mesh has none");
     }
 
-    /// Points that no cell uses are left out: checkMesh takes them for an error.
+    /// Drop points that no cell uses, which checkMesh reports as an error.
     void number_points()
     {
         place_.assign(view_.points, -1);
@@ -150,7 +150,7 @@ private:
         owners.push_back(face.cell);
     }
 
-    /// Faces by their lowest corner, so that those of the same corners are near each other.
+    /// Sort faces by their lowest corner, which brings faces with the same corners close together.
     void find_faces()
     {
         std::vector<std::size_t> begin(view_.points + 1, 0);
@@ -182,7 +182,7 @@ private:
                     throw InvalidInput("io.not_conformal", "a face of cell " + std::to_string(face.cell + 1) +
                                                                " is one of " + std::to_string(end - k) +
                                                                " cells; two have a face in common at most");
-                // Faces were found cell after cell, and sorting kept that order.
+                // Faces were collected cell by cell and the sort kept that order: the owner comes first.
                 if (end - k == 2)
                     inner.push_back({face.cell, found_[index(row[k + 1])].cell, row[k]});
                 else
@@ -198,7 +198,7 @@ private:
         std::ranges::sort(outer_); // by cell
     }
 
-    /// Faces outside go by the group of the quad or triangle that lies on them.
+    /// Assign each boundary face to the group of the quad or triangle that coincides with it.
     void find_patches()
     {
         std::vector<std::pair<Quad, Index>> skin;
@@ -215,7 +215,7 @@ private:
                            });
         }
         std::ranges::sort(skin);
-        std::map<Index, std::vector<Index>> of_entity; // -1: none
+        std::map<Index, std::vector<Index>> of_entity; // -1: boundary faces without entity
         std::size_t outside = 0;
         for (const Index f : outer_) {
             const auto at = std::ranges::lower_bound(skin, rising(found_[index(f)].corners), {},
@@ -227,7 +227,7 @@ private:
         if (const std::size_t inside = skin.size() - outside; inside > 0)
             notes.push_back(std::to_string(inside) + " quads and triangles that are no faces outside are not "
                                                      "written: a polyMesh has patches there alone");
-        // Entities of one group are one patch; faces in no group come last.
+        // Entities of one group form one patch; faces without a group come last.
         std::vector<std::pair<std::string, std::vector<Index>>> groups;
         const auto add = [&](const std::string& name, const std::vector<Index>& own) {
             auto group = std::ranges::find(groups, name, &std::pair<std::string, std::vector<Index>>::first);
@@ -246,13 +246,13 @@ private:
         found_ = {};
     }
 
-    static constexpr const char* kNoGroup = "defaultFaces"; // OpenFOAM's own name for them
+    static constexpr const char* kNoGroup = "defaultFaces"; // OpenFOAM's name for them
 
     const MeshView& view_;
     const RunContext& context_;
-    std::vector<CellFace> found_; ///< cell after cell
-    std::vector<Index> outer_;    ///< those that one cell has
-    std::vector<Index> place_;    ///< of the view's points among those that are used; -1: it is not
+    std::vector<CellFace> found_; ///< by cell
+    std::vector<Index> outer_;    ///< faces with only one cell
+    std::vector<Index> place_;    ///< for each view point: index among the points used; -1: unused
 };
 
 std::string head_of(const char* kind, const char* object, const std::string& note = {})
@@ -262,14 +262,14 @@ std::string head_of(const char* kind, const char* object, const std::string& not
            "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
 }
 
-/// A list of `count` entries, each a line of `numbers` numbers at most.
+/// A list of `count` entries, one a line, each of at most `numbers` numbers.
 std::vector<Section> list(const std::string& head, std::size_t count, std::size_t numbers, Fill fill)
 {
     return {{head + std::to_string(count) + "\n(\n", count, numbers * kNumberBytes + 4, std::move(fill)},
             {")\n", 0, 0, {}}};
 }
 
-/// Numbers in brackets on a line of their own.
+/// Write numbers in parentheses on a line of their own.
 template <class Values>
 char* put_row(char* out, const Values& values)
 {
@@ -308,7 +308,8 @@ std::string zones_text(const PolyMesh& mesh)
     return text + ")\n";
 }
 
-/// Files that OpenFOAM and its tools put into a polyMesh and that are of no use with another mesh.
+/// Whether OpenFOAM and its tools write a file of this name into a polyMesh, so that it is useless for
+/// another mesh.
 bool is_of_mesh(std::string_view name)
 {
     constexpr std::array<std::string_view, 14> kFiles{

@@ -16,14 +16,14 @@ namespace {
 using mesh::MeshView;
 using mesh::Ranges;
 
-/// Layers of a mesh with their nodes numbered from 0, and those whose skin is theirs.
+/// A range of layers, whose nodes are numbered from 0, and the layers in it that own their skin.
 struct Layers {
-    int first = 0;                ///< of the whole
-    int skin_first = 0, skin = 0; ///< of these layers, those whose skin belongs to them, and their number
+    int first = 0;                ///< layer of the whole mesh
+    int skin_first = 0, skin = 0; ///< layers that own their skin: first one in this range, and count
     bool source = true, target = true;
 };
 
-/// Cells of some layers by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
+/// The cells of a range of layers by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
 class SweptCells {
 public:
     SweptCells(const mesh::HexMesh& own, const Layers& of)
@@ -43,11 +43,11 @@ public:
     {
         return kinds.cell(k == 0 ? i : kinds.hexes() + i);
     }
-    /// The quad of the mesh's skin that is the `i`-th quad, or triangle, of these layers'.
+    /// The index in the skin of the mesh of the `i`-th skin quad, or triangle, of these layers.
     [[nodiscard]] std::size_t skin(std::size_t k, std::size_t i) const
     {
         const std::size_t each_end = k == 3 ? triangles : quads;
-        if (i >= ends() * each_end) // a quad of the walls
+        if (i >= ends() * each_end) // a wall quad
             i += (2 - ends()) * each_end + rims(layers.skin_first);
         else if (!layers.source)
             i += each_end;
@@ -65,7 +65,7 @@ public:
     {
         return {cell_shape(mesh), DeckShape::wedge6, skin_shape(mesh), DeckShape::tri3};
     }
-    /// Cells of a kind in a layer. @pre k < 2
+    /// The number of cells of a kind in one layer. @pre k < 2
     [[nodiscard]] std::size_t in_layer(std::size_t k) const { return k == 0 ? quads : triangles; }
 
     const mesh::HexMesh& mesh;
@@ -91,7 +91,7 @@ private:
     }
 };
 
-/// Entities, and the numbers of those in each group.
+/// Add the entities, and for each group the list of its entities.
 void add_entities(const mesh::HexMesh& mesh, MeshView& view)
 {
     const auto list = [&](const std::string& name, int number) {
@@ -133,7 +133,7 @@ void add_blocks(const std::shared_ptr<const SweptCells>& cells, MeshView& view)
         if (has_quads[p] != 0) view.entities.back().bounds.push_back(view.entities[p].tag);
 }
 
-/// @param skin_cells  `cells_of_skin()` of the whole
+/// @param skin_cells  `cells_of_skin()` of the whole mesh
 void add_fields(const std::shared_ptr<const SweptCells>& cells, const mesh::HexMesh& whole,
                 const std::vector<FieldReader>& fields, MeshView& view)
 {
@@ -163,12 +163,12 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const mesh::HexMesh& mesh, const NodeR
         Eigen::AlignedBox3d& box = boxes[index(skin_quad(mesh, i).patch)];
         for (const Index node : skin_nodes(mesh, i).all()) box.extend(nodes.on_skin(node));
     }
-    // The inside of a valid mesh reaches no further than its skin.
+    // The interior of a valid mesh lies within the bounding box of its skin.
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) boxes.back().extend(boxes[p]);
     return boxes;
 }
 
-/// A range of layers as a mesh, with the part's ghosts. Its nodes are not held.
+/// Make a mesh of a range of layers with the ghosts of the part. It does not hold its nodes.
 mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
 {
     mesh::HexMesh own;
@@ -191,8 +191,7 @@ mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
     return own;
 }
 
-/// Nodes of the levels [first, last], or with `below` of [first, last), and the middle nodes that go with
-/// them.
+/// The nodes of the levels [first, last] with their mid-side nodes. With `below`, level `last` is excluded.
 Ranges nodes_of_levels(const mesh::HexMesh& mesh, int first, int last, bool below)
 {
     const std::size_t row = index(mesh.nodes_per_layer), corners = mesh::corner_count(mesh);
@@ -254,7 +253,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
     parts.has_ghosts = options.ghosts > 0;
     parts.of.resize(4);
     const Index last = static_cast<Index>(layers.size()) - 1;
-    // Skin quads and triangles belong to the part of the cell behind them: the source's to the first.
+    // Skin quads and triangles belong to the part of their cell: those of the source to the first part.
     for (const std::size_t k : {std::size_t(2), std::size_t(3)}) {
         const std::size_t each_end = k == 2 ? cells.quads : cells.triangles;
         mesh::add_run(parts.of[k], each_end, 0);
@@ -267,7 +266,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
         mesh::add_run(parts.of[2], 2 * cells.quads + cells.rims(part.last), p);
         parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
     }
-    // Runs of layers of one part that are ghosts of the same others.
+    // Runs of layers of one part that are ghosts of the same other parts.
     const auto others = [&](Index own, int layer) {
         std::vector<int> of;
         for (Index p = 0; p <= last; ++p)
@@ -310,14 +309,14 @@ PieceView piece_of(const mesh::HexMesh& mesh, const LayerPart& part, const NodeR
         piece->points.each(begin, end,
                            [&](std::size_t first, std::size_t last) { nodes.each_span(first, last, take); });
     };
-    Ranges numbers; // of points, from 1
+    Ranges numbers; // numbers of the points, from 1
     piece->points.each(0, view->points,
                        [&](std::size_t first, std::size_t last) { numbers.add(first + 1, last + 1); });
     view->point_tags = mesh::Numbers(std::move(numbers));
     add_entities(mesh, *view);
     add_blocks(cells, *view);
     add_fields(cells, mesh, fields, *view);
-    std::size_t before = 1; // number of the first cell of a kind in the file of the whole
+    std::size_t before = 1; // number of the first cell of a kind in the unpartitioned file
     const SweptCells whole(mesh, {.skin = mesh.layers});
     for (std::size_t k = 0; k < 4; before += whole.count[k++]) {
         Ranges tags;
@@ -334,7 +333,8 @@ PieceView piece_of(const mesh::HexMesh& mesh, const LayerPart& part, const NodeR
         view->blocks[k].tags = mesh::Numbers(std::move(tags));
     }
     const auto ghost_points = [&mesh, part, piece](std::size_t begin, std::size_t end, std::uint8_t* out) {
-        // Of a point that stands in several pieces the one above its level owns it, of the highest the last.
+        // A point in several pieces belongs to the piece above its level; on the highest level, to the last
+        // piece.
         const std::size_t corners = mesh::corner_count(mesh), row = index(mesh.nodes_per_layer);
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t node = piece->points[i];

@@ -19,7 +19,7 @@ namespace {
 using mesh::MeshView;
 using View = std::shared_ptr<const MeshView>;
 
-/// The place in a cell of node `k` in VTK's order, where a wedge's triangle 0-1-2 looks away from 3-4-5.
+/// The index in a cell of node `k` of VTK, whose wedges have the triangle 0-1-2 facing away from 3-4-5.
 std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
     constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};
@@ -31,7 +31,7 @@ std::size_t size_of(const MeshView::Block& block)
     return static_cast<std::size_t>(shape_info(block.shape).nodes);
 }
 
-/// Nodes of all cells together.
+/// The total length of the connectivity lists.
 std::size_t list_size(const MeshView& view)
 {
     std::size_t sum = 0;
@@ -39,10 +39,10 @@ std::size_t list_size(const MeshView& view)
     return sum;
 }
 
-/// Fills records of the cells [begin, end) of a block.
+/// Writes the records of the cells [begin, end) of a block.
 using FillBlock = std::function<char*(std::size_t block, std::size_t begin, std::size_t end, char* out)>;
 
-/// A section of each block. @param bytes  of a cell of a block
+/// One section for each block. @param bytes  bytes of a record, by block
 std::vector<Section> by_blocks(const MeshView& view,
                                const std::function<std::size_t(const MeshView::Block&)>& bytes,
                                const FillBlock& fill)
@@ -58,7 +58,7 @@ std::vector<Section> by_blocks(const MeshView& view,
     return sections;
 }
 
-/// The same number, `of(entity)`, for all cells of an entity.
+/// Write one value `of(entity)` for each cell of an entity.
 template <class Of, class Put>
 FillBlock by_entity(const View& view, Of of, Put put_one)
 {
@@ -105,7 +105,7 @@ int region_number(const MeshView::Entity& entity) { return entity.region; }
 
 // ---- XML
 
-/// An array of numbers in the order of this machine's bytes, which the head names.
+/// An array of numbers in native byte order; the header of the file names that order.
 struct VtuArray {
     enum class Place { points, cells, point_data, cell_data };
     Place place;
@@ -136,11 +136,12 @@ std::string escaped(std::string_view name)
     return text;
 }
 
-/// In which order arrays lie behind the XML. meshio 5 finds each by where it begins, and takes the wrong one
-/// where that is also where one before it would begin in base64: then the order is changed.
+/// The order of the arrays in the appended data. meshio 5 finds an array by its offset, and reads a wrong one
+/// if the offset equals the base64 offset of an earlier array. The order is changed to avoid such equal
+/// offsets.
 std::vector<std::size_t> order_behind(const std::vector<VtuArray>& arrays)
 {
-    constexpr int kTries = 5000; // all orders of six arrays, and as much time as is spent
+    constexpr int kTries = 5000; // covers all orders of six arrays, and limits the time
     std::vector<std::size_t> order(arrays.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto is_clear = [&] {
@@ -210,7 +211,7 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
 {
     std::string text = opening("UnstructuredGrid") + ">\n";
     if (!view.lists.empty()) text += "<FieldData>\n";
-    // As text: short, and see `order_behind()`.
+    // As text: they are short, and more binary arrays are harder to order, see `order_behind()`.
     for (const auto& [name, values] : view.lists) {
         text += "<DataArray type=\"Int32\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"" +
                 std::to_string(values.size()) + "\" format=\"ascii\">";
@@ -245,7 +246,7 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
     return sections;
 }
 
-/// Arrays of a view, of a piece with what are ghosts.
+/// The arrays of a view. @param ghosts  piece whose ghosts are marked; null: none
 std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = nullptr)
 {
     using Place = VtuArray::Place;
@@ -289,7 +290,7 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
                               });
                               return out;
                           })});
-    std::vector<std::size_t> before{0}; // nodes in the lists of the blocks before
+    std::vector<std::size_t> before{0}; // list entries before each block
     for (const MeshView::Block& block : view->blocks)
         before.push_back(before.back() + block.count * size_of(block));
     of_cells(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
@@ -329,7 +330,7 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
 
 // ---- Legacy
 
-/// Legacy files hold the highest byte first.
+/// Legacy files are big-endian.
 template <class Value>
 char* put_number(char* out, Value value, bool binary)
 {
@@ -348,7 +349,7 @@ char* end_line(char* out, bool binary)
     return out;
 }
 
-/// A name without blanks: other characters as VTK has them, %20.
+/// A name without blanks. As in VTK, special characters are percent-encoded: %20.
 std::string vtk_name(std::string_view name)
 {
     constexpr std::string_view kHex = "0123456789ABCDEF";
@@ -363,7 +364,7 @@ std::string vtk_name(std::string_view name)
     return text;
 }
 
-/// Version, title and, if there are names, the lists.
+/// Version, title and, if there are any, the named lists.
 std::string vtk_head(const MeshView& view, bool binary)
 {
     std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";

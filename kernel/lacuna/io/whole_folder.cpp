@@ -17,7 +17,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Names in a folder but for "." and "..".
+/// The names in a folder, except "." and "..".
 std::vector<std::string> names_in(int folder, const std::string& name)
 {
     std::vector<std::string> names;
@@ -90,10 +90,10 @@ void WholeFolder::commit()
     }
 #ifdef RENAME_EXCHANGE
     if (::renameat2(folder, unfinished_.c_str(), folder, name_.c_str(), RENAME_EXCHANGE) == 0)
-        return remove_unfinished(); // which is the one that was there now
+        return remove_unfinished(); // which is now the old folder
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
-    // A file system that exchanges nothing: for two system calls neither is in the place.
+    // The file system cannot exchange names: between the two renames no folder is in place.
     const std::string before = unfinished_ + "-before";
     if (::renameat(folder, name_.c_str(), folder, before.c_str()) != 0) fail(errno);
     if (::renameat(folder, unfinished_.c_str(), folder, name_.c_str()) != 0) {

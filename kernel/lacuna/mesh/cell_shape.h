@@ -10,12 +10,12 @@
 
 namespace lacuna::mesh {
 
-/// What a cell is, by its dimension and nodes.
+/// The shape of a cell: its dimension and its node layout.
 ///
-/// Nodes are in the order of VTK, which is Abaqus's too: the corners, as in `mesh::Hex`, then the middles of
-/// the sides in the order of `side_corners()`, those of the faces and that of the whole. Nastran, UNV and
-/// Exodus put the middles of upright sides before those of the top, Gmsh has an order of its own: readers and
-/// writers turn one into the other.
+/// Nodes are in the order of VTK and Abaqus: the corners as in `mesh::Hex`, the mid-side nodes in the order
+/// of `side_corners()`, the centres of the faces, and the centre of the cell. Nastran, UNV and Exodus number
+/// the mid-side nodes of vertical sides before those of the top; Gmsh has an order of its own. Readers and
+/// writers convert.
 enum class CellShape : std::uint8_t {
     line2,
     line3,
@@ -41,13 +41,13 @@ inline constexpr std::size_t kCellShapes = 18;
 struct CellShapeInfo {
     int dimension, corners, nodes;
 };
-/// @return by value of the enumeration.
+/// @return  the properties of a shape.
 const CellShapeInfo& shape_info(CellShape shape);
-/// The shape of these counts. @return false  there is none.
+/// Find the shape with these counts. @return false  no shape has them.
 bool find_shape(int dimension, int corners, int nodes, CellShape& shape);
-/// The corners of each side a middle node lies on, in the order of these nodes.
+/// The two corners of each side that has a mid-side node, in the order of these nodes.
 std::span<const std::pair<int, int>> side_corners(CellShape shape);
-/// The corners of each face of a solid, seen from outside counter-clockwise; the fourth is -1 in triangles.
+/// The corners of each face of a solid, counter-clockwise seen from outside; the fourth is -1 for a triangle.
 std::span<const Quad> face_corners(CellShape shape);
 
 } // namespace lacuna::mesh

@@ -24,33 +24,35 @@ using namespace topology;
 
 namespace {
 
-/// Shares of the volume that may be missing, or be too much, where nobody asked for numbers: in all, and of
-/// that by the bends of the ends and by those of the sweep, where there are any. All is to stay within 1 %;
-/// the rest is for what is not in the model.
+/// Allowed relative volume error with default numbers: in total, and the shares of the curvature of the ends
+/// and of the curvature along the sweep, where present. The total must stay below 1 %; the margin covers
+/// effects that the model ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
-/// A turn needs no more sides than this for its volume: an inscribed polygon of so many is off by 0.07 %.
+/// Upper bound of sides per full turn: the area of an inscribed polygon of 100 sides is off by 0.07 %.
 constexpr int kMostPerTurn = 100;
-/// Creases across an end are followed up to as many for a turn: more are fine facets, for which a size does.
+/// Creases across an end are resolved up to this many sides per turn. More are fine facets, for which
+/// reducing the size is enough.
 constexpr int kMostForCreases = 40;
-/// The bends of an end make its quads smaller down to this part of the size, and further as long as an end
-/// has no more than so many. Choices.
+/// Curvature of an end reduces its quad size to this fraction at least, and further as long as the end has no
+/// more than this many quads. Neither value is measured.
 constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
-/// Quads inside ends are longer than the size. Measured on domes over six to twelve sides, which have half to
-/// two thirds as many as their area over the square of the size.
+/// Quads inside ends are longer than the size. Measured on domes with six to twelve sides: their quad count
+/// is half to two thirds of their area divided by the squared size.
 constexpr double kLonger = 1.35;
-/// Ends that are steeper in the mean, as parts of a ball seen from its side, are not laid out in one plane.
+/// Upper bound of the mean elongation of quads on an end, √(area / projected area): steeper ends, such as
+/// most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// Rims may have fewer sides than a size asks for, by this factor, so that a grid closes: 16 for 24.
+/// An end may close its grid with fewer rim sides than the size asks for, by this factor: 16 instead of 24.
 constexpr double kFewer = 1.5;
-/// Sizes are tried in such steps.
+/// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
-/// Layers for the bends of the sweep, at most: as many as a spiral of five turns needs.
+/// Most layers that curvature along the sweep may request: enough for a spiral of five turns.
 constexpr int kMostLayers = 300;
-/// Columns round a rim of the model of the walls, in all, and rows up to the target. A circle of so many is
-/// off by 0.04 %.
+/// Resolution of the wall model: columns along a rim, in total, and rows from source to target. A circle of
+/// 128 columns is off by 0.04 %.
 constexpr double kColumns = 128;
 constexpr int kRows = 64;
-/// Walls within this share of the volume of straight lines between the rims are such lines.
+/// Walls count as straight from rim to rim if this changes the volume by no more than this fraction.
 constexpr double kStraight = 1e-3;
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
@@ -61,7 +63,7 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-/// What an end loses by its own bends, but for creases between nodes of its rims.
+/// The volume that an end loses by its own curvature, without creases between nodes of its rims.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
 {
@@ -69,9 +71,10 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
     double lost = 0;
     for (const FaceId id : volume.faces(end)) {
         const Face& face = model[id];
-        // Sides of order 2 are on exact surfaces. On facets they may have been kept straight for the cells.
+        // Sides of order 2 lie on exact surfaces. On facets they may have stayed straight for the sake of
+        // cell quality.
         if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
-        // Quads are laid out in the plane.
+        // Quads are paved in the plane, so they are longer on a steep end.
         const double steep = std::sqrt(face_area(model, id) / face_area_vector(model, id).norm());
         const double longer = scale * kLonger * std::min(steep, kSteepest);
         std::unordered_map<std::uint64_t, const Triangle*> first;
@@ -105,15 +108,15 @@ double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const
 /// Six times the volume of a tetrahedron with its fourth corner in the origin.
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// Sides of a mesh: for a full turn, and by a part of the size asked for.
+/// Number of sides of a mesh: by sides per full turn, and by a fraction of the requested size.
 struct Sides {
-    int per_turn = 0; ///< 0: as many as the model of the walls has columns
+    int per_turn = 0; ///< 0: as many as the wall model has columns
     double part = 1;
 };
 
-/// Rows of points round the walls of each linking surface, many more than a mesh has. A mesh takes places
-/// between them: what it encloses is summed up quad by quad, with cones from one point over the target's rims
-/// and from another, the origin, over the source's.
+/// Rows of points on the walls of each linking surface, many more than a mesh has; a mesh takes nodes from
+/// between them. The enclosed volume is summed over wall quads, plus cones that close the ends: from one apex
+/// over the rims of the target, and from the origin over those of the source.
 class Walls {
 public:
     Walls(const OpenVolume& volume, std::vector<surface::LinkingSurface> links, const SweepOptions& options,
@@ -130,7 +133,7 @@ public:
         for (const surface::LinkingSurface& link : links_) {
             Ring& ring = rings_.emplace_back();
             const std::vector<double> turning = surface::turning_of_segments(volume.model, link);
-            std::vector<std::vector<double>> shares; // of each segment: its nodes, evenly spaced
+            std::vector<std::vector<double>> shares; // for each segment: evenly spaced node positions
             int first = 0;
             for (const surface::RimSegment& segment : link.segments) {
                 const double length = segment.source_to - segment.source_from;
@@ -150,7 +153,7 @@ public:
         origin_ = rings_.front().rows.front().front();
         apex_ = rings_.front().rows.back().front() - origin_;
         for (std::size_t b = 0; b < rings_.size(); ++b) {
-            double own = 0; // of the walls as they are
+            double own = 0; // volume between the walls as given
             for (const FaceId wall : links_[b].walls) {
                 for (const Triangle& t : volume.model[wall].triangles)
                     own += six_volumes(volume.model.at(t[0]) - origin_, volume.model.at(t[1]) - origin_,
@@ -167,10 +170,10 @@ public:
         }
     }
 
-    /// Whether the walls are straight lines between the rims.
+    /// Whether the walls are straight from rim to rim.
     [[nodiscard]] bool straight() const { return straight_; }
 
-    /// Put the points between the rims onto the walls.
+    /// Project the points between the rims onto the walls.
     void follow(const RunContext& context)
     {
         for (std::size_t b = 0; b < rings_.size(); ++b) {
@@ -179,14 +182,14 @@ public:
         }
     }
 
-    /// Share of the volume by which a mesh has more than the walls enclose; negative: less.
+    /// Relative volume error of a mesh against the walls; negative: the mesh encloses less.
     /// @param layers  0: as many as there are rows.
     [[nodiscard]] double off(const Sides& sides, int layers) const
     {
         double sum = 0;
         for (const Ring& ring : rings_) {
             double own = enclosed(ring, sides, layers, 1);
-            // A parabola through the middle of a side encloses a third more than the two halves.
+            // Splitting each side in two recovers 3/4 of the volume that a parabola recovers.
             if (curved_) own += 4. / 3 * (enclosed(ring, sides, layers, 2) - own);
             sum += ring.sign * (own - ring.within);
         }
@@ -195,16 +198,16 @@ public:
 
 private:
     struct Segment {
-        int first = 0, fine = 1; ///< columns up to its start, and from there to its end
-        bool fixed = false;      ///< one side, whatever is asked for
-        double by_size = 1;      ///< sides
-        double turn = 0;         ///< of the rim [radian]
+        int first = 0, fine = 1; ///< index of its first column, and number of its columns
+        bool fixed = false;      ///< one side, whatever the requested number
+        double by_size = 1;      ///< number of sides that the size asks for
+        double turn = 0;         ///< turning angle of the rim [radian]
 
         [[nodiscard]] int count(const Sides& sides, int parts) const
         {
             if (fixed || sides.per_turn == 0) return fine;
             const double bends = turn * sides.per_turn / (2 * std::numbers::pi);
-            const double most = fine; // more are as good
+            const double most = fine; // more sides than columns gain nothing
             return parts * static_cast<int>(
                                std::lround(std::clamp(std::max(by_size / sides.part, bends), 1.0, most)));
         }
@@ -213,15 +216,15 @@ private:
         std::vector<Segment> segments;
         surface::LinkingNodes nodes;
         std::vector<std::vector<Vec3>> rows;
-        double sign = 1;   ///< of what it encloses
-        double within = 0; ///< six times what all of it encloses
+        double sign = 1;   ///< of its enclosed volume
+        double within = 0; ///< six times the volume within its walls
     };
 
-    /// Six times what a mesh of the ring encloses.
-    /// @param layers  0: all rows. @param parts  of each side and layer.
+    /// Six times the volume that a mesh of the ring encloses.
+    /// @param layers  0: all rows. @param parts  subdivisions of each side and layer.
     [[nodiscard]] double enclosed(const Ring& ring, const Sides& of, int layers, int parts) const
     {
-        std::vector<double> places; // of the mesh's columns among those of a row
+        std::vector<double> places; // columns of the mesh, as positions among the columns of a row
         for (const Segment& segment : ring.segments) {
             const int sides = segment.count(of, parts);
             for (int i = 0; i < sides; ++i)
@@ -262,13 +265,13 @@ private:
     const OpenVolume& volume_;
     std::vector<surface::LinkingSurface> links_;
     double whole_ = 0;
-    bool curved_ = false; ///< sides are of order 2 and on exact walls; on facets they may be kept straight
+    bool curved_ = false; ///< sides are of order 2 on exact walls; on facets they may stay straight
     Vec3 origin_, apex_;
     std::vector<Ring> rings_;
     bool straight_ = true;
 };
 
-/// Tries numbers of sides on the model of the walls.
+/// Finds the number of sides by trying them on the wall model.
 class Planner {
 public:
     Planner(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
@@ -290,13 +293,13 @@ public:
         const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
         if (is_enough(sides) || is_enough({kMostPerTurn})) {
             while (!is_enough(sides)) ++sides.per_turn;
-            const int enough = sides.per_turn; // but for creases across an end
+            const int enough = sides.per_turn; // without creases across an end
             while (ends_ > kLostByEnds && sides.per_turn < std::max(enough, kMostForCreases)) {
                 ++sides.per_turn;
                 if (!is_enough(sides)) break;
             }
             if (ends_ > kLostByEnds) sides.per_turn = enough;
-        } else { // walls bend more than their rims, which turns do not see
+        } else { // the walls bend more than their rims: sides per turn of the rims do not help
             while (sides.part > least && !is_enough(sides)) sides.part *= kSmaller;
         }
         is_enough(sides);
@@ -306,9 +309,9 @@ public:
         return {sides.per_turn, sides.part, layers(sides, kLostByLayers)};
     }
 
-    /// Sides that lose six tenths of the share allowed, where those asked for lose too much: the rest is for
-    /// the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area. More where that is
-    /// not enough, as long as each step clearly helps.
+    /// If the requested sides lose too much, take sides that lose six tenths of the allowed share, which
+    /// leaves the rest for the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
+    /// If that is not enough, sides are added as long as each step clearly helps.
     VolumePlan by_numbers()
     {
         constexpr double kOfShare = 0.6, kHelps = 0.75;
@@ -333,14 +336,14 @@ public:
     }
 
 private:
-    /// Share lost on the rims, or on ends whose quads follow the sides of their rims.
+    /// Relative loss on the rims or, if larger, on ends, whose quads follow the sides of their rims.
     double lost_by_numbers(int per_turn)
     {
         const double fewer = static_cast<double>(options_.curvature) / per_turn;
         return std::max(std::abs(rims_->off({per_turn, kFewer}, 0)), on_ends_ * fewer * fewer);
     }
 
-    /// Model the walls of a mesh with nodes at breaks.
+    /// Model the walls for a mesh that has nodes at the given breaks.
     void follow(const surface::RimBreaks& breaks)
     {
         if (rims_ && breaks.pairs == pairs_ && breaks.on_crease == on_crease_) return;
@@ -352,10 +355,10 @@ private:
         walls_ = nullptr;
     }
 
-    /// What the bends of the sweep leave.
+    /// The share that remains after that of curvature along the sweep.
     [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
 
-    /// Whether sides are enough on the rims and, where the walls bend between these, there.
+    /// Whether the sides suffice on the rims and, if the walls bend between the rims, on the walls.
     bool is_enough(const Sides& sides)
     {
         const surface::RimBreaks breaks = facets_.breaks(sides.per_turn, size_);
@@ -378,7 +381,7 @@ private:
         walls_->follow(context_);
     }
 
-    /// As many layers as the walls' bends lose no more than a share by.
+    /// The number of layers, from the default up, for which curved walls lose no more than `share`.
     std::function<int(int)> layers(const Sides& sides, double share)
     {
         find_walls();
@@ -400,8 +403,8 @@ private:
     surface::RimFacets facets_;
     std::vector<std::vector<std::pair<double, double>>> pairs_; ///< of the breaks followed
     std::vector<char> on_crease_;
-    double on_ends_ = 0, ends_ = 0;       ///< lost there, without breaks and with those followed
-    std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as they are
+    double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks
+    std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as given
 };
 
 } // namespace

@@ -11,19 +11,19 @@
 
 namespace lacuna::fill {
 
-/// A mesh that is a member of an assembly as it is.
+/// A finished mesh that joins an assembly unchanged.
 struct KeptMesh {
     io::MeshSkin skin;
-    sweep::Swept swept; ///< of which `faces` are the skin's
+    sweep::Swept swept; ///< its `faces` are those of the skin
     std::string region; ///< empty: the mesh has no name
     std::string material;
-    std::string whole;   ///< the volume it is a piece of; empty: it is none
-    std::string turn_of; ///< of a piece of a full turn: the region of the whole turn
+    std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
+    std::string turn_of; ///< for a piece of a full turn: region of the whole turn
 };
 
 /// @throw InvalidInput  as `io::skin_of()`.
 std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& context);
-/// Its parts, in their order.
+/// As above for each part, in the order of the parts.
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context);
 
 } // namespace lacuna::fill

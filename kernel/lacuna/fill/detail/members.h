@@ -9,17 +9,18 @@
 
 namespace lacuna::fill {
 
-/// Close a volume and check that it has ends.
-/// @param region  its name, for messages.
+/// Close a volume and check that it has a source and a target.
+/// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);
 
-/// A piece of a cut as a volume of its own, with what the whole was told.
+/// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
-/// The pieces of one volume, swept as an assembly.
+/// Sweep the pieces of one volume as an assembly.
 FilledParts sweep_pieces(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context);
 
-/// A line for each face of the file that is missing in a volume, and what stands there.
+/// Report the faces of the file that are missing next to the volume and, after closing, the void faces that
+/// replace them: one line for each.
 void report_left_out(const Volume& volume, std::vector<std::string>& report);
 
 } // namespace lacuna::fill

@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-/// Decks, which may lack meshes that are made as they are written, as views. Internal to this folder.
+/// Views of decks, including decks with meshes that are created while they are written. Internal to this
+/// folder.
 namespace lacuna::io {
 
-/// Lists of sets, each list once; number 0 is the empty one.
+/// Lists of sets without duplicates; list 0 is empty.
 class SetLists {
 public:
     int extended(int list, int set);
@@ -24,16 +25,17 @@ private:
     std::vector<std::vector<int>> lists_{1};
 };
 
-/// Entities are the elements of one dimension and region that are in the same sets; their groups are these
-/// sets and the region. Lists are named by groups, where those of a group that has solids too are apart,
-/// ":faces" behind its name; then by sets of nodes, "nodes:" before their names.
-/// @param deck  must outlive the view, as what `bulk` refers to.
-/// @note  O(n) in the elements and the members of sets but for finding sparse tags.
+/// View a deck. An entity is the elements of one dimension and region that are in the same sets; its groups
+/// are these sets and the region. The named lists of the view are those of the groups, where the faces of a
+/// group that also has solids form a list of their own with ":faces" appended to its name, followed by the
+/// node sets, with "nodes:" before their names.
+/// @param deck  must outlive the view, as must the objects that `bulk` refers to.
+/// @note  O(n) in the elements and the members of sets, plus the search for sparse tags.
 std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const BulkReader& bulk);
 
 mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition);
 
-/// A part of a view, with its ghosts in their places between its own cells, without fields. O(points).
+/// View one part, with ghosts in their original order among its own cells, without fields. O(points).
 PieceView piece_of(const std::shared_ptr<const mesh::MeshView>& whole, const mesh::ViewParts& parts,
                    Index part);
 

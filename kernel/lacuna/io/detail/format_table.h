@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-/// The formats with what reads and writes them. Internal to this folder.
+/// The formats with their readers and writers. Internal to this folder.
 namespace lacuna::io {
 
 class Cursor;
@@ -19,7 +19,7 @@ class DeckBuilder;
 
 struct FormatRow : Format {
     void (*read)(Cursor&, DeckBuilder&) = nullptr;
-    // One of these writes it.
+    // At most one writer is set.
     DeckFile (*deck_file)(const Deck& deck, const LayeredBulk* layered) = nullptr;
     DeckFile (*view_file)(const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions& options,
                           const mesh::ViewParts* parts) = nullptr;
@@ -29,8 +29,8 @@ struct FormatRow : Format {
 std::span<const FormatRow> format_table();
 inline const FormatRow& row_of(const Format& format) { return static_cast<const FormatRow&>(format); }
 
-/// The format a file is read in.
-/// @param others  endings that somebody else reads, for the message.
+/// The format for reading a file.
+/// @param others  file extensions that other readers handle, for the message.
 /// @throw InvalidInput "io.unknown_ending"
 const FormatRow& needed_reader(const std::string& path, std::string_view others);
 

@@ -8,15 +8,15 @@
 #include <functional>
 #include <memory>
 
-/// The writers of VTK files: XML, in pieces, and legacy. Internal to this folder.
+/// The writers of VTK files: XML, partitioned XML, and legacy. Internal to this folder.
 namespace lacuna::io {
 
 DeckFile vtu_file(const std::shared_ptr<const mesh::MeshView>& view);
 DeckFile vtk_file(const std::shared_ptr<const mesh::MeshView>& view, bool binary);
 
-/// Pieces "mesh_0.vtu", "mesh_1.vtu" … beside "mesh.pvtu", which names them.
-/// @param piece   called when a piece is written.
-/// @param ghosts  rows of ghosts round each piece; 0: none are marked.
+/// Write the pieces "mesh_0.vtu", "mesh_1.vtu" … and "mesh.pvtu", which refers to them.
+/// @param piece   makes the view of a piece, when that piece is written.
+/// @param ghosts  rows of ghosts round each piece; 0: no ghosts are marked.
 void write_pieces(std::size_t count, const std::function<PieceView(std::size_t)>& piece, int ghosts,
                   const OutputPath& path, const RunContext& context, const Team* team = nullptr);
 

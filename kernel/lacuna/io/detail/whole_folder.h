@@ -10,23 +10,24 @@
 
 namespace lacuna::io {
 
-/// A folder of files that is there whole or not at all: it is written beside its place under a hidden name,
-/// which the destructor removes, and renamed. One that was there before changes places with it in one system
-/// call, where the file system can do so, and is removed. A kill leaves the hidden folder behind.
+/// A folder that is written completely or not at all. Its files are written to a hidden folder next to the
+/// final path, which is renamed on commit; the destructor removes it if that did not happen. An existing
+/// folder is exchanged with it in one system call, if the file system supports that, and removed. A killed
+/// process leaves the hidden folder.
 class WholeFolder {
 public:
-    /// @param is_own  whether a file of this name may go with a folder that is there.
-    /// @throw InvalidInput "io.not_replaced"  it is no folder, or holds something else; names it.
-    ///                     "io.no_folder"     the folder that it is to lie in does not exist.
+    /// @param is_own  whether a file of this name may be deleted with an existing folder.
+    /// @throw InvalidInput "io.not_replaced"  the path is no folder, or holds other files; names one.
+    ///                     "io.no_folder"     the parent folder does not exist.
     /// @throw BackendError  the folder cannot be written to.
     WholeFolder(const OutputPath& path, const std::function<bool(std::string_view name)>& is_own);
     ~WholeFolder();
     WholeFolder(const WholeFolder&) = delete;
     WholeFolder& operator=(const WholeFolder&) = delete;
 
-    /// Where to write a file of it. @param name  one component of a path
+    /// The path for writing a file of the folder. @param name  one path component
     [[nodiscard]] OutputPath file(const std::string& name) const;
-    /// Put the folder in its place. @throw BackendError
+    /// Move the folder to its final path. @throw BackendError
     void commit();
 
 private:
@@ -34,9 +35,9 @@ private:
     void remove_unfinished() noexcept;
 
     std::string path_;                     ///< for messages
-    std::shared_ptr<const Folder> folder_; ///< it is in
-    std::string name_;                     ///< inside that
-    std::string unfinished_;               ///< name it is written under; empty: it is gone
+    std::shared_ptr<const Folder> folder_; ///< parent folder
+    std::string name_;                     ///< name in the parent folder
+    std::string unfinished_;               ///< name of the hidden folder; empty: it no longer exists
     bool replaces_ = false;
 };
 

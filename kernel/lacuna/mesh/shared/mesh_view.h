@@ -18,7 +18,7 @@
 
 namespace lacuna::mesh {
 
-/// A list of places or numbers that is kept as ranges.
+/// A list of indices or numbers, stored as ranges.
 class Ranges {
 public:
     Ranges() = default;
@@ -31,7 +31,7 @@ public:
         const Range& range = ranges_[range_at(i)];
         return range.first + (i - range.before);
     }
-    /// Call `visit(first, last)` for the ranges that the list's places [begin, end) are, in order.
+    /// Call `visit(first, last)` for each range of values at the list positions [begin, end), in order.
     template <class Visit>
     void each(std::size_t begin, std::size_t end, const Visit& visit) const
     {
@@ -46,8 +46,8 @@ public:
 
 private:
     struct Range {
-        std::size_t first;  ///< its first value
-        std::size_t before; ///< values of the list before it
+        std::size_t first;  ///< first value of the range
+        std::size_t before; ///< number of list entries before the range
     };
     [[nodiscard]] std::size_t range_at(std::size_t i) const;
 
@@ -55,11 +55,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Numbers of nodes or cells by their places: given in an array, in ranges, or counted from 1.
+/// The numbers (tags) of nodes or cells by index: from an array, from ranges, or counted from 1.
 class Numbers {
 public:
     Numbers() = default;
-    /// @param held  read, not kept
+    /// @param held  referenced, not copied
     explicit Numbers(std::span<const std::int64_t> held) : held_(held) {}
     explicit Numbers(Ranges ranges) : ranges_(std::move(ranges)) {}
 
@@ -69,7 +69,7 @@ public:
         if (!held_.empty()) return held_[i];
         return static_cast<std::int64_t>(ranges_.count() > 0 ? ranges_[i] : i + 1);
     }
-    /// Call `visit(i, number)` for the places [begin, end).
+    /// Call `visit(i, number)` for the indices [begin, end).
     template <class Visit>
     void each(std::size_t begin, std::size_t end, const Visit& visit) const
     {
@@ -83,7 +83,7 @@ public:
         if (ranges_.count() > 0) return ranges_.each(begin, end, count_up);
         count_up(begin + 1, end + 1);
     }
-    /// The lowest and the highest of `count` numbers. @pre count > 0
+    /// The lowest and the highest of the first `count` numbers. @pre count > 0
     [[nodiscard]] std::pair<std::int64_t, std::int64_t> bounds(std::size_t count) const;
 
 private:
@@ -91,12 +91,13 @@ private:
     Ranges ranges_;
 };
 
-/// Where runs of places end, rising, and what each run is of.
+/// Runs of consecutive indices: the end of each run, ascending, and the value that its indices share.
 using Runs = std::vector<std::pair<std::size_t, Index>>;
 
-/// Let a run end at `end`; one of the same goes on.
+/// Append a run that ends at `end`; the last run is extended if it has the same value.
 void add_run(Runs& runs, std::size_t end, Index of);
-/// Call `visit(first, last, of)` for the runs among the places [begin, end).
+/// Call `visit(first, last, of)` for the runs within the indices [begin, end), where `of` is the value of the
+/// run.
 template <class Visit>
 void each_run(const Runs& runs, std::size_t begin, std::size_t end, const Visit& visit)
 {
@@ -108,37 +109,37 @@ void each_run(const Runs& runs, std::size_t begin, std::size_t end, const Visit&
     }
 }
 
-/// A mesh as writers see it, whatever holds it: a swept mesh, layers that are made as they are written, a
-/// deck, several meshes that are one. Nothing is called for a single cell: callbacks hand over nodes and
-/// cells in blocks. They may be called by several threads at once, for any range and in any order, and give
-/// the same each time.
+/// What writers need of a mesh, however it is stored: a swept mesh, layers created on writing, a deck, or
+/// several meshes merged into one. Callbacks deliver nodes and cells in blocks, because a call for each cell
+/// would be slow. Several threads may call them at once, for any range and in any order; results must not
+/// differ between calls.
 struct MeshView {
-    /// Takes values that follow each other.
+    /// Receives consecutive points.
     using TakePoints = std::function<void(std::span<const Vec3>)>;
 
-    /// Cells of one dimension and region that are in the same groups.
+    /// Cells of one dimension and one region that belong to the same groups.
     struct Entity {
         int dimension = 3;
-        int tag = 0;                       ///< its number among those of its dimension, > 0
-        int number = 0;                    ///< where entities of all dimensions are numbered together, >= 0
+        int tag = 0;                       ///< number among the entities of its dimension, > 0
+        int number = 0;                    ///< number among the entities of all dimensions, >= 0
         int region = 0;                    ///< number of the region; 0: none
         std::vector<std::string> groups{}; ///< names
-        std::size_t main = 0;              ///< the group where a cell is in one alone, a place in `groups`
-        std::vector<int> bounds{};         ///< tags of the entities that bound it, where they are known
+        std::size_t main = 0;              ///< index in `groups` of the one to use where a cell has only one
+        std::vector<int> bounds{};         ///< tags of the entities that bound it, if known
     };
     /// Cells of one shape.
     struct Block {
-        /// Cells handed over at once: of 27 nodes 27 kB, which stay in the first-level cache.
+        /// Cells delivered at once: 27 kB for cells of 27 nodes, which fits into the first-level cache.
         static constexpr std::size_t kAtOnce = 256;
 
         CellShape shape = CellShape::hex8;
-        std::string type{}; ///< as the file they come from calls them; may be empty
+        std::string type{}; ///< element type as named in the source file; may be empty
         std::size_t count = 0;
-        /// Nodes of the cells [begin, end), one cell after the other in the order of `CellShape`, by their
-        /// places from 0.
+        /// Writes the nodes of the cells [begin, end), cell by cell in the order of `CellShape`, as indices
+        /// from 0.
         std::function<void(std::size_t begin, std::size_t end, Index* out)> nodes;
-        Numbers tags;  ///< not given: cells are numbered from 1 as they come in the file
-        Runs entities; ///< places of the entities that the cells are of
+        Numbers tags;  ///< if not given, cells are numbered from 1 in file order
+        Runs entities; ///< index of the entity that each cell belongs to
 
         /// Call `visit(i, nodes)` for the cells [begin, end).
         template <class Visit>
@@ -155,17 +156,17 @@ struct MeshView {
             }
         }
     };
-    /// A number of each cell.
+    /// One value for each cell.
     struct Field {
         std::string name;
-        /// Of the cells [begin, end) of a block, by its place.
+        /// Writes the values of the cells [begin, end) of the block with index `block`.
         std::function<void(std::size_t block, std::size_t begin, std::size_t end, double* out)> values;
 
-        /// Call `visit(i, value)` for these cells.
+        /// Call `visit(i, value)` for the cells [begin, end) of a block.
         template <class Visit>
         void each(std::size_t block, std::size_t begin, std::size_t end, const Visit& visit) const
         {
-            std::array<double, 1024> room; // stays in the first-level cache: a choice
+            std::array<double, 1024> room; // 8 kB, which fits into the first-level cache
             while (begin < end) {
                 const std::size_t count = std::min(room.size(), end - begin);
                 values(block, begin, begin + count, room.data());
@@ -185,28 +186,28 @@ struct MeshView {
     Numbers point_tags;
     std::vector<Block> blocks;
     std::vector<Entity> entities;
-    std::function<std::vector<Eigen::AlignedBox3d>()> boxes; ///< makes those round the entities
-    std::size_t node_entity = 0; ///< the one that has all nodes where only one may have them
+    std::function<std::vector<Eigen::AlignedBox3d>()> boxes; ///< computes the bounding boxes of the entities
+    std::size_t node_entity = 0; ///< entity of all nodes, for formats that allow only one
     std::vector<Field> fields;
-    /// Names with the numbers of the entities, or the places of the points, that are in them.
+    /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
-    std::vector<GroupTag> group_tags; ///< that groups have in the file they come from
+    std::vector<GroupTag> group_tags; ///< group tags to keep from the source file
     bool is_deck = false; ///< cells have regions, and entities of all dimensions are numbered together
-    std::string unnamed;  ///< what entities without groups are called; may be empty
-    std::string source;   ///< path of the file that some of it comes from; empty: none
+    std::string unnamed;  ///< name for entities without groups; may be empty
+    std::string source;   ///< path of the file that some of the mesh was read from; empty: none
 
     [[nodiscard]] std::size_t cells() const;
 };
 
-/// Which part the cells of a view belong to, for files in parts.
+/// The part that each cell of a view belongs to, for partitioned files.
 struct ViewParts {
     int parts = 1;
-    std::vector<Runs> of;                         ///< of each block, the parts from 0
-    std::vector<std::pair<Index, Ranges>> points; ///< parts, and places of the points that are theirs
-    /// Cells of a block that are ghosts of the same parts.
+    std::vector<Runs> of;                         ///< for each block: part of its cells, from 0
+    std::vector<std::pair<Index, Ranges>> points; ///< part, and indices of the points that it owns
+    /// Cells of one block that are ghosts of the same parts.
     struct Ghosts {
-        Index part = 0;      ///< whose they are
-        std::vector<int> of; ///< the parts they are ghosts of, rising
+        Index part = 0;      ///< part that owns the cells
+        std::vector<int> of; ///< parts that have them as ghosts, ascending
         std::size_t block = 0;
         Ranges cells;
     };

@@ -8,37 +8,38 @@
 #include <functional>
 #include <span>
 
-/// Volume that straight sides on bends lose, computed before meshing. Internal to this folder.
+/// Volume lost because sides of the mesh are straight on curved geometry, computed before meshing. Internal
+/// to this folder.
 ///
-/// For the walls by a model of the mesh's skin there: the volume enclosed by its quads, at order 2 with
-/// parabolas through the middle nodes. For the ends in closed form: a side h on a curvature k has the sag
-/// k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over it. Facets count as the surface they
-/// approximate. Concave bends gain as much, with the opposite sign.
+/// For walls, a model of the skin of the mesh gives the volume enclosed by its quads, at order 2 with
+/// parabolas through the mid-side nodes. For ends there is a closed form: a side h on a curvature k has the
+/// sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over its area. Facets count as the
+/// surface that they approximate. Concave curvature gains as much, with the opposite sign.
 namespace lacuna::sweep {
 
-/// Whether size, layers and curvature are all defaults: then the volume determines them.
+/// Whether size, layers and curvature are all defaults: then the required volume determines them.
 bool sizes_by_default(const SweepOptions& options);
 
-/// Whether sides between given nodes of rims may be split: all numbers are defaults, no face has given quads,
-/// and no neighbour has nodes there.
+/// Whether sides between given rim nodes may be split: all numbers are defaults, no face has given quads, and
+/// no neighbour has nodes on the rims.
 bool may_divide_rims(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// A constant size field.
+/// A size field of constant value.
 surface::SizeField even_size(double length);
 
-/// Relative loss of the sealed volume in a mesh.
+/// The relative volume that a mesh loses against the sealed volume.
 double volume_lost(const Fidelity& fidelity);
 
-/// Numbers by which a mesh keeps the volume.
+/// Mesh numbers that keep the volume within its bound.
 struct VolumePlan {
     int per_turn = 12;                      ///< sides for a full turn: the requested number, or more
-    double part = 1;                        ///< of the default size, for the bends of the ends, in (0, 1]
-    std::function<int(int least)> layers{}; ///< for the bends of the walls; null: unchanged
+    double part = 1;                        ///< factor on the default size for curved ends, in (0, 1]
+    std::function<int(int least)> layers{}; ///< for curved walls; null: unchanged
 };
 
-/// With default numbers the volume must be within 1 %; with given numbers, rims and layers that lose more
-/// than `SweepOptions::volume_share` get more.
-/// @param size  of the source's quads. @throw Cancelled
+/// Choose the numbers of a mesh. With default numbers the volume must be within 1 %. With given numbers, rims
+/// and layers are refined if they lose more than `SweepOptions::volume_share`.
+/// @param size  size field of the quads of the source. @throw Cancelled
 VolumePlan plan_volume(const topology::OpenVolume& volume, std::span<const surface::LinkingSurface> links,
                        const SweepOptions& options, const surface::SizeField& size,
                        const RunContext& context);
