@@ -287,24 +287,24 @@ private:
     /// Use the element numbers of the view or, in an unpartitioned file, number the elements in file order.
     void number_cells()
     {
-        struct Run {
-            std::size_t first, number, count;
-        };
-        std::vector<std::vector<Run>> runs(view_->blocks.size());
+        std::vector<std::map<std::size_t, std::size_t>> number(view_->blocks.size()); // of the next element
         std::size_t next = 1;
-        for (const Row& row : rows_)
-            row.cells.each(0, row.cells.count(), [&](std::size_t first, std::size_t last) {
-                runs[row.block].push_back({first, next, last - first});
-                next += last - first;
-            });
+        for (const Row& row : rows_) {
+            number[row.block][row.entity] = next;
+            next += row.cells.count();
+        }
         elements_ = {next > 1 ? 1 : 0, static_cast<std::int64_t>(next) - 1};
         bool any = false;
-        for (std::size_t b = 0; b < runs.size(); ++b) {
+        for (std::size_t b = 0; b < number.size(); ++b) {
             const MeshView::Block& block = view_->blocks[b];
             if (!block.tags.given()) {
-                std::ranges::sort(runs[b], {}, &Run::first);
                 Ranges numbers;
-                for (const Run& run : runs[b]) numbers.add(run.number, run.number + run.count);
+                mesh::each_run(block.entities, 0, block.count,
+                               [&](std::size_t first, std::size_t last, Index entity) {
+                                   std::size_t& own = number[b][index(entity)];
+                                   numbers.add(own, own + (last - first));
+                                   own += last - first;
+                               });
                 tags_.emplace_back(std::move(numbers));
                 continue;
             }

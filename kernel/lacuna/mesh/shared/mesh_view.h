@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -61,13 +62,16 @@ public:
     Numbers() = default;
     /// @param held  referenced, not copied
     explicit Numbers(std::span<const std::int64_t> held) : held_(held) {}
-    explicit Numbers(Ranges ranges) : ranges_(std::move(ranges)) {}
+    explicit Numbers(Ranges ranges)
+    {
+        if (ranges.count() > 0) ranges_ = std::make_shared<const Ranges>(std::move(ranges));
+    }
 
-    [[nodiscard]] bool given() const { return !held_.empty() || ranges_.count() > 0; }
+    [[nodiscard]] bool given() const { return !held_.empty() || ranges_ != nullptr; }
     [[nodiscard]] std::int64_t operator[](std::size_t i) const
     {
         if (!held_.empty()) return held_[i];
-        return static_cast<std::int64_t>(ranges_.count() > 0 ? ranges_[i] : i + 1);
+        return static_cast<std::int64_t>(ranges_ != nullptr ? (*ranges_)[i] : i + 1);
     }
     /// Call `visit(i, number)` for the indices [begin, end).
     template <class Visit>
@@ -80,7 +84,7 @@ public:
         const auto count_up = [&](std::size_t first, std::size_t last) {
             for (; first < last; ++first) visit(begin++, static_cast<std::int64_t>(first));
         };
-        if (ranges_.count() > 0) return ranges_.each(begin, end, count_up);
+        if (ranges_ != nullptr) return ranges_->each(begin, end, count_up);
         count_up(begin + 1, end + 1);
     }
     /// The lowest and the highest of the first `count` numbers. @pre count > 0
@@ -88,7 +92,7 @@ public:
 
 private:
     std::span<const std::int64_t> held_;
-    Ranges ranges_;
+    std::shared_ptr<const Ranges> ranges_; ///< copies of the numbers share them
 };
 
 /// Runs of consecutive indices: the end of each run, ascending, and the value that its indices share.
