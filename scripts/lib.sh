@@ -68,7 +68,7 @@ need_packages()
 need_build_packages()
 {
     local packages=(cmake ninja-build g++ libeigen3-dev liblua5.4-dev libedit-dev lua5.4 doctest-dev
-        zlib1g-dev libseccomp-dev)
+        zlib1g-dev libseccomp-dev libfmt-dev)
     # A Gmsh SDK of the person's own comes before the one of the distribution.
     [[ -n ${GMSH_ROOT:-} ]] || packages+=(libgmsh-dev)
     [[ ${1:-} != tests ]] || packages+=(python3-gmsh python3-numpy calculix-ccx)

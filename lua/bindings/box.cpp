@@ -330,12 +330,12 @@ std::string unexpected_text(std::string_view what)
            "): this is a fault of Lacuna, please report it with the recipe and its input";
 }
 
-void Failure::note(const char* its_code, const char* what) noexcept
+void Failure::keep(const char* its_code, const char* what, const Message* said) noexcept
 {
     try {
         code = its_code;
         message = code == "core.unexpected" ? unexpected_text(what) : what;
-        entities = named_entities(message);
+        if (said != nullptr) entities = said->entities();
     } catch (const std::bad_alloc&) {
         message = "out of memory"; // short enough to be kept without memory
         code = "core.memory";

@@ -15,7 +15,7 @@
 #include <lua.hpp>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/named_entities.h>
+#include <lacuna/core/message.h>
 
 #include <exception>
 #include <memory>
@@ -142,7 +142,8 @@ struct Failure {
     std::string message, code;
     std::vector<NamedEntity> entities; ///< that the message names
     bool from_callback = false;
-    void note(const char* its_code, const char* what) noexcept;
+    /// @param said  the message of an error of the kernel
+    void keep(const char* its_code, const char* what, const Message* said = nullptr) noexcept;
 };
 
 [[noreturn]] void raise(lua_State* L, const Failure& failure);
@@ -158,13 +159,13 @@ bool run_guarded(Failure& failure, Body& body) noexcept
     } catch (const CallbackFailed&) {
         failure.from_callback = true;
     } catch (const Error& error) {
-        failure.note(error.code().c_str(), error.what());
+        failure.keep(error.code().c_str(), error.what(), &error.message());
     } catch (const std::bad_alloc&) {
-        failure.note("core.memory", "not enough memory");
+        failure.keep("core.memory", "not enough memory");
     } catch (const std::exception& error) {
-        failure.note("core.unexpected", error.what());
+        failure.keep("core.unexpected", error.what());
     } catch (...) {
-        failure.note("core.unexpected", "an unknown error inside the kernel");
+        failure.keep("core.unexpected", "an unknown error inside the kernel");
     }
     return false;
 }

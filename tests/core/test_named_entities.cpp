@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/named_entities.h>
+#include <lacuna/core/shared/named_entities.h>
 
 #include <doctest/doctest.h>
 

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace lacuna {
 
-/// Base class of every error of the kernel. `what()` is for a person: it names the entity by the user's tag,
-/// what was found, what is needed, and one thing to try. `code()` is stable, for programs.
+/// Base class of every error of the kernel. Its message names entities by the user's tags, what was found, what
+/// is needed, and one thing to try; `what()` is its text, `code()` is stable, for programs.
 class Error : public std::runtime_error {
 public:
-    Error(std::string code, const std::string& message) : std::runtime_error(message), code_(std::move(code))
+    explicit Error(Message message) : std::runtime_error(message.text()), message_(std::move(message)) {}
+    /// @param format  see `Message`
+    Error(std::string code, std::string_view format, std::initializer_list<Argument> arguments)
+        : Error(Message(std::move(code), format, arguments))
     {
     }
-    [[nodiscard]] const std::string& code() const noexcept { return code_; }
+    Error(std::string code, const std::string& text) : Error(Message::of_text(std::move(code), text)) {}
+
+    [[nodiscard]] const std::string& code() const noexcept { return message_.code(); }
+    [[nodiscard]] const Message& message() const noexcept { return message_; }
 
 private:
-    std::string code_; ///< "folder.what_went_wrong", for example "topology.unknown_face"
+    Message message_;
 };
 
 /// An input of the caller cannot be used: an option, a file, a role.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/named_entities.h>
+#include <lacuna/core/shared/named_entities.h>
 
 #include <algorithm>
 #include <charconv>
@@ -109,7 +109,7 @@ std::vector<NamedEntity> named_entities(std::string_view message)
         before = word;
         if (kind == std::end(kKinds) || !reader.take(" ")) continue;
         for (long long tag = 0; reader.take_number(tag);) {
-            add(found, {prefix + std::string(kind->singular), tag});
+            add(found, {prefix + std::string(kind->singular), tag, {}, {}});
             reader.take_quoted();
             if (kind->word == kind->singular || !reader.take_separator()) break;
         }

@@ -387,23 +387,27 @@ Classification classify(const OpenVolume& volume)
     return found;
 }
 
-std::string name_of(const Model& model, FaceId face)
+NamedEntity entity_of(const Model& model, FaceId face)
 {
     const Face& f = model[face];
-    const std::string tag = (f.origin == Origin::made_void ? "void face " : "face ") + std::to_string(f.tag);
-    return f.name.empty() ? tag : tag + " \"" + f.name + "\"";
+    return {f.origin == Origin::made_void ? "void face" : "face", f.tag, f.name};
 }
 
-std::string name_of(const Model& model, EdgeId edge)
+NamedEntity entity_of(const Model& model, EdgeId edge)
 {
     const Edge& e = model[edge];
-    return (e.origin == Origin::made_void ? "void edge " : "edge ") + std::to_string(e.tag) + " (vertices " +
-           std::to_string(model[e.from].tag) + "-" + std::to_string(model[e.to].tag) + ")";
+    return {.kind = e.origin == Origin::made_void ? "void edge" : "edge",
+            .tag = e.tag,
+            .ends = std::pair<long long, long long>(model[e.from].tag, model[e.to].tag)};
 }
 
+NamedEntity entity_of(const Model& model, VertexId vertex) { return {"vertex", model[vertex].tag}; }
+
+std::string name_of(const Model& model, FaceId face) { return formatted("{}", {entity_of(model, face)}); }
+std::string name_of(const Model& model, EdgeId edge) { return formatted("{}", {entity_of(model, edge)}); }
 std::string name_of(const Model& model, VertexId vertex)
 {
-    return "vertex " + std::to_string(model[vertex].tag);
+    return formatted("{}", {entity_of(model, vertex)});
 }
 
 } // namespace lacuna::topology

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/model.h>
 
@@ -98,7 +99,11 @@ struct Classification {
 /// @throw InvalidInput  an override that contradicts the faces; says which ones.
 Classification classify(const OpenVolume& volume);
 
-/// Name of a face in messages: `face 12`, or `face 12 "lid"`.
+/// A face, an edge or a vertex for a message: `face 12`, `face 12 "lid"`, `edge 3 (vertices 4-9)`, `vertex 4`.
+NamedEntity entity_of(const Model& model, FaceId face);
+NamedEntity entity_of(const Model& model, EdgeId edge);
+NamedEntity entity_of(const Model& model, VertexId vertex);
+/// Their text.
 std::string name_of(const Model& model, FaceId face);
 std::string name_of(const Model& model, EdgeId edge);
 std::string name_of(const Model& model, VertexId vertex);

@@ -5,7 +5,7 @@
 // headers, and of the kernel only those of its errors. <lacuna.h> is the same for C and other languages.
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/named_entities.h>
+#include <lacuna/core/message.h>
 
 #include <atomic>
 #include <cstddef>

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/core/message.h>
+
+#include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/named_entities.h>
+
+#define FMT_HEADER_ONLY
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace lacuna {
+namespace {
+
+std::string name_of(const NamedEntity& entity)
+{
+    std::string name = entity.kind + " " + std::to_string(entity.tag);
+    if (!entity.name.empty()) name += " \"" + entity.name + "\"";
+    if (entity.ends) name += fmt::format(" (vertices {}-{})", entity.ends->first, entity.ends->second);
+    return name;
+}
+
+} // namespace
+
+std::string formatted(std::string_view format, std::initializer_list<Argument> arguments)
+{
+    fmt::dynamic_format_arg_store<fmt::format_context> store;
+    for (const Argument& argument : arguments)
+        std::visit(
+            [&]<class Held>(const Held& value) {
+                if constexpr (std::is_same_v<Held, std::vector<NamedEntity>>)
+                    store.push_back(short_list(value, name_of));
+                else
+                    store.push_back(value);
+            },
+            argument.value());
+    return fmt::vformat(format, store);
+}
+
+Message::Message(std::string code, std::string_view format, std::initializer_list<Argument> arguments)
+    : code_(std::move(code)), text_(formatted(format, arguments))
+{
+    keep(arguments);
+}
+
+Message Message::of_text(std::string code, const std::string& text)
+{
+    Message message(std::move(code), "{}", {text});
+    message.entities_ = named_entities(text);
+    return message;
+}
+
+Message&& Message::remedy(std::string_view format, std::initializer_list<Argument> arguments) &&
+{
+    remedy_ = formatted(format, arguments);
+    keep(arguments);
+    return std::move(*this);
+}
+
+Message&& Message::attempt(Message failed) &&
+{
+    attempts_.push_back(std::move(failed));
+    return std::move(*this);
+}
+
+Message Message::about(std::string_view subject) const
+{
+    Message message = *this;
+    message.text_ = std::string(subject) + ": " + text_;
+    return message;
+}
+
+std::string Message::text() const { return remedy_.empty() ? text_ : text_ + "; " + remedy_; }
+
+void Message::keep(std::initializer_list<Argument> arguments)
+{
+    for (const Argument& argument : arguments)
+        std::visit(
+            [&]<class Held>(const Held& value) {
+                if constexpr (std::is_same_v<Held, std::vector<NamedEntity>>) {
+                    for (const NamedEntity& entity : value) keep(entity);
+                } else if (argument.role() == Argument::Role::found) {
+                    found_.emplace_back(value);
+                } else if (argument.role() == Argument::Role::needed) {
+                    needed_.emplace_back(value);
+                }
+            },
+            argument.value());
+}
+
+void Message::keep(const NamedEntity& entity)
+{
+    if (std::ranges::find(entities_, entity) == entities_.end()) entities_.push_back(entity);
+    if (!entity.ends) return;
+    keep(NamedEntity{"vertex", entity.ends->first});
+    keep(NamedEntity{"vertex", entity.ends->second});
+}
+
+} // namespace lacuna
