@@ -15,8 +15,9 @@ class Error : public std::runtime_error {
 public:
     explicit Error(Message message) : std::runtime_error(message.text()), message_(std::move(message)) {}
     /// @param format  see `Message`
-    Error(std::string code, std::string_view format, std::initializer_list<Argument> arguments)
-        : Error(Message(std::move(code), format, arguments))
+    template <class... Arguments>
+    Error(std::string code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+        : Error(Message(std::move(code), format, arguments...))
     {
     }
     Error(std::string code, const std::string& text) : Error(Message::of_text(std::move(code), text)) {}

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,21 +59,64 @@ private:
 inline Argument found(const Argument& value) { return {Argument::Role::found, value}; }
 inline Argument needed(const Argument& value) { return {Argument::Role::needed, value}; }
 
+/// A text in the syntax of {fmt} with fields for `Count` arguments: "{}", "{:.3g}" or "{1}". The number of fields is
+/// checked when the text is compiled.
+template <std::size_t Count>
+class Format {
+public:
+    consteval Format(const char* text) : text_(text)
+    {
+        if (fields(text_) != Count) throw "the text has another number of fields than arguments";
+    }
+    [[nodiscard]] std::string_view text() const { return text_; }
+
+private:
+    static consteval std::size_t fields(std::string_view text)
+    {
+        std::size_t highest = 0, next = 0;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] != '{' && text[i] != '}') continue;
+            if (i + 1 < text.size() && text[i + 1] == text[i]) {
+                ++i;
+                continue;
+            }
+            if (text[i] == '}') throw "a brace that closes nothing; a brace in the text is written twice";
+            std::size_t number = 0;
+            const std::size_t first = ++i;
+            for (; text[i] >= '0' && text[i] <= '9'; ++i)
+                number = 10 * number + static_cast<std::size_t>(text[i] - '0');
+            highest = std::max(highest, i > first ? number + 1 : ++next);
+            while (text[i] != '}') ++i;
+        }
+        return highest;
+    }
+
+    std::string_view text_;
+};
+
 /// What an error or a note says, as data and as text.
 ///
-///     Message("surface.sides_asked", "{} has {} sides, but {} are asked for", {face, found(7), needed(9)})
+///     Message("surface.sides_asked", "{} has {} sides, but {} are asked for", face, found(7), needed(9))
 ///         .remedy("give an even number")
 class Message {
 public:
     /// @param code    "folder.what_went_wrong"; stable, for programs.
-    /// @param format  the text in the syntax of {fmt}, with a field for each argument: "{}", "{:.3g}", "{1}".
-    Message(std::string code, std::string_view format, std::initializer_list<Argument> arguments = {});
-
+    /// @param format  the text, with a field for each argument.
+    template <class... Arguments>
+    Message(std::string code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+        : code_(std::move(code)), text_(add(format.text(), {Argument(arguments)...}))
+    {
+    }
     /// A message whose text is put together elsewhere; its entities are found in the text.
     static Message of_text(std::string code, const std::string& text);
 
     /// Add one thing to try; it follows the text after a semicolon.
-    Message&& remedy(std::string_view format, std::initializer_list<Argument> arguments = {}) &&;
+    template <class... Arguments>
+    Message&& remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&
+    {
+        remedy_ = add(format.text(), {Argument(arguments)...});
+        return std::move(*this);
+    }
     /// Add why an attempt failed; its text is not repeated.
     Message&& attempt(Message failed) &&;
     /// The same message about a part, a file or a member: "subject: text".
@@ -86,16 +132,25 @@ public:
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 
 private:
-    void keep(std::initializer_list<Argument> arguments);
-    void keep(const NamedEntity& entity);
+    /// Keep the arguments as data. @return  their text
+    std::string add(std::string_view format, std::initializer_list<Argument> arguments);
+    void add(const NamedEntity& entity);
 
-    std::string code_, text_, remedy_;
+    // In this order: the constructor adds arguments before the texts.
     std::vector<NamedEntity> entities_;
     std::vector<Value> found_, needed_;
     std::vector<Message> attempts_;
+    std::string code_, text_, remedy_;
 };
 
-/// Text in the syntax of {fmt}, for report lines and parts of messages. Independent of the locale of the host.
-std::string formatted(std::string_view format, std::initializer_list<Argument> arguments);
+/// Implementation of `formatted()`.
+std::string format_text(std::string_view format, std::span<const Argument> arguments);
+
+/// Text for report lines and parts of messages. Independent of the locale of the host.
+template <class... Arguments>
+std::string formatted(Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+{
+    return format_text(format.text(), std::initializer_list<Argument>{Argument(arguments)...});
+}
 
 } // namespace lacuna

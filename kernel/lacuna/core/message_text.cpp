@@ -24,7 +24,7 @@ std::string name_of(const NamedEntity& entity)
 
 } // namespace
 
-std::string formatted(std::string_view format, std::initializer_list<Argument> arguments)
+std::string format_text(std::string_view format, std::span<const Argument> arguments)
 {
     fmt::dynamic_format_arg_store<fmt::format_context> store;
     for (const Argument& argument : arguments)
@@ -39,24 +39,11 @@ std::string formatted(std::string_view format, std::initializer_list<Argument> a
     return fmt::vformat(format, store);
 }
 
-Message::Message(std::string code, std::string_view format, std::initializer_list<Argument> arguments)
-    : code_(std::move(code)), text_(formatted(format, arguments))
-{
-    keep(arguments);
-}
-
 Message Message::of_text(std::string code, const std::string& text)
 {
-    Message message(std::move(code), "{}", {text});
+    Message message(std::move(code), "{}", text);
     message.entities_ = named_entities(text);
     return message;
-}
-
-Message&& Message::remedy(std::string_view format, std::initializer_list<Argument> arguments) &&
-{
-    remedy_ = formatted(format, arguments);
-    keep(arguments);
-    return std::move(*this);
 }
 
 Message&& Message::attempt(Message failed) &&
@@ -74,13 +61,13 @@ Message Message::about(std::string_view subject) const
 
 std::string Message::text() const { return remedy_.empty() ? text_ : text_ + "; " + remedy_; }
 
-void Message::keep(std::initializer_list<Argument> arguments)
+std::string Message::add(std::string_view format, std::initializer_list<Argument> arguments)
 {
     for (const Argument& argument : arguments)
         std::visit(
             [&]<class Held>(const Held& value) {
                 if constexpr (std::is_same_v<Held, std::vector<NamedEntity>>) {
-                    for (const NamedEntity& entity : value) keep(entity);
+                    for (const NamedEntity& entity : value) add(entity);
                 } else if (argument.role() == Argument::Role::found) {
                     found_.emplace_back(value);
                 } else if (argument.role() == Argument::Role::needed) {
@@ -88,14 +75,15 @@ void Message::keep(std::initializer_list<Argument> arguments)
                 }
             },
             argument.value());
+    return format_text(format, arguments);
 }
 
-void Message::keep(const NamedEntity& entity)
+void Message::add(const NamedEntity& entity)
 {
     if (std::ranges::find(entities_, entity) == entities_.end()) entities_.push_back(entity);
     if (!entity.ends) return;
-    keep(NamedEntity{"vertex", entity.ends->first});
-    keep(NamedEntity{"vertex", entity.ends->second});
+    add(NamedEntity{"vertex", entity.ends->first});
+    add(NamedEntity{"vertex", entity.ends->second});
 }
 
 } // namespace lacuna

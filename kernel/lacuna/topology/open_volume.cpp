@@ -403,11 +403,8 @@ NamedEntity entity_of(const Model& model, EdgeId edge)
 
 NamedEntity entity_of(const Model& model, VertexId vertex) { return {"vertex", model[vertex].tag}; }
 
-std::string name_of(const Model& model, FaceId face) { return formatted("{}", {entity_of(model, face)}); }
-std::string name_of(const Model& model, EdgeId edge) { return formatted("{}", {entity_of(model, edge)}); }
-std::string name_of(const Model& model, VertexId vertex)
-{
-    return formatted("{}", {entity_of(model, vertex)});
-}
+std::string name_of(const Model& model, FaceId face) { return formatted("{}", entity_of(model, face)); }
+std::string name_of(const Model& model, EdgeId edge) { return formatted("{}", entity_of(model, edge)); }
+std::string name_of(const Model& model, VertexId vertex) { return formatted("{}", entity_of(model, vertex)); }
 
 } // namespace lacuna::topology
