@@ -393,6 +393,9 @@ function Volume:write_cad(path, options) end
 ---@field message string what was expected, what was found, what to try
 ---@field code string "folder.what_went_wrong": stable, for programs
 ---@field entities { kind: string, tag: integer }[] faces, edges, nodes… that the message names
+---@field found (number|string)[] what the input has
+---@field needed (number|string)[] what it would need instead
+---@field remedy? string the part of the message that says what to try
 ---@field file? string of the recipe
 ---@field line? integer
 

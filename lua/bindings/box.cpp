@@ -148,6 +148,21 @@ void push_entities(lua_State* L, const std::vector<NamedEntity>& entities)
     }
 }
 
+/// Push an array of numbers and texts.
+void push_values(lua_State* L, const std::vector<MessageValue>& values)
+{
+    lua_createtable(L, static_cast<int>(values.size()), 0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (const auto* number = std::get_if<long long>(&values[i]))
+            lua_pushinteger(L, *number);
+        else if (const auto* real = std::get_if<double>(&values[i]))
+            lua_pushnumber(L, *real);
+        else
+            lua_pushstring(L, std::get<std::string>(values[i]).c_str());
+        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+    }
+}
+
 // --- classes ------------------------------------------------------------------------------------------
 
 /// Push the strings of the array at `index`, by alphabet, with commas between them.
@@ -335,7 +350,11 @@ void Failure::keep(const char* its_code, const char* what, const Message* said) 
     try {
         code = its_code;
         message = code == "core.unexpected" ? unexpected_text(what) : what;
-        if (said != nullptr) entities = said->entities();
+        if (said == nullptr) return;
+        remedy = said->remedy();
+        entities = said->entities();
+        found = said->found();
+        needed = said->needed();
     } catch (const std::bad_alloc&) {
         message = "out of memory"; // short enough to be kept without memory
         code = "core.memory";
@@ -351,13 +370,21 @@ void raise(lua_State* L, const Failure& failure)
         lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
         lua_error(L);
     }
-    lua_createtable(L, 0, 5);
+    lua_createtable(L, 0, 8);
     lua_pushlstring(L, failure.message.data(), failure.message.size());
     lua_setfield(L, -2, "message");
     lua_pushlstring(L, failure.code.data(), failure.code.size());
     lua_setfield(L, -2, "code");
     push_entities(L, failure.entities);
     lua_setfield(L, -2, "entities");
+    push_values(L, failure.found);
+    lua_setfield(L, -2, "found");
+    push_values(L, failure.needed);
+    lua_setfield(L, -2, "needed");
+    if (!failure.remedy.empty()) {
+        lua_pushlstring(L, failure.remedy.data(), failure.remedy.size());
+        lua_setfield(L, -2, "remedy");
+    }
     set_where(L);
     push_error_meta(L);
     lua_setmetatable(L, -2);

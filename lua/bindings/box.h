@@ -139,8 +139,9 @@ struct CallbackFailed {};
 
 /// What went wrong inside a guard, kept where no longjmp can lose it.
 struct Failure {
-    std::string message, code;
+    std::string message, code, remedy;
     std::vector<NamedEntity> entities; ///< that the message names
+    std::vector<MessageValue> found, needed;
     bool from_callback = false;
     /// @param said  the message of an error of the kernel
     void keep(const char* its_code, const char* what, const Message* said = nullptr) noexcept;

@@ -41,7 +41,13 @@ ScriptError plain_error(const std::string& code, const std::string& message)
 {
     ScriptError error(code, message + " [" + code + "]");
     error.message = message;
-    error.entities = lacuna::named_entities(message);
+    return error;
+}
+
+ScriptError plain_error(const lacuna::Error& of)
+{
+    ScriptError error = plain_error(of.code(), of.what());
+    error.entities = of.message().entities();
     return error;
 }
 
@@ -57,10 +63,10 @@ lacuna_status guarded(lacuna_interpreter* handle, Body&& body) noexcept
         } catch (const ScriptError& error) {
             keep(*handle, error);
         } catch (const lacuna::Cancelled& error) {
-            keep(*handle, plain_error(error.code(), error.what()));
+            keep(*handle, plain_error(error));
             return LACUNA_CANCELLED;
         } catch (const lacuna::Error& error) {
-            keep(*handle, plain_error(error.code(), error.what()));
+            keep(*handle, plain_error(error));
         } catch (const std::bad_alloc&) {
             keep(*handle, plain_error("core.memory", "not enough memory"));
         } catch (const std::exception& error) {
@@ -147,7 +153,7 @@ lacuna_interpreter* lacuna_open(const lacuna_options* options)
         handle->interpreter = std::make_unique<lacuna::Interpreter>(options_of(known));
     } catch (const lacuna::Error& error) {
         try {
-            keep(*handle, plain_error(error.code(), error.what()));
+            keep(*handle, plain_error(error));
         } catch (...) {
             handle->error.reset();
         }

@@ -75,14 +75,31 @@ int read_error(lua_State* L)
     } else {
         lua_pushfstring(L, "(error object is a %s value)", luaL_typename(L, 1));
     }
-    for (const char* field : {"message", "code", "file", "line"}) {
+    for (const char* field : {"message", "code", "file", "line", "entities"}) {
         lua_pushstring(L, field);
         if (lua_istable(L, 1))
             lua_rawget(L, 1);
         else
             lua_pop(L, 1), lua_pushnil(L);
     }
-    return 5;
+    return 6;
+}
+
+/// The entities in the `entities` field of an error. Raises no Lua error: it allocates nothing in Lua.
+std::vector<NamedEntity> entities_at(lua_State* L, int index)
+{
+    std::vector<NamedEntity> entities;
+    if (!lua_istable(L, index)) return entities;
+    for (lua_Integer i = 1; lua_rawgeti(L, index, i) == LUA_TTABLE; ++i) {
+        NamedEntity& entity = entities.emplace_back();
+        for (lua_pushnil(L); lua_next(L, -2) != 0; lua_pop(L, 1)) {
+            if (lua_isinteger(L, -1)) entity.tag = lua_tointeger(L, -1);
+            if (lua_type(L, -1) == LUA_TSTRING) entity.kind = lua_tostring(L, -1);
+        }
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return entities;
 }
 
 /// Push the value of a path. With `owner`, push the table that contains the last part, and the last part as a
@@ -341,8 +358,8 @@ void Interpreter::State::fail(int status)
     const std::string kind = lua_typename(lua, lua_type(lua, -1));
     lua_pushcfunction(lua, read_error);
     lua_insert(lua, -2);
-    const bool read = lua_pcall(lua, 1, 5, 0) == LUA_OK;
-    const int first = lua_gettop(lua) - 4;
+    const bool read = lua_pcall(lua, 1, 6, 0) == LUA_OK;
+    const int first = lua_gettop(lua) - 5;
     std::string text = read ? text_at(lua, first) : "(error object is a " + kind + " value)";
     const std::string usual = status == LUA_ERRSYNTAX ? "lua.syntax"
                               : status == LUA_ERRMEM  ? "lua.memory"
@@ -368,8 +385,8 @@ void Interpreter::State::fail(int status)
             break;
         }
     }
-    lua_settop(lua, read ? first - 1 : first + 3);
-    error.entities = named_entities(error.message);
+    if (read) error.entities = entities_at(lua, first + 5);
+    lua_settop(lua, read ? first - 1 : first + 4);
     throw error;
 }
 

@@ -20,8 +20,8 @@ TEST_CASE("a message keeps what its text says as data")
     CHECK(message.text() == "face 12 \"rim\" has 7 sides, but 8 are needed beside edge 3; "
                             "take face 12 \"rim\" off, or 0.123 times the size");
     CHECK(message.entities() == std::vector<NamedEntity>{face, edge});
-    CHECK(message.found() == std::vector<Value>{7LL});
-    CHECK(message.needed() == std::vector<Value>{8LL});
+    CHECK(message.found() == std::vector<MessageValue>{7LL});
+    CHECK(message.needed() == std::vector<MessageValue>{8LL});
 
     const NotSweepable error(message);
     CHECK(error.what() == message.text());

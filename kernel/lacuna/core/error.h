@@ -9,8 +9,8 @@
 
 namespace lacuna {
 
-/// Base class of every error of the kernel. Its message names entities by the user's tags, what was found, what
-/// is needed, and one thing to try; `what()` is its text, `code()` is stable, for programs.
+/// Base class of every error of the kernel. Its message names entities by the user's tags, what was found,
+/// what is needed, and one thing to try; `what()` is its text, `code()` is stable, for programs.
 class Error : public std::runtime_error {
 public:
     explicit Error(Message message) : std::runtime_error(message.text()), message_(std::move(message)) {}

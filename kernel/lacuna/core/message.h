@@ -27,7 +27,7 @@ struct NamedEntity {
 };
 
 /// A number or a text in a message.
-using Value = std::variant<long long, double, std::string>;
+using MessageValue = std::variant<long long, double, std::string>;
 
 /// An argument of a message: a number, a text, an entity or a list of entities.
 class Argument {
@@ -59,8 +59,8 @@ private:
 inline Argument found(const Argument& value) { return {Argument::Role::found, value}; }
 inline Argument needed(const Argument& value) { return {Argument::Role::needed, value}; }
 
-/// A text in the syntax of {fmt} with fields for `Count` arguments: "{}", "{:.3g}" or "{1}". The number of fields is
-/// checked when the text is compiled.
+/// A text in the syntax of {fmt} with fields for `Count` arguments: "{}", "{:.3g}" or "{1}". The number of
+/// fields is checked when the text is compiled.
 template <std::size_t Count>
 class Format {
 public:
@@ -127,8 +127,8 @@ public:
     [[nodiscard]] const std::string& remedy() const { return remedy_; }
     /// The entities named in text and remedy, in order, each once.
     [[nodiscard]] const std::vector<NamedEntity>& entities() const { return entities_; }
-    [[nodiscard]] const std::vector<Value>& found() const { return found_; }
-    [[nodiscard]] const std::vector<Value>& needed() const { return needed_; }
+    [[nodiscard]] const std::vector<MessageValue>& found() const { return found_; }
+    [[nodiscard]] const std::vector<MessageValue>& needed() const { return needed_; }
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 
 private:
@@ -138,7 +138,7 @@ private:
 
     // In this order: the constructor adds arguments before the texts.
     std::vector<NamedEntity> entities_;
-    std::vector<Value> found_, needed_;
+    std::vector<MessageValue> found_, needed_;
     std::vector<Message> attempts_;
     std::string code_, text_, remedy_;
 };
