@@ -459,7 +459,7 @@ function Mesh:coordinates() end
 ---@param kind? "hex"|"wedge" default "hex"
 ---@return lacuna.Buffer
 function Mesh:cells(kind) end
----@param path string
+---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
 --- A page for a browser: the mesh, to be turned, cut and coloured.
