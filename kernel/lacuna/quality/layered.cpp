@@ -51,10 +51,7 @@ void put(A& with, Own& quality)
 {
     with(quality.hexes), with(quality.wedges), with(quality.min_scaled_jacobian);
     with(quality.mean_scaled_jacobian), with(quality.inverted), with(quality.uncertified);
-    with(quality.histogram), with(quality.volume);
-    put_each(with, quality.worst, [&](auto& cell) {
-        with(cell.cell), with(cell.layer), with(cell.centre), with(cell.scaled_jacobian);
-    });
+    with(quality.histogram), with(quality.volume), with(quality.worst);
 }
 
 /// The results of all slabs in order, where each process contributes its own slabs.
