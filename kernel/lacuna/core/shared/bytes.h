@@ -25,8 +25,8 @@ public:
     explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
 };
 
-/// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. A truth value is
-/// not: another byte than 0 and 1 would be no value of it.
+/// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. Not `bool`, of
+/// which only the bytes 0 and 1 are values.
 template <class T>
 struct IsPlain
     : std::bool_constant<(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>> {
