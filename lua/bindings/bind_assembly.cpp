@@ -15,13 +15,10 @@ void set_near_misses(lua_State* L, const fill::FilledParts& mesh)
         lua_createtable(L, 0, 12);
         set_string(L, "a", mesh.regions[miss.a].c_str());
         set_string(L, "b", mesh.regions[miss.b].c_str());
-        lua_pushinteger(L, miss.tag_a);
-        lua_setfield(L, -2, "face_a");
-        lua_pushinteger(L, miss.tag_b);
-        lua_setfield(L, -2, "face_b");
+        set_whole(L, "face_a", miss.tag_a);
+        set_whole(L, "face_b", miss.tag_b);
         if (miss.edge) {
-            lua_pushinteger(L, miss.edge_tag);
-            lua_setfield(L, -2, "edge");
+            set_whole(L, "edge", miss.edge_tag);
             set_string(L, "edge_of", mesh.regions[miss.edge_of].c_str());
             set_number(L, "length", miss.length);
         } else {
@@ -30,8 +27,7 @@ void set_near_misses(lua_State* L, const fill::FilledParts& mesh)
         set_number(L, "least", miss.least);
         set_number(L, "width", miss.width);
         set_number(L, "tolerance", miss.tolerance);
-        lua_pushboolean(L, static_cast<int>(miss.reach_in));
-        lua_setfield(L, -2, "reach_in");
+        set_boolean(L, "reach_in", miss.reach_in);
         set_string(L, "message", miss.message.c_str());
     });
     lua_setfield(L, -2, "near_misses");
@@ -86,11 +82,7 @@ int assembly_to_string(lua_State* L)
 
 // --- its mesh -------------------------------------------------------------------------------------------
 
-int mesh_nodes(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<AssemblyMeshState>(L, 1).swept.nodes));
-    return 1;
-}
+int mesh_nodes(lua_State* L) { return give(L, check<AssemblyMeshState>(L, 1).swept.nodes); }
 
 std::vector<fill::Region>& push_regions(lua_State* L, const AssemblyMeshState& state)
 {
@@ -122,12 +114,9 @@ int mesh_left_out(lua_State* L)
     const auto& state = hold<AssemblyMeshState>(L, 1);
     push_array(L, state.left_out, [&](const auto& out) {
         lua_createtable(L, 0, 3);
-        lua_pushlstring(L, out.region.data(), out.region.size());
-        lua_setfield(L, -2, "region");
-        lua_pushlstring(L, out.code.data(), out.code.size());
-        lua_setfield(L, -2, "code");
-        lua_pushlstring(L, out.message.data(), out.message.size());
-        lua_setfield(L, -2, "message");
+        set_string(L, "region", out.region);
+        set_string(L, "code", out.code);
+        set_string(L, "message", out.message);
     });
     return 1;
 }

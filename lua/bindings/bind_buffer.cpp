@@ -154,17 +154,9 @@ int bytes(lua_State* L)
     return 1;
 }
 
-int length(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<BufferState>(L, 1).rows()));
-    return 1;
-}
+int length(lua_State* L) { return give(L, check<BufferState>(L, 1).rows()); }
 
-int columns(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<BufferState>(L, 1).columns));
-    return 1;
-}
+int columns(lua_State* L) { return give(L, check<BufferState>(L, 1).columns); }
 
 int type(lua_State* L)
 {

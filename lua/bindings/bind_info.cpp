@@ -144,19 +144,9 @@ std::string in_text(const topology::Model& model, const Info& info)
 
 // --- tables ---------------------------------------------------------------------------------------------
 
-void set_vector(lua_State* L, const char* key, const Vec3& vector)
-{
-    push_vector(L, vector);
-    lua_setfield(L, -2, key);
-}
-
 void push_box(lua_State* L, const Eigen::AlignedBox3d& box)
 {
-    lua_createtable(L, 2, 0);
-    push_vector(L, box.min());
-    lua_rawseti(L, -2, 1);
-    push_vector(L, box.max());
-    lua_rawseti(L, -2, 2);
+    push_array(L, std::array<Vec3, 2>{box.min(), box.max()}, [&](const Vec3& end) { push_vector(L, end); });
 }
 
 void push_face_info(lua_State* L, const topology::Model& model, const Info& info, std::size_t f)
@@ -166,8 +156,7 @@ void push_face_info(lua_State* L, const topology::Model& model, const Info& info
     std::size_t edges = 0;
     for (const topology::Loop& loop : face.loops) edges += loop.uses.size();
     lua_createtable(L, 0, 24);
-    lua_pushinteger(L, face.tag);
-    lua_setfield(L, -2, "tag");
+    set_whole(L, "tag", face.tag);
     set_string(L, "name", face.name.c_str());
     set_string(L, "kind", face.kind.c_str());
     set_number(L, "area", topology::face_area(model, id));
@@ -216,12 +205,8 @@ void push_free_edges(lua_State* L, const topology::Model& model, const Info& inf
     std::size_t count = 0;
     for (std::size_t f = 0; f < info.faces.size(); ++f) {
         for (const EdgeId edge : info.faces[f].free_edges) {
-            lua_createtable(L, 0, 5);
-            set_count(L, "tag", static_cast<std::size_t>(model[edge].tag));
-            set_count(L, "face", static_cast<std::size_t>(model.faces[f].tag));
-            set_count(L, "from", static_cast<std::size_t>(model[model[edge].from].tag));
-            set_count(L, "to", static_cast<std::size_t>(model[model[edge].to].tag));
-            set_number(L, "length", topology::edge_length(model, edge));
+            push_edge(L, model, edge);
+            set_whole(L, "face", model.faces[f].tag);
             lua_rawseti(L, -2, to_lua(count++));
         }
     }
@@ -238,19 +223,11 @@ void push_gaps(lua_State* L, const topology::Model& model, const Info& info)
     });
 }
 
-/// The Model at index 1, held and brought up to date.
-const Box<ModelState>& hold_model(lua_State* L)
-{
-    const Box<ModelState>& state = hold_box<ModelState>(L, 1);
-    bring_up_to_date(L, *state);
-    return state;
-}
-
 /// { faces =, free_edges =, gaps =, cavities =, … } = model:info()
 int info(lua_State* L)
 {
     lua_settop(L, 1);
-    const Box<ModelState>& state = hold_model(L);
+    const Box<ModelState>& state = hold_model(L, 1);
     RunContext& context = push_context(L);
     auto& found = temporary<Info>(L);
     auto& model = temporary<topology::Model>(L); // a finalizer may grow a face meanwhile
@@ -284,7 +261,7 @@ int info(lua_State* L)
 int cavities(lua_State* L)
 {
     lua_settop(L, 1);
-    const Box<ModelState>& state = hold_model(L);
+    const Box<ModelState>& state = hold_model(L, 1);
     RunContext& context = push_context(L);
     auto& found = temporary<std::vector<closure::Cavity>>(L);
     auto& model = temporary<topology::Model>(L);
@@ -300,7 +277,7 @@ int cavities(lua_State* L)
 int describe_model(lua_State* L)
 {
     lua_settop(L, 1);
-    const Box<ModelState>& state = hold_model(L);
+    const Box<ModelState>& state = hold_model(L, 1);
     RunContext& context = push_context(L);
     push_text(L, [&] { return in_text(state->model, closure::model_facts(state->model, context)); });
     return 1;

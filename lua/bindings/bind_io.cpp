@@ -92,12 +92,6 @@ void read_quality(lua_State* L, int index, const Where& where, WriteArguments& a
     guard(L, [&] { arguments.quality.assign(chosen, chosen + count); });
 }
 
-template <io::DeckTag io::MeshDeckOptions::*Member>
-void read_first(lua_State* L, int index, const Where& where, WriteArguments& arguments)
-{
-    arguments.deck.*Member = read_whole(L, index, where, 1);
-}
-
 void read_element(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
     const char* word = read_string(L, index, where);
@@ -199,8 +193,8 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"with", read_with},
     {"without", read_without<WriteArguments>},
     {"renumber", read_renumber},
-    {"first_node", read_first<&io::MeshDeckOptions::first_node>},
-    {"first_cell", read_first<&io::MeshDeckOptions::first_cell>},
+    {"first_node", count<&WriteArguments::deck, &io::MeshDeckOptions::first_node>},
+    {"first_cell", count<&WriteArguments::deck, &io::MeshDeckOptions::first_cell>},
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
@@ -449,13 +443,9 @@ int write_assembly(lua_State* L)
     return 0;
 }
 
-void read_facet_groups(lua_State* L, int index, const Where& where, io::FacetFileOptions& options)
-{
-    options.all_groups = read_word(L, index, where, kGroups);
-}
-
-const Option<io::FacetFileOptions> kFacetOptions[] = {{"binary", boolean<&io::FacetFileOptions::binary>},
-                                                      {"groups", read_facet_groups}};
+const Option<io::FacetFileOptions> kFacetOptions[] = {
+    {"binary", boolean<&io::FacetFileOptions::binary>},
+    {"groups", word<&io::FacetFileOptions::all_groups, kGroups>}};
 
 /// volume:write_facets(path [, options])
 int write_facets(lua_State* L)
@@ -476,32 +466,17 @@ struct LoadArguments {
     std::vector<std::string> without{};
 };
 
-void read_tolerance(lua_State* L, int index, const Where& where, LoadArguments& arguments)
-{
-    arguments.load.tolerance = read_positive(L, index, where);
-}
-
 void read_feature_angle(lua_State* L, int index, const Where& where, LoadArguments& arguments)
 {
     arguments.load.feature_angle = read_positive(L, index, where);
     if (arguments.load.feature_angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
 }
 
-void read_keep_mesh(lua_State* L, int index, const Where& where, LoadArguments& arguments)
-{
-    arguments.load.keep_mesh = read_boolean(L, index, where);
-}
-
-void read_scale(lua_State* L, int index, const Where& where, LoadArguments& arguments)
-{
-    arguments.load.scale = read_positive(L, index, where);
-}
-
 const Option<LoadArguments> kLoadOptions[] = {
-    {"tolerance", read_tolerance},
+    {"tolerance", positive<&LoadArguments::load, &io::LoadOptions::tolerance>},
     {"feature_angle", read_feature_angle},
-    {"keep_mesh", read_keep_mesh},
-    {"scale", read_scale},
+    {"keep_mesh", boolean<&LoadArguments::load, &io::LoadOptions::keep_mesh>},
+    {"scale", positive<&LoadArguments::load, &io::LoadOptions::scale>},
     {"cad_seconds", read_cad_seconds},
     {"cad_megabytes", read_cad_megabytes},
     {"without", read_without<LoadArguments>},

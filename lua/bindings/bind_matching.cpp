@@ -56,10 +56,8 @@ void push_match(lua_State* L, const topology::Model& model, const matching::Matc
     lua_createtable(L, 0, 5);
     push_array(L, match.loops, [&](const auto& item) {
         lua_createtable(L, 0, 3);
-        lua_pushinteger(L, to_lua(static_cast<Index>(item.source)));
-        lua_setfield(L, -2, "source");
-        lua_pushinteger(L, to_lua(static_cast<Index>(item.target)));
-        lua_setfield(L, -2, "target");
+        set_whole(L, "source", to_lua(static_cast<Index>(item.source)));
+        set_whole(L, "target", to_lua(static_cast<Index>(item.target)));
         set_boolean(L, "flipped", item.flipped);
     });
     lua_setfield(L, -2, "loops");

@@ -7,17 +7,9 @@ namespace lacuna::lua {
 
 namespace {
 
-int mesh_nodes(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(check<MeshState>(L, 1).swept.mesh.node_count()));
-    return 1;
-}
+int mesh_nodes(lua_State* L) { return give(L, check<MeshState>(L, 1).swept.mesh.node_count()); }
 
-int mesh_layers(lua_State* L)
-{
-    lua_pushinteger(L, check<MeshState>(L, 1).swept.mesh.layers);
-    return 1;
-}
+int mesh_layers(lua_State* L) { return give(L, check<MeshState>(L, 1).swept.mesh.layers); }
 
 int mesh_report(lua_State* L)
 {
@@ -32,8 +24,7 @@ void push_face_fidelity(lua_State* L, const sweep::FaceFidelity& face)
     set_count(L, "quads", face.quads);
     set_number(L, "max_distance", face.max_distance);
     set_number(L, "mean_distance", face.mean_distance);
-    push_vector(L, face.place);
-    lua_setfield(L, -2, "place");
+    set_vector(L, "place", face.place);
 }
 
 } // namespace

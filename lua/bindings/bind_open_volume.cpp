@@ -89,8 +89,7 @@ const Option<RoleArguments> kRoleOptions[] = {
 int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
-    const Box<ModelState>& model = hold_box<ModelState>(L, 1);
-    bring_up_to_date(L, *model);
+    const Box<ModelState>& model = hold_model(L, 1);
     auto& arguments = temporary<RoleArguments>(L);
     arguments.model = &model;
     read_options(L, 2, "open_volume", kRoleOptions, arguments);
@@ -161,13 +160,8 @@ int free_edges(lua_State* L)
     const topology::Model& model = state.volume.model;
     auto& edges = temporary<std::vector<EdgeId>>(L);
     guard(L, [&] { edges = topology::free_edges(state.volume); });
-    push_array(L, edges, [&](const auto& item) {
-        lua_createtable(L, 0, 4); // a finalizer may close the volume, which moves its edges: no reference
-        set_count(L, "tag", static_cast<std::size_t>(model[item].tag));
-        set_count(L, "from", static_cast<std::size_t>(model[model[item].from].tag));
-        set_count(L, "to", static_cast<std::size_t>(model[model[item].to].tag));
-        set_number(L, "length", topology::edge_length(model, item));
-    });
+    // A finalizer may close the volume, which moves its edges: no reference to one is kept.
+    push_array(L, edges, [&](EdgeId edge) { push_edge(L, model, edge); });
     return 1;
 }
 

@@ -10,20 +10,14 @@ namespace {
 
 constexpr const char* kQualityMeta = "Quality";
 
-void push_worst(lua_State* L, const std::vector<quality::WorstCell>& worst)
+/// A cell, its layer where it has one, its centre, and its value of `name`. Of a WorstCell or MetricSummary.
+void push_cell(lua_State* L, std::size_t cell, int layer, const Vec3& centre, const char* name, double value)
 {
-    push_array(L, worst, [&](const auto& item) {
-        lua_createtable(L, 0, 4);
-        lua_pushinteger(L, to_lua(item.cell));
-        lua_setfield(L, -2, "cell");
-        if (item.layer >= 0) {
-            lua_pushinteger(L, to_lua(static_cast<Index>(item.layer)));
-            lua_setfield(L, -2, "layer");
-        }
-        push_vector(L, item.centre);
-        lua_setfield(L, -2, "centre");
-        set_number(L, "scaled_jacobian", item.scaled_jacobian);
-    });
+    lua_createtable(L, 0, 4);
+    set_whole(L, "cell", to_lua(cell));
+    if (layer >= 0) set_whole(L, "layer", to_lua(static_cast<Index>(layer)));
+    set_vector(L, "centre", centre);
+    set_number(L, name, value);
 }
 
 /// The source of the Quality at index 1; its userdata is left on the stack.
@@ -50,20 +44,6 @@ void measure_metrics(lua_State* L, QualitySource& source)
     });
 }
 
-void push_worst_of(lua_State* L, const quality::MetricSummary& summary)
-{
-    lua_createtable(L, 0, 4);
-    lua_pushinteger(L, to_lua(summary.worst));
-    lua_setfield(L, -2, "cell");
-    if (summary.layer >= 0) {
-        lua_pushinteger(L, to_lua(static_cast<Index>(summary.layer)));
-        lua_setfield(L, -2, "layer");
-    }
-    push_vector(L, summary.centre);
-    lua_setfield(L, -2, "centre");
-    set_number(L, "value", summary.value);
-}
-
 void push_metric(lua_State* L, const quality::MetricSummary& summary)
 {
     const quality::MetricInfo& info = quality::metric_info(summary.metric);
@@ -80,7 +60,7 @@ void push_metric(lua_State* L, const quality::MetricSummary& summary)
                    [&](double bound) { lua_pushnumber(L, bound); });
         lua_setfield(L, -2, "acceptable");
     }
-    push_worst_of(L, summary);
+    push_cell(L, summary.worst, summary.layer, summary.centre, "value", summary.value);
     lua_setfield(L, -2, "worst");
 }
 
@@ -198,7 +178,9 @@ void push_quality(lua_State* L, int source)
     set_count(L, "hexes", q.hexes);
     set_count(L, "wedges", q.wedges);
     set_number(L, "volume", q.volume);
-    push_worst(L, q.worst);
+    push_array(L, q.worst, [&](const quality::WorstCell& worst) {
+        push_cell(L, worst.cell, worst.layer, worst.centre, "scaled_jacobian", worst.scaled_jacobian);
+    });
     lua_setfield(L, -2, "worst");
     push_array(L, q.histogram, [&](const auto& item) { lua_pushinteger(L, static_cast<lua_Integer>(item)); });
     lua_setfield(L, -2, "histogram");

@@ -112,14 +112,6 @@ void add(ModelState& state, const AddedFace& face)
 
 // --- Model ----------------------------------------------------------------------------------------------
 
-/// The Model at `index`, held and brought up to date.
-const Box<ModelState>& hold_model(lua_State* L, int index)
-{
-    const Box<ModelState>& state = hold_box<ModelState>(L, index);
-    bring_up_to_date(L, *state);
-    return state;
-}
-
 struct NewModel {
     double tolerance = 0;
 };
@@ -221,8 +213,7 @@ int model_to_string(lua_State* L)
 template <double topology::Model::*Member>
 int model_length(lua_State* L)
 {
-    lua_pushnumber(L, hold_model(L, 1)->model.*Member);
-    return 1;
+    return give(L, hold_model(L, 1)->model.*Member);
 }
 
 const luaL_Reg kModelMethods[] = {
@@ -257,11 +248,7 @@ const topology::Face& this_face(lua_State* L)
     return held.model[held.face];
 }
 
-int face_tag(lua_State* L)
-{
-    lua_pushinteger(L, this_face(L).tag);
-    return 1;
-}
+int face_tag(lua_State* L) { return give(L, this_face(L).tag); }
 
 template <std::string topology::Face::*Member>
 int face_text(lua_State* L)
@@ -274,8 +261,7 @@ int face_text(lua_State* L)
 int face_area(lua_State* L)
 {
     const HeldFace held = hold_face(L);
-    lua_pushnumber(L, topology::face_area(held.model, held.face));
-    return 1;
+    return give(L, topology::face_area(held.model, held.face));
 }
 
 template <Vec3 (*Of)(const topology::Model&, FaceId)>
@@ -286,18 +272,13 @@ int face_vector(lua_State* L)
     return 1;
 }
 
-int face_loops(lua_State* L)
-{
-    lua_pushinteger(L, static_cast<lua_Integer>(this_face(L).loops.size()));
-    return 1;
-}
+int face_loops(lua_State* L) { return give(L, this_face(L).loops.size()); }
 
 int face_edges(lua_State* L)
 {
     std::size_t uses = 0;
     for (const topology::Loop& loop : this_face(L).loops) uses += loop.uses.size();
-    lua_pushinteger(L, static_cast<lua_Integer>(uses));
-    return 1;
+    return give(L, uses);
 }
 
 int face_has_mesh(lua_State* L)

@@ -38,42 +38,10 @@ const io::OutputPath& push_path(lua_State* L, int index, const char* call, const
     });
     return path;
 }
-const io::OutputPath& push_page_path(lua_State* L, int index) { return push_path(L, index, "view", ".html"); }
-
 /// One file by its name: what a recipe on the page can load.
 std::string loadable(const ModelState& state)
 {
     return state.hand_made || state.decks.size() > 1 ? "" : state.model.source;
-}
-
-/// model:view(path [, options])
-int view_model(lua_State* L)
-{
-    lua_settop(L, 3);
-    const Box<ModelState>& state = hold_box<ModelState>(L, 1);
-    const io::OutputPath& path = push_page_path(L, 2);
-    auto& options = temporary<view::PageOptions>(L);
-    read_options(L, 3, "view", kPageOptions, options);
-    RunContext& context = push_context(L);
-    guard(L, [&] {
-        refresh(*state, context);
-        options.path = loadable(*state);
-        view::write_page(state->model, path, options, context);
-    });
-    return 0;
-}
-
-/// volume:view(path [, options])
-int view_volume(lua_State* L)
-{
-    lua_settop(L, 3);
-    const auto& state = hold<VolumeState>(L, 1);
-    const io::OutputPath& path = push_page_path(L, 2);
-    auto& options = temporary<view::PageOptions>(L);
-    read_options(L, 3, "view", kPageOptions, options);
-    RunContext& context = push_context(L);
-    guard(L, [&] { view::write_page(state.volume, path, options, context); });
-    return 0;
 }
 
 std::vector<view::Region> regions_of(const MeshState& state)
@@ -90,17 +58,36 @@ std::vector<view::Region> regions_of(const AssemblyMeshState& state)
     return regions;
 }
 
-/// mesh:view(path [, options]), of one volume or an assembly
+void write_page(ModelState& state, const io::OutputPath& path, view::PageOptions& options,
+                const RunContext& context)
+{
+    refresh(state, context);
+    options.path = loadable(state);
+    view::write_page(state.model, path, options, context);
+}
+void write_page(const VolumeState& state, const io::OutputPath& path, const view::PageOptions& options,
+                const RunContext& context)
+{
+    view::write_page(state.volume, path, options, context);
+}
+template <class Mesh>
+void write_page(const Mesh& state, const io::OutputPath& path, const view::PageOptions& options,
+                const RunContext& context)
+{
+    view::write_page(regions_of(state), path, options, context);
+}
+
+/// x:view(path [, options])
 template <class State>
-int view_mesh(lua_State* L)
+int view_page(lua_State* L)
 {
     lua_settop(L, 3);
-    const auto& state = hold<State>(L, 1);
-    const io::OutputPath& path = push_page_path(L, 2);
+    auto& state = hold<State>(L, 1);
+    const io::OutputPath& path = push_path(L, 2, "view", ".html");
     auto& options = temporary<view::PageOptions>(L);
     read_options(L, 3, "view", kPageOptions, options);
     RunContext& context = push_context(L);
-    guard(L, [&] { view::write_page(regions_of(state), path, options, context); });
+    guard(L, [&] { write_page(state, path, options, context); });
     return 0;
 }
 
@@ -130,17 +117,8 @@ void read_direction(lua_State* L, int index, const Where& where, view::PictureOp
     options.direction = {x, y, z};
 }
 
-void read_cut_point(lua_State* L, int index, const Where& where, view::CutPlane& plane)
-{
-    plane.point = read_vector(L, index, where);
-}
-
-void read_cut_normal(lua_State* L, int index, const Where& where, view::CutPlane& plane)
-{
-    plane.normal = read_vector(L, index, where);
-}
-
-const Option<view::CutPlane> kCutOptions[] = {{"point", read_cut_point}, {"normal", read_cut_normal}};
+const Option<view::CutPlane> kCutOptions[] = {{"point", vector<&view::CutPlane::point>},
+                                              {"normal", vector<&view::CutPlane::normal>}};
 
 void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions& options)
 {
@@ -268,7 +246,7 @@ int view(lua_State* L)
 {
     lua_settop(L, 3);
     const char* file = read_string(L, 1, {"view", nullptr});
-    const io::OutputPath& path = push_page_path(L, 2);
+    const io::OutputPath& path = push_path(L, 2, "view", ".html");
     auto& options = temporary<ViewFile>(L);
     read_options(L, 3, "view", kFileOptions, options);
     const Host& lent = host(L);
@@ -284,13 +262,15 @@ int view(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kModelMethods[] = {
-    {"view", view_model}, {"picture", picture<ModelState, kFacePictureOptions>}, {nullptr, nullptr}};
-const luaL_Reg kVolumeMethods[] = {
-    {"view", view_volume}, {"picture", picture<VolumeState, kFacePictureOptions>}, {nullptr, nullptr}};
+const luaL_Reg kModelMethods[] = {{"view", view_page<ModelState>},
+                                  {"picture", picture<ModelState, kFacePictureOptions>},
+                                  {nullptr, nullptr}};
+const luaL_Reg kVolumeMethods[] = {{"view", view_page<VolumeState>},
+                                   {"picture", picture<VolumeState, kFacePictureOptions>},
+                                   {nullptr, nullptr}};
 const luaL_Reg kMeshMethods[] = {
-    {"view", view_mesh<MeshState>}, {"picture", picture<MeshState, kPictureOptions>}, {nullptr, nullptr}};
-const luaL_Reg kAssemblyMethods[] = {{"view", view_mesh<AssemblyMeshState>},
+    {"view", view_page<MeshState>}, {"picture", picture<MeshState, kPictureOptions>}, {nullptr, nullptr}};
+const luaL_Reg kAssemblyMethods[] = {{"view", view_page<AssemblyMeshState>},
                                      {"picture", picture<AssemblyMeshState, kPictureOptions>},
                                      {nullptr, nullptr}};
 const luaL_Reg kFunctions[] = {{"view", view}, {nullptr, nullptr}};

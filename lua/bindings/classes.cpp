@@ -56,6 +56,13 @@ void bring_up_to_date(lua_State* L, ModelState& state)
     lua_pop(L, 1);
 }
 
+const Box<ModelState>& hold_model(lua_State* L, int index)
+{
+    const Box<ModelState>& state = hold_box<ModelState>(L, index);
+    bring_up_to_date(L, *state);
+    return state;
+}
+
 FaceId face_now(const FaceHandle& handle)
 {
     FaceId face = handle.face;
@@ -106,16 +113,27 @@ void push_vector(lua_State* L, const Vec3& vector)
     }
 }
 
+void set_vector(lua_State* L, const char* key, const Vec3& vector)
+{
+    push_vector(L, vector);
+    lua_setfield(L, -2, key);
+}
+
 void set_number(lua_State* L, const char* key, double value)
 {
     lua_pushnumber(L, value);
     lua_setfield(L, -2, key);
 }
 
+void set_whole(lua_State* L, const char* key, lua_Integer value)
+{
+    lua_pushinteger(L, value);
+    lua_setfield(L, -2, key);
+}
+
 void set_count(lua_State* L, const char* key, std::size_t value)
 {
-    lua_pushinteger(L, static_cast<lua_Integer>(value));
-    lua_setfield(L, -2, key);
+    set_whole(L, key, static_cast<lua_Integer>(value));
 }
 
 void set_boolean(lua_State* L, const char* key, bool value)
@@ -128,6 +146,21 @@ void set_string(lua_State* L, const char* key, const char* value)
 {
     lua_pushstring(L, value);
     lua_setfield(L, -2, key);
+}
+
+void set_string(lua_State* L, const char* key, const std::string& value)
+{
+    lua_pushlstring(L, value.data(), value.size());
+    lua_setfield(L, -2, key);
+}
+
+void push_edge(lua_State* L, const topology::Model& model, EdgeId edge)
+{
+    lua_createtable(L, 0, 5);
+    set_whole(L, "tag", model[edge].tag);
+    set_whole(L, "from", model[model[edge].from].tag);
+    set_whole(L, "to", model[model[edge].to].tag);
+    set_number(L, "length", topology::edge_length(model, edge));
 }
 
 namespace {

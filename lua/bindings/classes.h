@@ -41,6 +41,8 @@ void refresh(ModelState& state, const RunContext& context);
 
 /// The same with the host's context, where errors may be raised.
 void bring_up_to_date(lua_State* L, ModelState& state);
+/// The Model at `index`, held and brought up to date.
+const Box<ModelState>& hold_model(lua_State* L, int index);
 
 struct FaceHandle {
     std::shared_ptr<ModelState> model;
@@ -126,11 +128,14 @@ RunContext& push_context(lua_State* L);
 
 // --- pushing ------------------------------------------------------------------------------------------
 
-void push_vector(lua_State* L, const Vec3& vector);           ///< {x, y, z}
-void set_number(lua_State* L, const char* key, double value); ///< into the table on top
+void push_vector(lua_State* L, const Vec3& vector);                 ///< {x, y, z}
+void set_vector(lua_State* L, const char* key, const Vec3& vector); ///< into the table on top
+void set_number(lua_State* L, const char* key, double value);
+void set_whole(lua_State* L, const char* key, lua_Integer value);
 void set_count(lua_State* L, const char* key, std::size_t value);
 void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
+void set_string(lua_State* L, const char* key, const std::string& value); ///< any bytes
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
 /// Near misses of an assembly, as `near_misses` of the report on top of the stack.
 void set_near_misses(lua_State* L, const fill::FilledParts& mesh);
@@ -159,6 +164,21 @@ void push_array(lua_State* L, const Items& items, const Push& push)
         lua_rawseti(L, -2, to_lua(i));
     }
 }
+/// A result of a function of Lua. @return  the number of results
+inline int give(lua_State* L, double value)
+{
+    lua_pushnumber(L, value);
+    return 1;
+}
+inline int give(lua_State* L, std::integral auto value)
+{
+    lua_pushinteger(L, static_cast<lua_Integer>(value));
+    return 1;
+}
+
+/// An edge of the model as a table: its tag, those of its ends, its length.
+void push_edge(lua_State* L, const topology::Model& model, EdgeId edge);
+
 /// Tags of entities of the model, as an array in the table on top.
 template <class Id>
 void set_tags(lua_State* L, const char* key, const topology::Model& model, const std::vector<Id>& ids)
@@ -179,14 +199,12 @@ std::size_t sum_of(const State& state)
 template <class State, auto Count>
 int push_sum(lua_State* L)
 {
-    lua_pushinteger(L, static_cast<lua_Integer>(sum_of<Count>(check<State>(L, 1))));
-    return 1;
+    return give(L, sum_of<Count>(check<State>(L, 1)));
 }
 template <class State>
 int mesh_order(lua_State* L)
 {
-    lua_pushinteger(L, fill::parts(check<State>(L, 1)).front().mesh.order());
-    return 1;
+    return give(L, fill::parts(check<State>(L, 1)).front().mesh.order());
 }
 /// { {name=, dim=, cells=}, ... } = mesh:groups()
 template <class State>

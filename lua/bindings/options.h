@@ -100,31 +100,46 @@ void read_options(lua_State* L, int index, const char* call, const Option<Option
     }
 }
 
+/// The member of a member: `member<&LoadArguments::load, &io::LoadOptions::scale>(arguments)`.
+template <auto Member, auto... Inner, class Options>
+auto& member(Options& o)
+{
+    if constexpr (sizeof...(Inner) == 0)
+        return o.*Member;
+    else
+        return member<Inner...>(o.*Member);
+}
+
 // Readers straight into a member: `{"scale", positive<&LoadOptions::scale>}`.
-template <auto Member, class Options>
+template <auto... Member, class Options>
 void number(lua_State* L, int i, const Where& where, Options& o)
 {
-    o.*Member = read_number(L, i, where);
+    member<Member...>(o) = read_number(L, i, where);
 }
-template <auto Member, class Options>
+template <auto... Member, class Options>
 void positive(lua_State* L, int i, const Where& where, Options& o)
 {
-    o.*Member = read_positive(L, i, where);
+    member<Member...>(o) = read_positive(L, i, where);
 }
-template <auto Member, class Options>
+template <auto... Member, class Options>
 void count(lua_State* L, int i, const Where& where, Options& o)
 {
-    o.*Member = read_whole(L, i, where, 1);
+    member<Member...>(o) = read_whole(L, i, where, 1);
 }
 template <auto Member, const auto& Words, class Options>
 void word(lua_State* L, int i, const Where& where, Options& o)
 {
     o.*Member = read_word(L, i, where, Words);
 }
-template <auto Member, class Options>
+template <auto... Member, class Options>
 void boolean(lua_State* L, int i, const Where& where, Options& o)
 {
-    o.*Member = read_boolean(L, i, where);
+    member<Member...>(o) = read_boolean(L, i, where);
+}
+template <auto... Member, class Options>
+void vector(lua_State* L, int i, const Where& where, Options& o)
+{
+    member<Member...>(o) = read_vector(L, i, where);
 }
 
 // --- nearest names ----------------------------------------------------------------------------------

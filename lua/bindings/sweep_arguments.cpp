@@ -281,11 +281,6 @@ void read_order(lua_State* L, int index, const Where& where, SweepArguments& arg
     if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
 }
 
-void read_serendipity(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    arguments.second_order.serendipity = read_boolean(L, index, where);
-}
-
 void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
     arguments.curvature = read_whole(L, index, where, 0);
@@ -329,7 +324,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"boundary_layers", read_boundary_layers},
     {"intervals", read_intervals},
     {"order", read_order},
-    {"serendipity", read_serendipity},
+    {"serendipity", boolean<&SweepArguments::second_order, &sweep::SecondOrderOptions::serendipity>},
     {"min_scaled_jacobian", number<&SweepArguments::min_scaled_jacobian>},
     {"improve", read_improve},
     {"interior", word<&SweepArguments::interior, kInteriors>},

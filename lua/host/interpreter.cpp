@@ -43,19 +43,6 @@ private:
     locale_t before_;
 };
 
-/// Restores the height of Lua's stack on every exit.
-class SameTop {
-public:
-    explicit SameTop(lua_State* L) : state_(L), top_(lua_gettop(L)) {}
-    ~SameTop() { lua_settop(state_, top_); }
-    SameTop(const SameTop&) = delete;
-    SameTop& operator=(const SameTop&) = delete;
-
-private:
-    lua_State* state_;
-    int top_;
-};
-
 std::string text_at(lua_State* L, int index)
 {
     std::size_t length = 0;
@@ -135,6 +122,20 @@ void push_path(lua_State* L, const char* path, bool owner)
 } // namespace
 
 struct Interpreter::State {
+    /// A call of the host while no recipe runs: restores the height of Lua's stack on every exit.
+    /// @throw InvalidInput "lua.busy"  a recipe runs.
+    class Visit {
+    public:
+        explicit Visit(const State& state) : lua_(state.lua), top_(lua_gettop(lua_)) { state.check_free(); }
+        ~Visit() { lua_settop(lua_, top_); }
+        Visit(const Visit&) = delete;
+        Visit& operator=(const Visit&) = delete;
+
+    private:
+        lua_State* lua_;
+        int top_;
+    };
+
     enum class Why { nothing, cancelled, instructions };
 
     InterpreterOptions options;
@@ -449,8 +450,7 @@ Value Interpreter::call(int arguments)
     state_->check_free();
     const int base = lua_gettop(state_->lua) - arguments - 1;
     state_->call(arguments, 1);
-    const SameTop restored(state_->lua);
-    const Value result = state_->value_at(-1);
+    Value result = state_->value_at(-1);
     lua_settop(state_->lua, base);
     return result;
 }
@@ -458,8 +458,7 @@ Value Interpreter::call(int arguments)
 Value Interpreter::run_file(const std::string& path, const std::vector<std::string>& words)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([&](lua_State* L) {
         lua_pushboolean(L, 0);
         lua_setfield(L, LUA_REGISTRYINDEX, lua::kUsedParams);
@@ -491,8 +490,7 @@ Value Interpreter::run_file(const std::string& path, const std::vector<std::stri
 Value Interpreter::run_string(std::string_view text, const std::string& name)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     const std::string chunk = "=" + name;
     int loaded = LUA_OK;
     self.protect([&](lua_State* L) {
@@ -507,8 +505,7 @@ Value Interpreter::run_string(std::string_view text, const std::string& name)
 bool Interpreter::words_used()
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([](lua_State* L) { lua_getfield(L, LUA_REGISTRYINDEX, lua::kUsedParams); });
     return lua_toboolean(self.lua, -1) != 0;
 }
@@ -516,8 +513,7 @@ bool Interpreter::words_used()
 void Interpreter::set(const std::string& path, const Value& value)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([&](lua_State* L) {
         push_path(L, path.c_str(), true);
         if (const auto* boolean = std::get_if<bool>(&value))
@@ -537,8 +533,7 @@ void Interpreter::set(const std::string& path, const Value& value)
 void Interpreter::set_numbers(const std::string& path, const double* numbers, std::size_t count)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([&](lua_State* L) {
         push_path(L, path.c_str(), true);
         const std::size_t room = std::min<std::size_t>(count, std::numeric_limits<int>::max());
@@ -554,8 +549,7 @@ void Interpreter::set_numbers(const std::string& path, const double* numbers, st
 Value Interpreter::get(const std::string& path)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([&](lua_State* L) { push_path(L, path.c_str(), false); });
     return self.value_at(-1);
 }
@@ -563,8 +557,7 @@ Value Interpreter::get(const std::string& path)
 std::string Interpreter::type_of(const std::string& path)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     self.protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
         if (luaL_getmetafield(L, -1, "__name") != LUA_TSTRING) lua_pushstring(L, luaL_typename(L, 1));
@@ -575,8 +568,7 @@ std::string Interpreter::type_of(const std::string& path)
 BufferView Interpreter::buffer(const std::string& path)
 {
     State& self = *state_;
-    self.check_free();
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     BufferView view;
     self.protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);
@@ -605,7 +597,7 @@ std::vector<double> Interpreter::get_numbers(const std::string& path)
             std::copy_n(static_cast<const std::int32_t*>(view.data), numbers.size(), numbers.begin());
         return numbers;
     }
-    const SameTop restored(self.lua);
+    const State::Visit visit(self);
     std::size_t count = 0;
     self.protect([&](lua_State* L) {
         push_path(L, path.c_str(), false);

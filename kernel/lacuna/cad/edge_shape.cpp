@@ -105,8 +105,8 @@ std::vector<Vec3> EdgeShape::at(std::span<const double> shares) const
             places[i] = (1 - shares[i]) * points_.front() + shares[i] * points_.back();
         break;
     case Kind::smooth: {
-        const SplineCurve spline = interpolate(points_);
-        for (std::size_t i = 0; i < shares.size(); ++i) places[i] = spline.at(shares[i]);
+        const SplineCurveData spline = interpolate(points_);
+        for (std::size_t i = 0; i < shares.size(); ++i) places[i] = point_at(spline, shares[i]);
         break;
     }
     case Kind::polyline:

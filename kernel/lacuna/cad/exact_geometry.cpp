@@ -17,21 +17,21 @@ constexpr std::size_t kAtOnce = 20'000;
 /// process, with the models it holds, need not be killed.
 constexpr double kGrace = 0.3;
 
-void require_same(std::size_t asked, std::size_t came, const CadSource& source)
+/// Ask the process that holds a model for `count` points.
+template <class Reply, class Make>
+Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, std::string doing,
+                 std::size_t count, const RunContext& context)
 {
-    if (asked != came)
+    Task task{source.path(), std::move(doing)};
+    task.points = count;
+    task.context = &context;
+    task.grace = kGrace;
+    Reply reply = source.ask<Reply>(opcode, make, task);
+    if (reply.points.size() != count)
         throw BackendError("cad.protocol",
                            source.path() +
                                ": the CAD process returned the wrong number of points; load the file again");
-}
-
-Task points_task(const CadSource& source, std::string doing, std::size_t points, const RunContext& context)
-{
-    Task task{source.path(), std::move(doing)};
-    task.points = points;
-    task.context = &context;
-    task.grace = kGrace;
-    return task;
+    return reply;
 }
 
 } // namespace
@@ -103,10 +103,9 @@ void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunCo
         const auto request = [&](std::uint64_t handle) {
             return ProjectRequest{handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}};
         };
-        const auto reply = source_->ask<ProjectReply>(
-            Opcode::project, request,
-            points_task(*source_, "projecting points onto face " + std::to_string(tag_), count, context));
-        require_same(count, reply.points.size(), *source_);
+        const auto reply = ask_points<ProjectReply>(*source_, Opcode::project, request,
+                                                    "projecting points onto face " + std::to_string(tag_),
+                                                    count, context);
         std::copy(reply.points.begin(), reply.points.end(), some.begin());
         std::copy(reply.uv.begin(), reply.uv.end(), places.begin());
     }
@@ -126,10 +125,8 @@ void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
         const auto request = [&](std::uint64_t handle) {
             return EvaluateRequest{handle, tag_, {some.begin(), some.end()}};
         };
-        const auto reply = source_->ask<EvaluateReply>(
-            Opcode::evaluate, request,
-            points_task(*source_, "evaluating curve " + std::to_string(tag_), count, context));
-        require_same(count, reply.points.size(), *source_);
+        const auto reply = ask_points<EvaluateReply>(
+            *source_, Opcode::evaluate, request, "evaluating curve " + std::to_string(tag_), count, context);
         std::copy(reply.points.begin(), reply.points.end(),
                   points.begin() + static_cast<std::ptrdiff_t>(from));
     }

@@ -35,19 +35,15 @@ constexpr std::size_t kMostContents = 100;
     throw BackendError("cad.unreadable", path + " cannot be read: " + std::strerror(error));
 }
 
-std::string text_of(const Descriptor& file, std::size_t most)
+/// Write bytes at a place of a file. @param path  for messages
+void write_at(const Descriptor& file, std::string_view bytes, std::uint64_t at, const std::string& path)
 {
-    const off_t size = std::max<off_t>(0, ::lseek(file.get(), 0, SEEK_END));
-    std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
-    std::size_t got = 0;
-    while (got < text.size()) {
-        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got,
-                                    static_cast<off_t>(got));
-        if (now <= 0) break;
-        got += static_cast<std::size_t>(now);
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t now = ::pwrite(file.get(), bytes.data() + done, bytes.size() - done,
+                                     static_cast<off_t>(at + done));
+        if (now < 0 && errno != EINTR) fail(path, errno);
+        if (now > 0) done += static_cast<std::size_t>(now);
     }
-    text.resize(got);
-    return text;
 }
 
 bool is_step(const std::string& head) { return head.find("ISO-10303-21") != std::string::npos; }
@@ -83,26 +79,19 @@ void add_copy(InputFile& input, const std::string& name, const std::string& path
     Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!copy) fail(path, errno);
     std::vector<char> block(kBlock);
-    std::uint64_t digest = digest_of(name, 0);
+    std::uint64_t digest = digest_of(name, 0), bytes = 0;
     for (;;) {
         check_cancelled(context);
         const ssize_t got = ::read(from.get(), block.data(), block.size());
         if (got == 0) break;
         if (got < 0 && errno != EINTR) fail(path, errno);
-        for (ssize_t put = 0; put < got;) {
-            const ssize_t now = ::write(copy.get(), block.data() + put, static_cast<std::size_t>(got - put));
-            if (now < 0 && errno != EINTR) fail(path, errno);
-            if (now > 0) put += now;
-        }
-        const std::size_t count = got > 0 ? static_cast<std::size_t>(got) : 0;
-        digest = digest_of(std::span(block).first(count), digest);
-        input.bytes += count;
+        const std::span<const char> some(block.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+        write_at(copy, {some.data(), some.size()}, bytes, path);
+        digest = digest_of(some, digest);
+        bytes += some.size();
     }
-    if (runs_as_script(name_of(path), text_of(copy, kHead))) {
-        while (::write(copy.get(), "\n", 1) < 0) {
-            if (errno != EINTR) fail(path, errno);
-        }
-    }
+    input.bytes += bytes;
+    if (runs_as_script(name_of(path), text_of(copy, kHead))) write_at(copy, "\n", bytes, path);
     input.descriptors.push_back(std::move(copy));
     input.digests.push_back(digest);
     input.file.contents.push_back({name});
@@ -116,34 +105,23 @@ bool is_iges(const std::string& head)
            head.find('\n') > kColumn;
 }
 
-[[noreturn]] void throw_not_of_kind(const std::string& path, const std::string& kind)
-{
-    throw InvalidInput("cad.unreadable", path + " is not a valid " + kind +
-                                             " file; check the file, or use the ending of its format");
-}
-
 LoadFile::Format format_of(const std::string& path, const std::string& head)
 {
     const std::string ending = ending_of(path);
-    if (ending == ".step" || ending == ".stp") {
-        if (!is_step(head)) throw_not_of_kind(path, "STEP");
-        return LoadFile::step;
-    }
-    if (ending == ".iges" || ending == ".igs") {
-        if (!is_iges(head)) throw_not_of_kind(path, "IGES");
-        return LoadFile::iges;
-    }
-    if (ending == ".brep") {
-        if (!is_brep(head)) throw_not_of_kind(path, "BREP");
-        return LoadFile::brep;
-    }
+    const auto checked = [&](bool valid, const std::string& kind, LoadFile::Format format) {
+        if (valid) return format;
+        throw InvalidInput("cad.unreadable", path + " is not a valid " + kind +
+                                                 " file; check the file, or use the ending of its format");
+    };
+    if (ending == ".step" || ending == ".stp") return checked(is_step(head), "STEP", LoadFile::step);
+    if (ending == ".iges" || ending == ".igs") return checked(is_iges(head), "IGES", LoadFile::iges);
+    if (ending == ".brep") return checked(is_brep(head), "BREP", LoadFile::brep);
     // A script can run commands, so its ending must match exactly.
     const std::string written = path.substr(path.size() - ending.size());
     const bool meant = written == ending || std::none_of(written.begin(), written.end(),
                                                          [](unsigned char c) { return std::islower(c); });
-    if (!meant || is_step(head) || is_brep(head) || head.find('\0') != std::string::npos)
-        throw_not_of_kind(path, "Gmsh script");
-    return LoadFile::script;
+    const bool text = !is_step(head) && !is_brep(head) && head.find('\0') == std::string::npos;
+    return checked(meant && text, "Gmsh script", LoadFile::script);
 }
 
 /// Replace skipped commands by blanks in the copy of a script, and add a note that lists them.
@@ -158,12 +136,7 @@ void skip_commands(InputFile& input, const Descriptor& script, const std::string
     }
     if (named.empty()) return;
     input.notes.push_back(path + ": only the geometry of the script is read. Skipped commands: " + named);
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t now = ::pwrite(script.get(), text.data() + done, text.size() - done,
-                                     static_cast<off_t>(done));
-        if (now < 0 && errno != EINTR) fail(path, errno);
-        if (now > 0) done += static_cast<std::size_t>(now);
-    }
+    write_at(script, text, 0, path);
 }
 
 /// Parse a script, and add the files that it merges, recursively.
@@ -194,6 +167,21 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
 }
 
 } // namespace
+
+std::string text_of(const Descriptor& file, std::size_t most)
+{
+    const off_t size = std::max<off_t>(0, ::lseek(file.get(), 0, SEEK_END));
+    std::string text(std::min(most, static_cast<std::size_t>(size)), '\0');
+    std::size_t got = 0;
+    while (got < text.size()) {
+        const ssize_t now = ::pread(file.get(), text.data() + got, text.size() - got,
+                                    static_cast<off_t>(got));
+        if (now <= 0) break;
+        got += static_cast<std::size_t>(now);
+    }
+    text.resize(got);
+    return text;
+}
 
 std::uint64_t digest_of(std::uint64_t word, std::uint64_t before)
 {

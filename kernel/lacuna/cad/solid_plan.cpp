@@ -55,11 +55,6 @@ std::vector<Loop> outermost_first(const Model& model, std::vector<Loop> loops)
     return loops;
 }
 
-SplineAxisData data_of(const SplineAxis& axis)
-{
-    return {axis.degree, axis.knots, {axis.multiplicities.begin(), axis.multiplicities.end()}};
-}
-
 class Planner {
 public:
     Planner(const OpenVolume& volume, const SolidSources& sources, const BeginSolidReply& found,
@@ -69,8 +64,8 @@ public:
         Eigen::AlignedBox3d box;
         for (const Vec3& p : model_.points) box.extend(p);
         precision_ = kPrecision * box.diagonal().norm();
-        plan_.points = model_.points;
-        plan_.diagonal = model_.diagonal;
+        plan_.request.points = model_.points;
+        plan_.request.diagonal = model_.diagonal;
         for (std::size_t s = 0; s < sources.order.size(); ++s) {
             Source& source = source_[sources.order[s]];
             source.number = static_cast<Index>(s);
@@ -86,7 +81,7 @@ public:
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             check_cancelled(context_);
             try {
-                plan_.faces.push_back(plan(FaceId(f)));
+                plan_.request.faces.push_back(plan(FaceId(f)));
             } catch (const BackendError& error) {
                 throw BackendError("cad.face_failed",
                                    name_of(model_, FaceId(f)) + " could not be made: " + error.what());
@@ -140,9 +135,8 @@ private:
             made.points = edge.points;
         } else {
             made.kind = SolidEdge::spline;
-            const SplineCurve spline = approximate([&](std::span<const double> at) { return shape.at(at); },
-                                                   precision_);
-            made.curve_data = {data_of(spline.axis), spline.poles};
+            made.curve_data = approximate([&](std::span<const double> at) { return shape.at(at); },
+                                          precision_);
         }
         return made;
     }
@@ -153,8 +147,8 @@ private:
         for (const EdgeUse& use : loop.uses) {
             Index& at = edge_at_[use.edge.index()];
             if (at < 0) {
-                plan_.edges.push_back(make_edge(use.edge));
-                at = static_cast<Index>(plan_.edges.size() - 1);
+                plan_.request.edges.push_back(make_edge(use.edge));
+                at = static_cast<Index>(plan_.request.edges.size() - 1);
             }
             uses.push_back({at, use.reversed ? 1 : 0});
         }
@@ -185,8 +179,7 @@ private:
     void patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides, SolidFace& made) const
     {
         made.kind = SolidFace::patches;
-        for (const SplineSurface& surface : void_patches(model_, model_[face], sides, precision_))
-            made.surfaces.push_back({data_of(surface.u), data_of(surface.v), surface.poles});
+        made.surfaces = void_patches(model_, model_[face], sides, precision_);
     }
 
     /// A smooth surface over the outer loop, through points of the facets and of the inner loops, which are
@@ -252,10 +245,6 @@ private:
     std::vector<Index> edge_at_; ///< position in the plan of each edge of the model; -1: not added yet
     SolidPlan plan_;
 };
-
-} // namespace
-
-namespace {
 
 /// Load all sources into one process.
 void hold_in_one(SolidSources& sources, const RunContext& context)

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace lacuna::cad {
 
@@ -32,14 +32,10 @@ std::vector<double> halfway(const std::vector<double>& parameters)
 }
 
 /// Interpolate several curves with the same axis: one column for each coordinate.
-Eigen::MatrixXd poles_through(const SplineAxis& axis, const Eigen::MatrixXd& values)
+Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
-    const auto count = static_cast<std::size_t>(values.rows());
-    Eigen::MatrixXd collocation(values.rows(), values.rows());
-    const std::vector<double> at = evenly(count - 1);
-    for (std::size_t i = 0; i < count; ++i)
-        collocation.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
-    Eigen::MatrixXd poles = collocation.partialPivLu().solve(values);
+    const std::vector<double> at = evenly(static_cast<std::size_t>(values.rows()) - 1);
+    Eigen::MatrixXd poles = basis_rows(axis, at).partialPivLu().solve(values);
     poles.row(0) = values.row(0); // exactly, as other splines share these corners
     poles.bottomRows(1) = values.bottomRows(1);
     return poles;
@@ -72,9 +68,9 @@ std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::sp
         const auto wanted = lines(probes);
         bool good = true;
         for (std::size_t line = 0; good && line < values.size(); ++line) {
-            const SplineCurve curve = interpolate(values[line]);
+            const SplineCurveData curve = interpolate(values[line]);
             std::vector<Vec3> met;
-            for (const double p : probes) met.push_back(curve.at(p));
+            for (const double p : probes) met.push_back(point_at(curve, p));
             good = greatest_distance(met, wanted[line]) <= precision;
         }
         if (good) return sides;
@@ -82,44 +78,35 @@ std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::sp
     return kMostSides;
 }
 
+/// An axis whose first and last poles are the ends.
+SplineAxisData clamped_axis(int degree, std::vector<double> knots)
+{
+    std::vector<int> multiplicities(knots.size(), 1);
+    multiplicities.front() = multiplicities.back() = degree + 1;
+    return {degree, std::move(knots), std::move(multiplicities)};
+}
+
 } // namespace
 
-SplineAxis SplineAxis::even(std::size_t count)
+SplineAxisData even_axis(std::size_t count)
 {
-    SplineAxis axis;
-    axis.degree = static_cast<int>(std::min<std::size_t>(3, count - 1));
+    const int degree = static_cast<int>(std::min<std::size_t>(3, count - 1));
     const std::vector<double> at = evenly(count - 1);
-    axis.knots.push_back(0);
+    std::vector<double> knots{0};
     // Not-a-knot: the first and last inner parameters of a cubic are not knots.
-    for (std::size_t i = 2; axis.degree == 3 && i + 2 < at.size(); ++i) axis.knots.push_back(at[i]);
-    axis.knots.push_back(1);
-    axis.multiplicities.assign(axis.knots.size(), 1);
-    axis.multiplicities.front() = axis.multiplicities.back() = axis.degree + 1;
-    return axis;
+    for (std::size_t i = 2; degree == 3 && i + 2 < at.size(); ++i) knots.push_back(at[i]);
+    knots.push_back(1);
+    return clamped_axis(degree, std::move(knots));
 }
 
-SplineAxis SplineAxis::spans(std::size_t count, int degree)
-{
-    SplineAxis axis;
-    axis.degree = degree;
-    axis.knots = evenly(count);
-    axis.multiplicities.assign(axis.knots.size(), 1);
-    axis.multiplicities.front() = axis.multiplicities.back() = degree + 1;
-    return axis;
-}
+SplineAxisData axis_of_spans(std::size_t spans, int degree) { return clamped_axis(degree, evenly(spans)); }
 
-std::size_t SplineAxis::poles() const
-{
-    return static_cast<std::size_t>(std::accumulate(multiplicities.begin(), multiplicities.end(), 0) -
-                                    degree - 1);
-}
-
-Eigen::VectorXd SplineAxis::basis(double parameter) const
+Eigen::VectorXd basis(const SplineAxisData& axis, double parameter)
 {
     std::vector<double> flat;
-    for (std::size_t k = 0; k < knots.size(); ++k)
-        flat.insert(flat.end(), static_cast<std::size_t>(multiplicities[k]), knots[k]);
-    const auto p = static_cast<std::size_t>(degree);
+    for (std::size_t k = 0; k < axis.knots.size(); ++k)
+        flat.insert(flat.end(), static_cast<std::size_t>(axis.multiplicities[k]), axis.knots[k]);
+    const auto p = static_cast<std::size_t>(axis.degree);
     std::size_t span = p;
     while (span + p + 2 < flat.size() && parameter >= flat[span + 1]) ++span;
     // Cox-de Boor recursion, starting from the basis function of degree 0.
@@ -136,31 +123,41 @@ Eigen::VectorXd SplineAxis::basis(double parameter) const
         }
         value[d] = saved;
     }
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(poles()));
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(flat.size() - p - 1));
     for (std::size_t r = 0; r <= p; ++r) all[static_cast<Eigen::Index>(span - p + r)] = value[r];
     return all;
 }
 
-Vec3 SplineCurve::at(double parameter) const
+Eigen::MatrixXd basis_rows(const SplineAxisData& axis, std::span<const double> parameters)
 {
-    const Eigen::VectorXd weight = axis.basis(parameter);
+    std::vector<Eigen::VectorXd> rows;
+    for (const double parameter : parameters) rows.push_back(basis(axis, parameter));
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()), rows.front().size());
+    for (Eigen::Index i = 0; i < all.rows(); ++i) all.row(i) = rows[static_cast<std::size_t>(i)].transpose();
+    return all;
+}
+
+Vec3 point_at(const SplineCurveData& curve, double parameter)
+{
+    const Eigen::VectorXd weight = basis(curve.axis, parameter);
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < poles.size(); ++i) sum += weight[static_cast<Eigen::Index>(i)] * poles[i];
+    for (std::size_t i = 0; i < curve.poles.size(); ++i)
+        sum += weight[static_cast<Eigen::Index>(i)] * curve.poles[i];
     return sum;
 }
 
-SplineCurve interpolate(std::span<const Vec3> points)
+SplineCurveData interpolate(std::span<const Vec3> points)
 {
-    SplineCurve curve{SplineAxis::even(points.size()), {}};
+    SplineCurveData curve{even_axis(points.size()), {}};
     const Eigen::MatrixXd poles = poles_through(curve.axis, rows_of(points));
     for (Eigen::Index i = 0; i < poles.rows(); ++i) curve.poles.emplace_back(poles.row(i));
     return curve;
 }
 
-SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns)
+SplineSurfaceData interpolate(std::span<const Vec3> grid, std::size_t columns)
 {
     const std::size_t rows = grid.size() / columns;
-    SplineSurface surface{SplineAxis::even(columns), SplineAxis::even(rows), {}};
+    SplineSurfaceData surface{even_axis(columns), even_axis(rows), {}};
     // Interpolate each row, then the poles of the rows in the other direction.
     Eigen::MatrixXd values(static_cast<Eigen::Index>(columns), static_cast<Eigen::Index>(3 * rows));
     for (std::size_t j = 0; j < rows; ++j)
@@ -179,14 +176,14 @@ SplineSurface interpolate(std::span<const Vec3> grid, std::size_t columns)
     return surface;
 }
 
-SplineCurve approximate(const CurveFunction& function, double precision)
+SplineCurveData approximate(const CurveFunction& function, double precision)
 {
     const std::size_t sides = sides_for(
         [&](std::span<const double> at) { return std::vector<std::vector<Vec3>>{function(at)}; }, precision);
     return interpolate(function(evenly(sides)));
 }
 
-SplineSurface approximate(const SurfaceFunction& function, double precision)
+SplineSurfaceData approximate(const SurfaceFunction& function, double precision)
 {
     const std::vector<double> across = evenly(kProbes - 1);
     const auto lines_along_u = [&](std::span<const double> at) {

@@ -84,7 +84,7 @@ std::vector<EdgeUse> backward(std::vector<EdgeUse> uses)
 
 /// A displacement added to the Coons patch; zero on all four sides.
 struct Correction {
-    SplineAxis u, v;
+    SplineAxisData u, v;
     std::array<Eigen::MatrixXd, 3> poles; ///< u by v; the outermost are zero
 };
 
@@ -109,14 +109,7 @@ public:
     {
         std::vector<Vec3> places = coons(u, v);
         if (!correction_) return places;
-        const auto basis = [](const SplineAxis& axis, std::span<const double> at) {
-            Eigen::MatrixXd rows(static_cast<Eigen::Index>(at.size()),
-                                 static_cast<Eigen::Index>(axis.poles()));
-            for (std::size_t i = 0; i < at.size(); ++i)
-                rows.row(static_cast<Eigen::Index>(i)) = axis.basis(at[i]).transpose();
-            return rows;
-        };
-        const Eigen::MatrixXd along = basis(correction_->u, u), across = basis(correction_->v, v);
+        const Eigen::MatrixXd along = basis_rows(correction_->u, u), across = basis_rows(correction_->v, v);
         for (std::size_t d = 0; d < 3; ++d) {
             const Eigen::MatrixXd added = along * correction_->poles[d] * across.transpose();
             for (std::size_t k = 0; k < places.size(); ++k)
@@ -271,17 +264,18 @@ void Patch::follow(const Model& model, const Face& face)
         return count;
     };
     Correction fit;
-    fit.u = SplineAxis::spans(spans(bottom_, top_), 3);
-    fit.v = SplineAxis::spans(spans(left_, right_), 3);
-    const auto nu = static_cast<Eigen::Index>(fit.u.poles()), nv = static_cast<Eigen::Index>(fit.v.poles());
+    fit.u = axis_of_spans(spans(bottom_, top_), 3);
+    fit.v = axis_of_spans(spans(left_, right_), 3);
+    const Eigen::MatrixXd along = basis_rows(fit.u, u), across = basis_rows(fit.v, v);
+    const Eigen::Index nu = along.cols(), nv = across.cols();
     const Eigen::Index unknowns = (nu - 2) * (nv - 2);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(unknowns, 3);
     for (std::size_t i = 0; i < off.size(); ++i) {
         if (laid.on_rim[i]) continue;
-        const Eigen::VectorXd bu = fit.u.basis(u[i]).segment(1, nu - 2),
-                              bv = fit.v.basis(v[i]).segment(1, nv - 2);
-        const Eigen::MatrixXd product = bu * bv.transpose();
+        const auto row_of = static_cast<Eigen::Index>(i);
+        const Eigen::VectorXd bu = along.row(row_of).segment(1, nu - 2).transpose();
+        const Eigen::MatrixXd product = bu * across.row(row_of).segment(1, nv - 2);
         const Eigen::Map<const Eigen::VectorXd> row(product.data(), unknowns);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
         right += row * off[i].transpose();
@@ -300,14 +294,14 @@ void Patch::follow(const Model& model, const Face& face)
 
 } // namespace
 
-std::vector<SplineSurface> void_patches(const Model& model, const Face& face,
-                                        const std::vector<std::vector<EdgeUse>>& sides, double precision)
+std::vector<SplineSurfaceData> void_patches(const Model& model, const Face& face,
+                                            const std::vector<std::vector<EdgeUse>>& sides, double precision)
 {
     Patch patch(model, sides);
     patch.follow(model, face);
     // A surface fitted to facets is not more precise than the facets.
     if (patch.follows()) precision *= 10;
-    std::vector<SplineSurface> surfaces;
+    std::vector<SplineSurfaceData> surfaces;
     const std::vector<double>&u = patch.breaks_u(), &v = patch.breaks_v();
     for (std::size_t j = 0; j + 1 < v.size(); ++j) {
         for (std::size_t i = 0; i + 1 < u.size(); ++i) {

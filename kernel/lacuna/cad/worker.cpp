@@ -2,6 +2,8 @@
 #include <lacuna/cad/detail/worker.h>
 
 #include <lacuna/cad/detail/worker_program.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <sstream>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -70,15 +71,6 @@ std::uint64_t memory_for(const Task& task, std::uint64_t charged)
     if (memory == 0) memory = kMemory + charged;
     if (task.limits.memory == 0) return memory;
     return task.limits.may_raise ? task.limits.memory : std::min(task.limits.memory, memory);
-}
-
-/// A number for messages.
-std::string plain(double value)
-{
-    std::ostringstream text;
-    text.precision(3);
-    text << value;
-    return text.str();
 }
 
 /// Thrown when the time limit is exceeded.
@@ -216,6 +208,14 @@ Current& current_of_process()
     return *current;
 }
 
+/// Whether a process has ended; its exit status can still be read.
+bool has_ended(const Descriptor& process)
+{
+    siginfo_t info{};
+    const auto id = static_cast<id_t>(process.get());
+    return ::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+}
+
 } // namespace
 
 std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::string& subject)
@@ -239,10 +239,7 @@ std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::st
 
 void Worker::notice_end() noexcept
 {
-    if (ended_) return;
-    siginfo_t info{};
-    const auto id = static_cast<id_t>(process_.get());
-    if (::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0) end();
+    if (!ended_ && has_ended(process_)) end();
 }
 
 bool Worker::lives()
@@ -288,7 +285,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     } catch (const TimeOver&) {
         end();
         throw BackendError("cad.no_worker",
-                           program + " did not answer within " + plain(kStartSeconds) + " s");
+                           program + " did not answer within " + with_digits(kStartSeconds, 3) + " s");
     } catch (const ChannelClosed&) {
         end();
         throw BackendError("cad.no_worker",
@@ -346,18 +343,9 @@ std::string Worker::last_words() const
 void Worker::died(const Task& task)
 {
     // The stream may close shortly before the process ends.
-    if (!ended_) {
-        siginfo_t info{};
-        constexpr int kTries = 100; // of 10 ms: a large process takes time to end
-        for (int i = 0; i < kTries; ++i) {
-            if (::waitid(P_PIDFD, static_cast<id_t>(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) !=
-                    0 ||
-                info.si_pid != 0)
-                break;
-            ::usleep(10'000);
-        }
-        end();
-    }
+    constexpr int kTries = 100; // of 10 ms: a large process takes time to end
+    for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
+    end();
     end_ = "it crashed on " + task.subject;
     throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing +
                                                ": " + how_it_ended() + last_words() +
@@ -395,66 +383,60 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
                        const std::vector<int>& descriptors)
 {
     const double seconds = seconds_for(task);
-    std::uint64_t charged = task.bytes * kMemoryPerByte + task.points * kMemoryPerPoint;
+    std::uint64_t charged = task.bytes * kMemoryPerByte + task.points * kMemoryPerPoint, memory = 0;
+    Failure failure;
     try {
         flush_released();
         for (const auto& [handle, size] : charged_) charged += size * kMemoryPerByte;
-        const std::uint64_t memory = memory_for(task, charged);
+        memory = memory_for(task, charged);
         limit_memory(memory);
         const Channel::Patience patience = patience_of(task.context, seconds, task.grace, pid_);
         channel_->send(opcode, bytes, descriptors, patience);
         for (;;) {
             Frame frame = channel_->receive(patience);
             if (frame.opcode == Opcode::done) return frame;
-            if (frame.opcode == Opcode::progress) {
-                const double fraction = decode<Progress>(frame.bytes).fraction;
-                if (task.context != nullptr && task.context->progress && fraction >= 0 && fraction <= 1)
-                    task.context->progress(task.stage, fraction);
-                continue;
+            if (frame.opcode == Opcode::failed) {
+                failure = decode<Failure>(frame.bytes);
+                break;
             }
-            if (frame.opcode != Opcode::failed) throw ProtocolError("unexpected kind of reply");
-            const auto failure = decode<Failure>(frame.bytes);
-            spent_ = spent_ || opcode == Opcode::load;
-            switch (failure.kind) {
-            case Failure::invalid_input:
-                throw InvalidInput(failure.code, failure.message);
-            case Failure::not_sweepable:
-                throw NotSweepable(failure.code, failure.message);
-            case Failure::out_of_memory:
-                // The process may hold memory of the failed attempt, so it is killed.
-                end_ = "it ran out of memory on " + task.subject;
-                end();
-                throw BackendError("cad.memory_limit",
-                                   task.subject + ": " + task.doing + " took more than the " +
-                                       std::to_string(memory >> 20) +
-                                       " MiB that the CAD process may use; repair the file, or allow "
-                                       "more with LACUNA_CAD_MEGABYTES");
-            default:
-                throw BackendError(failure.code, failure.message);
-            }
+            if (frame.opcode != Opcode::progress) throw ProtocolError("unexpected kind of reply");
+            const double fraction = decode<Progress>(frame.bytes).fraction;
+            if (task.context != nullptr && fraction >= 0 && fraction <= 1)
+                report_progress(*task.context, task.stage, fraction);
         }
     } catch (const TimeOver&) {
         end_ = "it exceeded its time limit on " + task.subject;
         end();
         throw BackendError(
             "cad.time_limit",
-            task.subject + ": " + task.doing + " took longer than " + plain(seconds) +
+            task.subject + ": " + task.doing + " took longer than " + with_digits(seconds, 3) +
                 " s of processor time, and the CAD process was ended; repair the file, or allow more "
                 "with LACUNA_CAD_SECONDS");
     } catch (const ChannelClosed&) {
         died(task);
     } catch (const ProtocolError& error) {
         give_up(task, error);
-    } catch (const InvalidInput&) {
-        throw;
-    } catch (const NotSweepable&) {
-        throw;
-    } catch (const BackendError&) {
-        throw;
     } catch (...) { // Cancelled, or an exception of the progress callback: do not wait for the reply.
         end_ = "it was stopped while working on " + task.subject;
         end();
         throw;
+    }
+    spent_ = spent_ || opcode == Opcode::load;
+    switch (failure.kind) {
+    case Failure::invalid_input:
+        throw InvalidInput(failure.code, failure.message);
+    case Failure::not_sweepable:
+        throw NotSweepable(failure.code, failure.message);
+    case Failure::out_of_memory:
+        // The process may hold memory of the failed attempt, so it is killed.
+        end_ = "it ran out of memory on " + task.subject;
+        end();
+        throw BackendError("cad.memory_limit", task.subject + ": " + task.doing + " took more than the " +
+                                                   std::to_string(memory >> 20) +
+                                                   " MiB that the CAD process may use; repair the file, or "
+                                                   "allow more with LACUNA_CAD_MEGABYTES");
+    default:
+        throw BackendError(failure.code, failure.message);
     }
 }
 

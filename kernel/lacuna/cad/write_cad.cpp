@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/write_cad.h>
 
+#include <lacuna/cad/detail/input_file.h>
 #include <lacuna/cad/detail/solid_plan.h>
 #include <lacuna/closure/close.h>
 #include <lacuna/io/load_facets.h>
@@ -60,18 +61,9 @@ void forget_time(std::string& bytes)
 
 /// The bytes that the CAD process wrote. In a STEP file, the time stamp and the product name, which Open
 /// CASCADE numbers, are replaced by constants.
-std::string bytes_of(int descriptor, bool step)
+std::string bytes_of(const Descriptor& file, bool step)
 {
-    const off_t size = ::lseek(descriptor, 0, SEEK_END);
-    std::string bytes(static_cast<std::size_t>(std::max<off_t>(0, size)), '\0');
-    std::size_t got = 0;
-    while (got < bytes.size()) {
-        const ssize_t now = ::pread(descriptor, bytes.data() + got, bytes.size() - got,
-                                    static_cast<off_t>(got));
-        if (now <= 0) break;
-        got += static_cast<std::size_t>(now);
-    }
-    bytes.resize(got);
+    std::string bytes = text_of(file, std::string::npos);
     if (!step) return bytes;
     forget_time(bytes);
     constexpr std::string_view kCounted = "'Open CASCADE STEP translator ";
@@ -95,15 +87,9 @@ void check_options(const WriteCadOptions& options)
 
 /// A solid under construction in the CAD process; released by the destructor.
 struct BegunSolid {
-    BegunSolid(std::shared_ptr<Worker> worker_making_it, std::uint64_t its_handle)
-        : worker(std::move(worker_making_it)), handle(its_handle)
-    {
-    }
-    ~BegunSolid() { worker->release(handle); }
-    BegunSolid(const BegunSolid&) = delete;
-    BegunSolid& operator=(const BegunSolid&) = delete;
+    ~BegunSolid() { worker.release(handle); }
 
-    std::shared_ptr<Worker> worker;
+    Worker& worker;
     std::uint64_t handle;
 };
 
@@ -139,7 +125,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
         Opcode::begin_solid,
         BeginSolidRequest{path.text(), step ? "solid.step" : "solid.brep", sources.wanted}, task,
         {source.get(), all.get(), result.get()});
-    const BegunSolid begun(worker, found.solid);
+    const BegunSolid begun{*worker, found.solid};
     if (found.sources.size() != sources.order.size())
         throw BackendError("cad.protocol",
                            path.text() + ": the CAD process returned other files than requested");
@@ -149,13 +135,9 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     written.facet_volume = closure::enclosed_volume(volume);
     written.planes = plan.planes;
     written.fitted = plan.fitted;
-    MakeSolidRequest request;
+    MakeSolidRequest& request = plan.request;
     request.solid = found.solid;
     request.format = step ? MakeSolidRequest::step : MakeSolidRequest::brep;
-    request.points = std::move(plan.points);
-    request.edges = std::move(plan.edges);
-    request.faces = std::move(plan.faces);
-    request.diagonal = plan.diagonal;
     request.first_tolerance = options.tolerance > 0 ? options.tolerance : volume.model.tolerance;
     request.last_tolerance = options.tolerance > 0
                                  ? request.first_tolerance
@@ -167,7 +149,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     written.volume = made.volume;
     written.tolerance = made.tolerance;
     written.faces = made.faces;
-    file.append(bytes_of(result.get(), step));
+    file.append(bytes_of(result, step));
     file.commit();
     return written;
 }

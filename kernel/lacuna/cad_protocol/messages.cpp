@@ -5,81 +5,6 @@
 
 namespace lacuna::cad_protocol {
 
-// The fields of each message in their order in the byte stream; one list serves writing and reading.
-
-template <class A, class M>
-void put(A& with, M& m)
-{
-    using T = std::remove_const_t<M>;
-    if constexpr (requires { with(m); }) {
-        with(m);
-    } else if constexpr (std::is_same_v<T, Hello>) {
-        with(m.gmsh_version), with(m.missing);
-    } else if constexpr (std::is_same_v<T, Progress>) {
-        with(m.fraction);
-    } else if constexpr (std::is_same_v<T, Failure>) {
-        with(m.kind), with(m.code), with(m.message);
-    } else if constexpr (std::is_same_v<T, SentFile>) {
-        with(m.name);
-    } else if constexpr (std::is_same_v<T, LoadFile>) {
-        with(m.format), with(m.path), with(m.contents);
-    } else if constexpr (std::is_same_v<T, LoadRequest>) {
-        with(m.files), with(m.tolerance), with(m.scale);
-    } else if constexpr (std::is_same_v<T, LoadReply::Edge>) {
-        with(m.tag), with(m.curve), with(m.from), with(m.to), with(m.params), with(m.points),
-            with(m.left_out), with(m.form);
-    } else if constexpr (std::is_same_v<T, LoadReply::LeftOut>) {
-        with(m.tag), with(m.why);
-    } else if constexpr (std::is_same_v<T, LoadReply::Face>) {
-        with(m.tag), with(m.name), with(m.kind), with(m.triangles), with(m.uv);
-    } else if constexpr (std::is_same_v<T, LoadReply>) {
-        with(m.model), with(m.diagonal), with(m.points), with(m.vertex_tags), with(m.edges), with(m.faces);
-        with(m.solids), with(m.left_out), with(m.notes);
-    } else if constexpr (std::is_same_v<T, EvaluateRequest>) {
-        with(m.model), with(m.curve), with(m.params);
-    } else if constexpr (std::is_same_v<T, EvaluateReply>) {
-        with(m.points);
-    } else if constexpr (std::is_same_v<T, ProjectRequest>) {
-        with(m.model), with(m.face), with(m.points), with(m.uv);
-    } else if constexpr (std::is_same_v<T, ProjectReply>) {
-        with(m.points), with(m.uv);
-    } else if constexpr (std::is_same_v<T, SizeRaster>) {
-        with(m.origin), with(m.step), with(m.columns), with(m.sizes);
-    } else if constexpr (std::is_same_v<T, RecombineRequest>) {
-        with(m.points), with(m.loops), put(with, m.size);
-    } else if constexpr (std::is_same_v<T, RecombineReply>) {
-        with(m.points), with(m.quads);
-    } else if constexpr (std::is_same_v<T, SolidSource>) {
-        with(m.model), with(m.faces), with(m.curves);
-    } else if constexpr (std::is_same_v<T, BeginSolidRequest>) {
-        with(m.subject), with(m.result), with(m.sources);
-    } else if constexpr (std::is_same_v<T, BeginSolidReply::Found>) {
-        with(m.faces), with(m.curves), with(m.curve_points);
-    } else if constexpr (std::is_same_v<T, BeginSolidReply>) {
-        with(m.solid), with(m.sources);
-    } else if constexpr (std::is_same_v<T, SplineAxisData>) {
-        with(m.degree), with(m.knots), with(m.multiplicities);
-    } else if constexpr (std::is_same_v<T, SplineCurveData>) {
-        put(with, m.axis), with(m.poles);
-    } else if constexpr (std::is_same_v<T, SplineSurfaceData>) {
-        put(with, m.u), put(with, m.v), with(m.poles);
-    } else if constexpr (std::is_same_v<T, SolidEdge>) {
-        with(m.kind), with(m.source), with(m.curve), with(m.points), put(with, m.curve_data);
-    } else if constexpr (std::is_same_v<T, SolidFace>) {
-        with(m.kind), with(m.name), with(m.source), with(m.face), with(m.loops), with(m.surfaces);
-        with(m.leading), with(m.area);
-    } else if constexpr (std::is_same_v<T, MakeSolidRequest>) {
-        with(m.solid), with(m.format), with(m.points), with(m.edges), with(m.faces), with(m.diagonal);
-        with(m.first_tolerance), with(m.last_tolerance), with(m.facet_volume), with(m.deviation);
-    } else if constexpr (std::is_same_v<T, MakeSolidReply>) {
-        with(m.volume), with(m.tolerance), with(m.faces);
-    } else if constexpr (std::is_same_v<T, ReleaseRequest>) {
-        with(m.handle);
-    } else {
-        static_assert(!sizeof(T), "a message without fields");
-    }
-}
-
 namespace {
 
 void require(bool right, const char* what)
@@ -279,7 +204,7 @@ template <class T>
 std::string encode(const T& message)
 {
     Writer writer;
-    put(writer, message);
+    writer(message);
     return std::move(writer).take();
 }
 
@@ -288,7 +213,7 @@ T decode(std::string_view bytes)
 {
     Reader reader(bytes);
     T message;
-    put(reader, message);
+    reader(message);
     reader.finish();
     check(message);
     return message;

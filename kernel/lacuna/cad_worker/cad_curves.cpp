@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
 #include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
@@ -27,13 +28,6 @@ std::vector<double> evenly(double low, double high, std::size_t sides)
         params[i] = low + (high - low) * static_cast<double>(i) / static_cast<double>(sides);
     }
     return params;
-}
-
-double polyline_length(const std::vector<Vec3>& points)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += (points[i + 1] - points[i]).norm();
-    return sum;
 }
 
 /// Single-linkage clusters of points within the tolerance: the smallest index in the cluster of each point.
@@ -60,9 +54,7 @@ std::vector<std::size_t> clusters(const std::vector<CadVertex>& vertices, double
 
 void read_vertices(CadWire& wire, double tolerance)
 {
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities, 0);
-    for (const auto& [dim, tag] : entities) {
+    for (const int tag : tags_of(0)) {
         std::vector<double> at;
         gmsh::model::getValue(0, tag, {}, at);
         wire.vertices.push_back({tag, {at[0], at[1], at[2]}, -1});
@@ -83,14 +75,10 @@ void read_vertices(CadWire& wire, double tolerance)
 void read_faces(CadWire& wire)
 {
     std::map<int, std::size_t> curve_of_tag;
-    gmsh::vectorpair faces;
-    gmsh::model::getEntities(faces, 2);
-    for (const auto& [dim, tag] : faces) {
+    for (const int tag : tags_of(2)) {
         CadFaceInfo face;
         face.tag = tag;
-        gmsh::vectorpair boundary;
-        gmsh::model::getBoundary({{2, tag}}, boundary, false, false, false);
-        for (const auto& [curve_dim, signed_tag] : boundary) {
+        for (const auto& [curve_dim, signed_tag] : boundary_of({{2, tag}})) {
             const auto [place, fresh] = curve_of_tag.try_emplace(std::abs(signed_tag), wire.curves.size());
             const std::size_t curve = place->second;
             if (fresh) wire.curves.emplace_back().tag = std::abs(signed_tag);
@@ -127,10 +115,10 @@ void read_curves(CadWire& wire)
         curve.to = vertex_of_tag.at(down.back());
         curve.params = evenly(curve.low, curve.high, kFineSides);
         curve.points = curve_points(curve.tag, curve.params);
-        curve.length = polyline_length(curve.points);
+        curve.length = geometry::length(curve.points);
         // In some files a curve runs opposite to its vertices; follow the parameters.
-        const Vec3& begin = wire.vertices[static_cast<std::size_t>(curve.from)].at;
-        const Vec3& end = wire.vertices[static_cast<std::size_t>(curve.to)].at;
+        const Vec3& begin = wire.vertices[index(curve.from)].at;
+        const Vec3& end = wire.vertices[index(curve.to)].at;
         const double kept = (begin - curve.points.front()).norm() + (end - curve.points.back()).norm();
         const double swapped = (end - curve.points.front()).norm() + (begin - curve.points.back()).norm();
         if (swapped < kept) std::swap(curve.from, curve.to);
@@ -184,11 +172,11 @@ std::vector<std::pair<double, Index>> cuts_of(const CadWire& wire, const CadCurv
     for (const Vec3& p : curve.points) box.extend(p);
     // An arc extends beyond the box of its polyline by less than one segment.
     const double reach = curve.length / static_cast<double>(kFineSides) + tolerance;
-    const Index from = wire.vertices[static_cast<std::size_t>(curve.from)].point;
-    const Index to = wire.vertices[static_cast<std::size_t>(curve.to)].point;
+    const Index from = wire.vertices[index(curve.from)].point;
+    const Index to = wire.vertices[index(curve.to)].point;
     std::vector<std::pair<double, Index>> cuts;
     for (const Index point : loose_points) {
-        const Vec3& p = wire.points[static_cast<std::size_t>(point)];
+        const Vec3& p = wire.points[index(point)];
         if (point == from || point == to || box.exteriorDistance(p) > reach) continue;
         const OnCurve place = closest_on_curve(curve, p, curve.low, curve.high);
         if (place.distance <= tolerance && place.param > curve.low && place.param < curve.high) {
@@ -204,16 +192,15 @@ void cut_into_pieces(CadWire& wire, double tolerance)
     std::vector<Index> loose_points;
     for (const CadCurveInfo& curve : wire.curves) {
         if (curve.uses != 1) continue;
-        for (const int v : {curve.from, curve.to})
-            loose_points.push_back(wire.vertices[static_cast<std::size_t>(v)].point);
+        for (const int v : {curve.from, curve.to}) loose_points.push_back(wire.vertices[index(v)].point);
     }
     std::sort(loose_points.begin(), loose_points.end());
     loose_points.erase(std::unique(loose_points.begin(), loose_points.end()), loose_points.end());
 
     for (std::size_t c = 0; c < wire.curves.size(); ++c) {
         CadCurveInfo& curve = wire.curves[c];
-        const Index from = wire.vertices[static_cast<std::size_t>(curve.from)].point;
-        const Index to = wire.vertices[static_cast<std::size_t>(curve.to)].point;
+        const Index from = wire.vertices[index(curve.from)].point;
+        const Index to = wire.vertices[index(curve.to)].point;
         if (from == to && curve.length <= tolerance) continue;
         std::vector<std::pair<double, Index>> cuts;
         if (curve.uses == 1) cuts = cuts_of(wire, curve, loose_points, tolerance);
@@ -392,7 +379,7 @@ PieceNodes nodes_of(const CadWire& wire, std::size_t p)
     nodes.params.back() = piece.high;
     const CadCurveInfo& curve = wire.curves[piece.curve];
     for (std::size_t i = 1; i + 1 < nodes.points.size(); ++i) {
-        const Vec3& at = wire.points[static_cast<std::size_t>(nodes.points[i])];
+        const Vec3& at = wire.points[index(nodes.points[i])];
         nodes.params[i] = closest_on_curve(curve, at, piece.low, piece.high).param;
     }
     return nodes;

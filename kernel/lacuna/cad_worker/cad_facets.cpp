@@ -33,36 +33,37 @@ std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vecto
 {
     std::vector<double> values;
     gmsh::model::reparametrizeOnSurface(1, curve.tag, params, face, values, which);
-    std::vector<Vec2> uv(params.size());
-    if (values.size() != 2 * params.size()) return {};
-    for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = {values[2 * i], values[2 * i + 1]};
-    return uv;
+    return values.size() == 2 * params.size() ? unflat<2>(values) : std::vector<Vec2>{};
+}
+
+/// Distance of each point from the point of the surface at its parameters.
+std::vector<double> distances(int face, const std::vector<Vec3>& at, const std::vector<Vec2>& uv)
+{
+    const std::vector<Vec3> there = surface_points(face, uv);
+    std::vector<double> off;
+    for (std::size_t i = 0; i < at.size(); ++i) off.push_back((there[i] - at[i]).norm());
+    return off;
 }
 
 /// Replace parameters that do not give back their points by those of the closest points of the surface.
 void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& uv, double allowed)
 {
+    std::vector<double> off;
     if (uv.size() == at.size()) {
-        const std::vector<Vec3> there = surface_points(face, uv);
-        bool good = true;
-        for (std::size_t i = 0; i < at.size(); ++i) good = good && (there[i] - at[i]).norm() <= allowed;
-        if (good) return;
+        off = distances(face, at, uv);
+        if (std::ranges::all_of(off, [&](double distance) { return distance <= allowed; })) return;
     }
-    std::vector<double> coordinates, values;
-    for (const Vec3& p : at) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-    gmsh::model::getParametrization(2, face, coordinates, values);
+    std::vector<double> values;
+    gmsh::model::getParametrization(2, face, flat(at), values);
     if (values.size() != 2 * at.size()) return;
-    std::vector<Vec2> closest(at.size());
-    for (std::size_t i = 0; i < at.size(); ++i) closest[i] = {values[2 * i], values[2 * i + 1]};
+    std::vector<Vec2> closest = unflat<2>(values);
     if (uv.size() != at.size()) {
         uv = std::move(closest);
         return;
     }
-    const std::vector<Vec3> there = surface_points(face, uv);
-    const std::vector<Vec3> here = surface_points(face, closest);
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        if ((here[i] - at[i]).norm() < (there[i] - at[i]).norm()) uv[i] = closest[i];
-    }
+    const std::vector<double> least = distances(face, at, closest);
+    for (std::size_t i = 0; i < at.size(); ++i)
+        if (least[i] < off[i]) uv[i] = closest[i];
 }
 
 /// Total distance of parameter points from the parameter rectangle of the face.
@@ -116,7 +117,7 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
         std::vector<double> params;
         std::vector<Vec3> at;
         if (curve.pieces.empty()) {
-            const Index point = wire.vertices[static_cast<std::size_t>(curve.from)].point;
+            const Index point = wire.vertices[index(curve.from)].point;
             params = {curve.low, curve.high};
             chain.points = {point, point};
             chain.pole = true;
@@ -130,7 +131,7 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
                                 nodes.points.begin() + static_cast<std::ptrdiff_t>(shared),
                                 nodes.points.end());
         }
-        for (const Index p : chain.points) at.push_back(wire.points[static_cast<std::size_t>(p)]);
+        for (const Index p : chain.points) at.push_back(wire.points[index(p)]);
         chain.uv = parameters_on_face(curve, params, face.tag, 0);
         if (!chain.pole) mend_parameters(face.tag, at, chain.uv, allowed);
         if (chain.uv.size() != params.size()) continue;
@@ -171,8 +172,7 @@ ParameterBox box_of(const std::vector<BorderChain>& border, const CadFaceInfo& f
         for (int k = 0; k < 2; ++k) {
             // The two images of a seam are one period apart, and the face lies between them.
             const double apart = std::abs(a[0][k] - b[0][k]);
-            if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0)
-                box.closed[static_cast<std::size_t>(k)] = true;
+            if (apart > 0.99 * (box.high[k] - box.low[k]) && apart > 0) box.closed[index(k)] = true;
         }
     }
     return box;
@@ -220,8 +220,8 @@ public:
         std::vector<int> degree(domain_.nodes.size(), 0);
         for (const GridDomain::Segment& s : domain_.segments) {
             if (s.slit) continue;
-            ++degree[static_cast<std::size_t>(s.a)];
-            ++degree[static_cast<std::size_t>(s.b)];
+            ++degree[index(s.a)];
+            ++degree[index(s.b)];
         }
         const std::size_t count = degree.size();
         for (std::size_t i = 0; i < count; ++i) {
@@ -249,7 +249,7 @@ private:
     {
         std::vector<Index>& same = nodes_of_point_[point];
         for (const Index n : same) {
-            if ((domain_.nodes[static_cast<std::size_t>(n)].grid - grid).norm() < kSameCorner) return n;
+            if ((domain_.nodes[index(n)].grid - grid).norm() < kSameCorner) return n;
         }
         same.push_back(static_cast<Index>(domain_.nodes.size()));
         domain_.nodes.push_back({grid, uv, point});
@@ -259,8 +259,8 @@ private:
     /// Insert segments of about one cell between two images of one point.
     void join(Index a, Index b)
     {
-        const GridDomain::Node from = domain_.nodes[static_cast<std::size_t>(a)];
-        const GridDomain::Node to = domain_.nodes[static_cast<std::size_t>(b)];
+        const GridDomain::Node from = domain_.nodes[index(a)];
+        const GridDomain::Node to = domain_.nodes[index(b)];
         const int sides = std::max(1, static_cast<int>(std::lround((to.grid - from.grid).norm())));
         Index last = a;
         for (int i = 1; i < sides; ++i) {
@@ -283,14 +283,12 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
 {
     const int nu = grid.axis[0].cells();
     const int nv = grid.axis[1].cells();
-    const auto at = [&](int i, int j) {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(nu + 1) + static_cast<std::size_t>(i);
-    };
-    std::vector<char> near(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1), 0);
-    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(nv + 1));
+    const auto at = [&](int i, int j) { return index(j) * index(nu + 1) + index(i); };
+    std::vector<char> near(index(nu + 1) * index(nv + 1), 0);
+    std::vector<std::vector<double>> crossings(index(nv + 1));
     for (const GridDomain::Segment& s : domain.segments) {
-        const Vec2& a = domain.nodes[static_cast<std::size_t>(s.a)].grid;
-        const Vec2& b = domain.nodes[static_cast<std::size_t>(s.b)].grid;
+        const Vec2& a = domain.nodes[index(s.a)].grid;
+        const Vec2& b = domain.nodes[index(s.b)].grid;
         const Vec2 low = a.cwiseMin(b);
         const Vec2 high = a.cwiseMax(b);
         const auto clip = [](double value, int most) { return std::clamp(static_cast<int>(value), 0, most); };
@@ -303,12 +301,11 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
             if (s.slit) continue;
             // Half-open interval, so that a corner on the line counts once.
             if ((a.y() <= j) == (b.y() <= j)) continue;
-            crossings[static_cast<std::size_t>(j)].push_back(a.x() +
-                                                             (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+            crossings[index(j)].push_back(a.x() + (j - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
         }
     }
     for (int j = 1; j < nv; ++j) {
-        std::vector<double>& cuts = crossings[static_cast<std::size_t>(j)];
+        std::vector<double>& cuts = crossings[index(j)];
         std::sort(cuts.begin(), cuts.end());
         for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
             for (int i = std::max(1, static_cast<int>(std::ceil(cuts[c]))); i < nu && i <= cuts[c + 1]; ++i) {
@@ -399,7 +396,7 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
         Triangle corners{};
         std::array<Vec2, 3> uv;
         for (std::size_t k = 0; k < 3; ++k) {
-            const GridDomain::Node& node = domain.nodes[static_cast<std::size_t>(t[k])];
+            const GridDomain::Node& node = domain.nodes[index(t[k])];
             corners[k] = node.point;
             uv[k] = node.uv;
         }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -77,12 +78,7 @@ long open_path(long folder, const char* path, long flags, long mode)
     }
     // Open it again, so that each reader has its own file offset.
     std::array<char, 32> own{"/proc/self/fd/"};
-    std::size_t end = std::strlen(own.data());
-    std::array<char, 12> digits{};
-    std::size_t count = 0;
-    for (int n = file->descriptor; count == 0 || n > 0; n /= 10)
-        digits[count++] = static_cast<char>('0' + n % 10);
-    while (count > 0) own[end++] = digits[--count];
+    std::to_chars(own.data() + std::strlen(own.data()), own.data() + own.size() - 1, file->descriptor);
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
 
@@ -119,15 +115,13 @@ long answer(long number, const std::array<long, 6>& a)
             path(a[1]), [](int) { return 0L; }, [&] { return own_call(SYS_faccessat, a[0], a[1], a[2], 0); });
 #ifdef SYS_open
     case SYS_open:
-        return open_path(AT_FDCWD, path(a[0]), a[1], a[2]);
+        return answer(SYS_openat, {AT_FDCWD, a[0], a[1], a[2]});
     case SYS_stat:
-        return stat_path(AT_FDCWD, path(a[0]), a[1], 0);
+        return answer(SYS_newfstatat, {AT_FDCWD, a[0], a[1], 0});
     case SYS_lstat:
-        return stat_path(AT_FDCWD, path(a[0]), a[1], AT_SYMLINK_NOFOLLOW);
+        return answer(SYS_newfstatat, {AT_FDCWD, a[0], a[1], AT_SYMLINK_NOFOLLOW});
     case SYS_access:
-        return look_at(
-            path(a[0]), [](int) { return 0L; },
-            [&] { return own_call(SYS_faccessat, AT_FDCWD, a[0], a[1], 0); });
+        return answer(SYS_faccessat, {AT_FDCWD, a[0], a[1]});
 #endif
     default:
         return -ENOSYS;
@@ -303,20 +297,19 @@ struct Ruleset {
     std::uint64_t files = 0, net = 0, scoped = 0;
 };
 
-bool restrict_files()
+/// The version of Landlock that the kernel supports; below 1: none.
+long landlock_version()
 {
-    const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-    if (version < 1) return false;
-    Ruleset rules;
-    const int bits = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
-    rules.files = (std::uint64_t{1} << bits) - 1;
-    if (version >= 4) rules.net = 3;    // bind and connect
-    if (version >= 6) rules.scoped = 3; // abstract sockets and signals of other processes
-    const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
+    return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+}
+
+/// Restrict this process. @param size  of the part of the rules that the kernel knows
+/// @param readable  folders in which files may be read. @return false if it failed
+bool restrict_by(const Ruleset& rules, std::size_t size, std::initializer_list<const char*> readable)
+{
     const int set = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, size, 0));
     if (set < 0) return false;
-    // Folders of libraries that are loaded on first use.
-    for (const char* folder : {"/usr", "/lib", "/lib64"}) {
+    for (const char* folder : readable) {
         const int beneath = ::open(folder, O_PATH | O_CLOEXEC);
         if (beneath < 0) continue;
         landlock_path_beneath_attr rule{};
@@ -330,19 +323,28 @@ bool restrict_files()
     return done;
 }
 
+bool restrict_files()
+{
+    const long version = landlock_version();
+    if (version < 1) return false;
+    Ruleset rules;
+    const int bits = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
+    rules.files = (std::uint64_t{1} << bits) - 1;
+    if (version >= 4) rules.net = 3;    // bind and connect
+    if (version >= 6) rules.scoped = 3; // abstract sockets and signals of other processes
+    const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
+    return restrict_by(rules, size, {"/usr", "/lib", "/lib64"}); // libraries that are loaded on first use
+}
+
 } // namespace
 
 void keep_from_writing()
 {
-    const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-    if (version < 1 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
+    if (landlock_version() < 1 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
     Ruleset rules;
     rules.files = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR |
                   LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR;
-    const int set = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, sizeof(rules.files), 0));
-    if (set < 0) return;
-    ::syscall(SYS_landlock_restrict_self, set, 0);
-    ::close(set);
+    restrict_by(rules, sizeof(rules.files), {});
 }
 
 std::string confine()

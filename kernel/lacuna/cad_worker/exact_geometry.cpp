@@ -2,6 +2,7 @@
 #include <lacuna/cad_worker/exact_geometry.h>
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/plain_curve.h>
 
 #include <Eigen/LU>
@@ -10,27 +11,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 namespace lacuna::cad_worker {
 
 namespace {
-
-std::vector<double> flat(const std::vector<Vec2>& uv)
-{
-    std::vector<double> values;
-    values.reserve(2 * uv.size());
-    for (const Vec2& p : uv) values.insert(values.end(), {p.x(), p.y()});
-    return values;
-}
-
-std::vector<Vec3> unflat(const std::vector<double>& values)
-{
-    std::vector<Vec3> points(values.size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-    return points;
-}
 
 /// Steps with first derivatives before second derivatives are used too. Near the surface, each such step
 /// gains a digit or more; points as far away as the radius of curvature need second derivatives.
@@ -158,10 +142,9 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
 
 [[noreturn]] void fail_projection(const CadSource& source, int tag, const Vec3& point)
 {
-    std::ostringstream words;
-    words << source.path << ": the point (" << point.x() << ", " << point.y() << ", " << point.z()
-          << ") could not be projected onto face " << tag << "; check the face in the CAD system";
-    throw BackendError("cad.projection", words.str());
+    throw BackendError("cad.projection", source.path + ": the point " + place_with_digits(point, 6) +
+                                             " could not be projected onto face " + std::to_string(tag) +
+                                             "; check the face in the CAD system");
 }
 
 } // namespace
@@ -233,7 +216,7 @@ std::vector<Vec3> curve_points(int tag, const std::vector<double>& params)
 {
     std::vector<double> values;
     gmsh::model::getValue(1, tag, params, values);
-    return unflat(values);
+    return unflat<3>(values);
 }
 
 std::vector<Vec3> plain_form(int tag, double first, double last)
@@ -268,25 +251,23 @@ std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params)
 {
     std::vector<double> values;
     gmsh::model::getDerivative(1, tag, params, values);
-    return unflat(values);
+    return unflat<3>(values);
 }
 
 std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv)
 {
     std::vector<double> values;
     gmsh::model::getValue(2, tag, flat(uv), values);
-    return unflat(values);
+    return unflat<3>(values);
 }
 
 std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv)
 {
     std::vector<double> values;
     gmsh::model::getDerivative(2, tag, flat(uv), values);
-    std::vector<SurfaceFrame> frames(uv.size());
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-        const double* d = values.data() + 6 * i;
-        frames[i] = {{d[0], d[1], d[2]}, {d[3], d[4], d[5]}};
-    }
+    const std::vector<Vec3> d = unflat<3>(values);
+    std::vector<SurfaceFrame> frames;
+    for (std::size_t i = 0; i < d.size(); i += 2) frames.push_back({d[i], d[i + 1]});
     return frames;
 }
 
@@ -294,11 +275,9 @@ std::vector<SecondDerivatives> surface_second(int tag, const std::vector<Vec2>& 
 {
     std::vector<double> values;
     gmsh::model::getSecondDerivative(2, tag, flat(uv), values);
-    std::vector<SecondDerivatives> second(uv.size());
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-        const double* d = values.data() + 9 * i;
-        second[i] = {{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}};
-    }
+    const std::vector<Vec3> d = unflat<3>(values);
+    std::vector<SecondDerivatives> second;
+    for (std::size_t i = 0; i < d.size(); i += 3) second.push_back({d[i], d[i + 1], d[i + 2]});
     return second;
 }
 

@@ -42,6 +42,24 @@ std::vector<Vec3> evaluate_curve(const CadSource& source, int tag, const std::ve
 
 // Gmsh's flat arrays converted to vectors, in file lengths. Call within a session, with the model current.
 
+/// The coordinates of points in a row, as Gmsh takes and returns them.
+template <class Vec>
+std::vector<double> flat(const std::vector<Vec>& points)
+{
+    std::vector<double> values;
+    values.reserve(points.size() * Vec::SizeAtCompileTime);
+    for (const Vec& p : points) values.insert(values.end(), p.begin(), p.end());
+    return values;
+}
+template <int dimension>
+std::vector<Eigen::Matrix<double, dimension, 1>> unflat(const std::vector<double>& values)
+{
+    std::vector<Eigen::Matrix<double, dimension, 1>> points(values.size() / dimension);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        points[i / dimension][static_cast<Eigen::Index>(i % dimension)] = values[i];
+    return points;
+}
+
 std::vector<Vec3> curve_points(int tag, const std::vector<double>& params);
 /// Defining points of a curve that is a line segment or an elliptic arc; else empty. The type that Gmsh
 /// reports is not trusted: the form is compared with the curve, up to rounding.

@@ -98,21 +98,13 @@ GridAxis::GridAxis(std::vector<double> knots, const std::vector<double>& density
     grid_.back() = cells_;
 }
 
-double GridAxis::to_grid(double parameter) const
+double GridAxis::through(const std::vector<double>& from, const std::vector<double>& to, double x)
 {
-    const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, parameter);
-    const auto i = static_cast<std::size_t>(next - knots_.begin());
-    const double width = knots_[i] - knots_[i - 1];
-    const double part = width > 0 ? (parameter - knots_[i - 1]) / width : 0;
-    return grid_[i - 1] + part * (grid_[i] - grid_[i - 1]);
-}
-
-double GridAxis::to_parameter(double grid) const
-{
-    const auto next = std::upper_bound(grid_.begin() + 1, grid_.end() - 1, grid);
-    const auto i = static_cast<std::size_t>(next - grid_.begin());
-    const double part = (grid - grid_[i - 1]) / (grid_[i] - grid_[i - 1]);
-    return knots_[i - 1] + part * (knots_[i] - knots_[i - 1]);
+    const auto next = std::upper_bound(from.begin() + 1, from.end() - 1, x);
+    const auto i = static_cast<std::size_t>(next - from.begin());
+    const double width = from[i] - from[i - 1];
+    const double part = width > 0 ? (x - from[i - 1]) / width : 0;
+    return to[i - 1] + part * (to[i] - to[i - 1]);
 }
 
 FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells)

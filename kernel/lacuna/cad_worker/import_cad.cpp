@@ -4,6 +4,7 @@
 #include <lacuna/cad_worker/detail/cad_facets.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/narrow_sides.h>
+#include <lacuna/cad_worker/detail/solid_file.h>
 #include <lacuna/core/shared/default_labels.h>
 
 #include <algorithm>
@@ -28,20 +29,6 @@ constexpr int kDivisions = 6;
 /// Most points of all edges after refinement. It limits time and memory, as each face is
 /// triangulated over its boundary.
 constexpr std::size_t kMostDivided = 400'000;
-
-/// Set the options of Gmsh such that tags and coordinates are those of a plain import.
-void set_import_defaults(Session& session)
-{
-    for (const char* off :
-         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces",
-          "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids", "Geometry.OCCBoundsUseStl"}) {
-        session.set(off, 0);
-    }
-    session.set("Geometry.OCCScaling", 1);
-    session.set("Geometry.OCCAutoFix", 1);
-    session.set("Geometry.OCCImportLabels", 1);
-    session.set("Geometry.OCCTargetUnit", std::string{});
-}
 
 /// Restore options that scripts often set, at the end of the session.
 void keep_options(Session& session)
@@ -86,9 +73,7 @@ void import_file(Session& session, const OpenedFile& file)
             const char* format = file.format == File::brep   ? "brep"
                                  : file.format == File::step ? "step"
                                                              : "iges";
-            gmsh::vectorpair all;
-            gmsh::model::occ::importShapes(file.at, all, false, format);
-            gmsh::model::occ::synchronize();
+            import_shapes(file.at, format);
         });
     } catch (const BackendError& error) {
         const std::string words = output.text();
@@ -230,11 +215,9 @@ std::vector<std::vector<Index>> solids(const CadWire& wire)
     for (std::size_t f = 0; f < wire.faces.size(); ++f) face_of_tag[wire.faces[f].tag] = f;
     std::vector<bool> taken(wire.faces.size(), false);
     std::vector<std::vector<Index>> groups;
-    gmsh::vectorpair volumes;
-    gmsh::model::getEntities(volumes, 3);
-    for (const auto& volume : volumes) {
+    for (const int volume : tags_of(3)) {
         std::vector<int> up, down;
-        gmsh::model::getAdjacencies(3, volume.second, up, down);
+        gmsh::model::getAdjacencies(3, volume, up, down);
         std::vector<Index> group;
         for (const int tag : down) {
             const auto face = face_of_tag.find(std::abs(tag));
@@ -319,7 +302,8 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
     CadSource& source = *imported.source;
     for (const OpenedFile& file : files) source.path += (source.path.empty() ? "" : ", ") + file.path;
     Session session(source.path);
-    set_import_defaults(session);
+    set_plain_import(session, 1);
+    session.set("Geometry.OCCImportLabels", 1);
     source.model = std::make_unique<GmshModel>(session);
     for (const OpenedFile& file : files) {
         progress(0);
@@ -327,9 +311,7 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
     }
     source.model->activate(session); // a script may have created other models
     session.run([&] {
-        gmsh::vectorpair faces;
-        gmsh::model::getEntities(faces, 2);
-        if (faces.empty()) {
+        if (tags_of(2).empty()) {
             throw InvalidInput("cad.no_faces",
                                source.path +
                                    " contains no faces; export surfaces or solids, not only curves");

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <clocale>
 #include <iostream>
-#include <sstream>
+#include <ranges>
 #include <string_view>
 
 namespace lacuna::cad_worker {
@@ -23,6 +23,11 @@ bool model_exists(const std::string& name)
 /// Number of open sessions: the session of a solid stays open while others open and
 /// close. Gmsh allows one logger only.
 int sessions = 0;
+
+void read_option(const std::string& name, double& value) { gmsh::option::getNumber(name, value); }
+void read_option(const std::string& name, std::string& value) { gmsh::option::getString(name, value); }
+void write_option(const std::string& name, double value) { gmsh::option::setNumber(name, value); }
+void write_option(const std::string& name, const std::string& value) { gmsh::option::setString(name, value); }
 
 } // namespace
 
@@ -68,50 +73,29 @@ Session::~Session()
 {
     try {
         if (--sessions == 0) gmsh::logger::stop();
-        for (auto saved = numbers_.rbegin(); saved != numbers_.rend(); ++saved)
-            gmsh::option::setNumber(saved->name, saved->value);
-        for (auto saved = strings_.rbegin(); saved != strings_.rend(); ++saved)
-            gmsh::option::setString(saved->name, saved->value);
+        for (const auto& restore : std::views::reverse(restores_)) restore();
     } catch (...) { // A destructor must not throw.
     }
 }
 
-void Session::set(const std::string& option, double value)
+/// Restore an option at the end. @param next  its value until then; none: whatever a script makes it.
+template <class Value>
+void Session::save(const std::string& option, const std::optional<Value>& next)
 {
-    SavedNumber saved{option, 0};
+    Value before{};
     try {
-        gmsh::option::getNumber(option, saved.value);
+        read_option(option, before);
     } catch (...) {
         return;
     }
-    if (saved.value == value) return;
-    gmsh::option::setNumber(option, value);
-    numbers_.push_back(std::move(saved));
+    if (next == before) return;
+    if (next) write_option(option, *next);
+    restores_.emplace_back([option, before] { write_option(option, before); });
 }
 
-void Session::set(const std::string& option, const std::string& value)
-{
-    SavedString saved{option, {}};
-    try {
-        gmsh::option::getString(option, saved.value);
-    } catch (...) {
-        return;
-    }
-    if (saved.value == value) return;
-    gmsh::option::setString(option, value);
-    strings_.push_back(std::move(saved));
-}
-
-void Session::keep(const std::string& option)
-{
-    SavedNumber saved{option, 0};
-    try {
-        gmsh::option::getNumber(option, saved.value);
-    } catch (...) {
-        return;
-    }
-    numbers_.push_back(std::move(saved));
-}
+void Session::set(const std::string& option, double value) { save<double>(option, value); }
+void Session::set(const std::string& option, const std::string& value) { save<std::string>(option, value); }
+void Session::keep(const std::string& option) { save<double>(option, std::nullopt); }
 
 std::vector<std::string> Session::logged_errors() const
 {
@@ -171,22 +155,13 @@ void GmshModel::activate(Session& session) const
     session.run([&] { gmsh::model::setCurrent(name_); });
 }
 
-struct CapturedOutput::Impl {
-    std::ostringstream text;
-    std::streambuf* before = nullptr;
-};
-
-CapturedOutput::CapturedOutput() : impl_(std::make_unique<Impl>())
-{
-    impl_->before = std::cout.rdbuf(impl_->text.rdbuf());
-}
-
-CapturedOutput::~CapturedOutput() { std::cout.rdbuf(impl_->before); }
+CapturedOutput::CapturedOutput() : before_(std::cout.rdbuf(text_.rdbuf())) {}
+CapturedOutput::~CapturedOutput() { std::cout.rdbuf(before_); }
 
 std::string CapturedOutput::text() const
 {
     std::string plain;
-    const std::string raw = impl_->text.str();
+    const std::string raw = text_.str();
     for (std::size_t i = 0; i < raw.size(); ++i) {
         if (raw[i] == '\x1b') {
             while (i < raw.size() && raw[i] != 'm') ++i;

@@ -3,8 +3,10 @@
 
 #include <lacuna/core/error.h>
 
-#include <memory>
+#include <functional>
 #include <new>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -68,17 +70,11 @@ public:
     [[noreturn]] void refuse(const std::string& code, const std::string& words) const;
 
 private:
-    struct SavedNumber {
-        std::string name;
-        double value;
-    };
-    struct SavedString {
-        std::string name, value;
-    };
+    template <class Value>
+    void save(const std::string& option, const std::optional<Value>& next);
 
     std::string subject_;
-    std::vector<SavedNumber> numbers_;
-    std::vector<SavedString> strings_;
+    std::vector<std::function<void()>> restores_; ///< of changed options
     std::size_t log_start_ = 0;
 };
 
@@ -109,8 +105,8 @@ public:
     [[nodiscard]] std::string text() const;
 
 private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::ostringstream text_;
+    std::streambuf* before_;
 };
 
 } // namespace lacuna::cad_worker

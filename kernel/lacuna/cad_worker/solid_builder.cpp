@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -47,12 +48,9 @@ std::vector<Vec3> probes_of(int dim, int tag)
 /// Features by which a face or curve is recognised after it was copied through a file.
 struct Fingerprint {
     std::vector<Vec3> probes;
-    double area = 0; ///< of a face
+    double area; ///< of a face; of a curve 0
 
-    Fingerprint(int dim, int tag) : probes(probes_of(dim, tag))
-    {
-        if (dim == 2) gmsh::model::occ::getMass(dim, tag, area);
-    }
+    Fingerprint(int dim, int tag) : probes(probes_of(dim, tag)), area(dim == 2 ? mass_of(2, tag) : 0) {}
     [[nodiscard]] bool is(const Fingerprint& other, double scale, double diagonal) const
     {
         for (std::size_t i = 0; i < probes.size(); ++i)
@@ -60,15 +58,6 @@ struct Fingerprint {
         return std::abs(area * scale * scale - other.area) <= kSame * diagonal * diagonal * scale * scale;
     }
 };
-
-std::vector<int> tags_of(int dim)
-{
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities, dim);
-    std::vector<int> tags;
-    for (const auto& entity : entities) tags.push_back(entity.second);
-    return tags;
-}
 
 std::vector<int> add_points(const std::vector<Vec3>& poles)
 {
@@ -138,9 +127,7 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
     session_.run([&] {
         set_plain_import(session_, source.scale);
         const std::vector<int> faces_before = tags_of(2), curves_before = tags_of(1);
-        gmsh::vectorpair all;
-        gmsh::model::occ::importShapes(files_.source, all, false, "brep");
-        gmsh::model::occ::synchronize();
+        import_shapes(files_.source, "brep");
         const auto match = [&](int dim, const std::map<int, Fingerprint>& prints,
                                const std::vector<int>& before) {
             std::vector<int> fresh = tags_of(dim);
@@ -245,19 +232,16 @@ int SolidBuilder::plane(const SolidFace& face)
     std::vector<int> parts;
     for (const auto& loop : face.loops) parts.push_back(gmsh::model::occ::addPlaneSurface({wire(loop)}));
     if (parts.size() == 1) return parts.front();
-    double wanted = 0;
+    double wanted = mass_of(2, parts.front());
     gmsh::vectorpair holes;
-    for (const int part : parts) {
-        double area = 0;
-        gmsh::model::occ::getMass(2, part, area);
-        wanted += part == parts.front() ? area : -area;
-        if (part != parts.front()) holes.emplace_back(2, part);
+    for (const int part : parts | std::views::drop(1)) {
+        wanted -= mass_of(2, part);
+        holes.emplace_back(2, part);
     }
     gmsh::vectorpair cut;
     std::vector<gmsh::vectorpair> map;
     gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
-    double area = 0;
-    if (cut.size() == 1) gmsh::model::occ::getMass(2, cut.front().second, area);
+    const double area = cut.size() == 1 ? mass_of(2, cut.front().second) : 0;
     if (!(std::abs(area - wanted) <= 1e-6 * wanted))
         throw BackendError(
             "cad.plane_failed",
@@ -288,10 +272,9 @@ int SolidBuilder::filling(const SolidFace& face)
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [dim, tag] : parts) {
-        double area = 0;
-        if (dim == 2) gmsh::model::occ::getMass(2, tag, area);
-        const double off = std::abs(std::abs(area) - face.area);
-        if (dim != 2 || off >= least) continue;
+        if (dim != 2) continue;
+        const double off = std::abs(std::abs(mass_of(2, tag)) - face.area);
+        if (off >= least) continue;
         least = off;
         best = tag;
     }

@@ -20,46 +20,21 @@ constexpr double kSameVolume = 1e-4;
 /// Curves shorter than this part of the diagonal are points: rounding, far below any tolerance.
 constexpr double kPole = 1e-9;
 
-std::vector<int> occ_tags(int dim)
-{
-    gmsh::vectorpair entities;
-    gmsh::model::occ::getEntities(entities, dim);
-    std::vector<int> tags;
-    for (const auto& entity : entities) tags.push_back(entity.second);
-    return tags;
-}
-
-double volume_of(int solid)
-{
-    double volume = 0;
-    gmsh::model::occ::getMass(3, solid, volume);
-    return volume;
-}
-
 /// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
-bool is_pole(int curve, double diagonal)
-{
-    double length = 0;
-    gmsh::model::occ::getMass(1, curve, length);
-    return length <= kPole * diagonal;
-}
+bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kPole * diagonal; }
 
 /// Describes how the current model differs from one closed solid; empty if it does not.
 std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
-    const std::vector<int> solids = occ_tags(3);
+    const std::vector<int> solids = tags_of(3);
     if (solids.size() != 1) return std::to_string(solids.size()) + " solids";
-    gmsh::vectorpair faces;
-    gmsh::model::getBoundary({{3, solids.front()}}, faces, false, false, false);
-    if (faces.size() != occ_tags(2).size())
-        return std::to_string(occ_tags(2).size() - faces.size()) + " faces outside the solid";
+    const gmsh::vectorpair faces = boundary_of({{3, solids.front()}});
+    if (faces.size() != tags_of(2).size())
+        return std::to_string(tags_of(2).size() - faces.size()) + " faces outside the solid";
     std::map<int, int> uses;
-    for (const auto& face : faces) {
-        gmsh::vectorpair curves;
-        gmsh::model::getBoundary({{2, std::abs(face.second)}}, curves, false, false, false);
-        for (const auto& curve : curves) ++uses[std::abs(curve.second)];
-    }
+    for (const auto& face : faces)
+        for (const auto& curve : boundary_of({{2, std::abs(face.second)}})) ++uses[std::abs(curve.second)];
     std::size_t open = 0;
     for (const auto& [curve, count] : uses) open += count == 2 || is_pole(curve, diagonal) ? 0 : 1;
     return open == 0 ? "" : std::to_string(open) + " open edges";
@@ -92,9 +67,7 @@ int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidReq
     int solid = 0;
     for (const auto& [dim, tag] : out) {
         if (dim != 3) continue;
-        gmsh::vectorpair boundary;
-        gmsh::model::getBoundary({{dim, tag}}, boundary, false, false, false);
-        if (boundary.size() == shapes.size() && volume_of(tag) > 0) solid = tag;
+        if (boundary_of({{dim, tag}}).size() == shapes.size() && mass_of(3, tag) > 0) solid = tag;
     }
     if (solid == 0) gmsh::model::occ::remove(out, true);
     return solid;
@@ -102,10 +75,8 @@ int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidReq
 
 bool has_pole(int face, double diagonal)
 {
-    gmsh::vectorpair curves;
-    gmsh::model::getBoundary({{2, face}}, curves, false, false, false);
-    return std::any_of(curves.begin(), curves.end(),
-                       [&](const auto& curve) { return is_pole(curve.second, diagonal); });
+    return std::ranges::any_of(boundary_of({{2, face}}),
+                               [&](const auto& curve) { return is_pole(curve.second, diagonal); });
 }
 
 /// Sew with increasing tolerances until the faces form one solid.
@@ -126,9 +97,7 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
         gmsh::model::occ::healShapes(out, shapes, tolerance, false, false, false, true, true);
         std::erase_if(out, [](const auto& entity) { return entity.first != 3; });
         gmsh::model::occ::synchronize();
-        gmsh::vectorpair boundary;
-        if (out.size() == 1) gmsh::model::getBoundary(out, boundary, false, false, false);
-        if (boundary.size() == faces.size() && volume_of(out.front().second) > 0)
+        if (out.size() == 1 && boundary_of(out).size() == faces.size() && mass_of(3, out.front().second) > 0)
             return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
@@ -162,7 +131,7 @@ void write_whole(const Session& session, const std::string& path)
 void write_alone(Session& session, int solid, const SolidFiles& files)
 {
     gmsh::vectorpair others;
-    for (const int tag : occ_tags(3))
+    for (const int tag : tags_of(3))
         if (tag != solid) others.emplace_back(3, tag);
     if (!others.empty()) gmsh::model::occ::remove(others);
     // Copy the solid through a file: unused faces, curves and points are dropped when it is read.
@@ -170,9 +139,7 @@ void write_alone(Session& session, int solid, const SolidFiles& files)
     write_whole(session, files.all);
     const GmshModel alone(session);
     set_plain_import(session, 1);
-    gmsh::vectorpair found;
-    gmsh::model::occ::importShapes(files.all, found, true, "brep");
-    gmsh::model::occ::synchronize();
+    import_shapes(files.all, "brep", true);
     write_whole(session, files.result);
 }
 
@@ -183,21 +150,19 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
     const GmshModel again(session);
     return session.run([&] {
         set_plain_import(session, 1);
-        gmsh::vectorpair all;
-        gmsh::model::occ::importShapes(files.result, all, false,
-                                       request.format == MakeSolidRequest::brep ? "brep" : "step");
+        import_shapes(files.result, request.format == MakeSolidRequest::brep ? "brep" : "step");
         const std::string faults = faults_of_model(request.diagonal);
         if (!faults.empty())
             session.refuse("cad.reads_back",
                            "the file reads back with " + faults +
                                " instead of one closed solid; write the facets with write_facets");
-        const double volume = volume_of(occ_tags(3).front());
+        const double volume = mass_of(3, tags_of(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
             session.refuse("cad.reads_back", "the file reads back with a volume of " +
                                                  std::to_string(volume) + " instead of " +
                                                  std::to_string(expected) + "; write it as .brep");
         }
-        return std::pair(occ_tags(2).size(), volume);
+        return std::pair(tags_of(2).size(), volume);
     });
 }
 
@@ -218,7 +183,7 @@ cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int
 {
     const CapturedOutput output;
     const Sewn sewn = sew(session, faces, request);
-    const double volume = volume_of(sewn.solid);
+    const double volume = mass_of(3, sewn.solid);
     check_volume(session, volume, request);
     write_alone(session, sewn.solid, files);
     const auto [count, written] = read_back(session, request, files, volume);

@@ -51,10 +51,7 @@ void put(A& with, Own& quality)
 {
     with(quality.hexes), with(quality.wedges), with(quality.min_scaled_jacobian);
     with(quality.mean_scaled_jacobian), with(quality.inverted), with(quality.uncertified);
-    with(quality.histogram), with(quality.volume);
-    put_each(with, quality.worst, [&](auto& cell) {
-        with(cell.cell), with(cell.layer), with(cell.centre), with(cell.scaled_jacobian);
-    });
+    with(quality.histogram), with(quality.volume), with(quality.worst);
 }
 
 /// The results of all slabs in order, where each process contributes its own slabs.
@@ -138,31 +135,33 @@ public:
 
     [[nodiscard]] std::optional<std::array<Index, 2>> first()
     {
-        const bool none = std::all_of(beside_.begin(), beside_.end(),
-                                      [](const auto& list) { return list.empty(); });
-        if (none) return std::nullopt;
+        std::optional<std::array<Index, 2>> least;
+        if (std::ranges::all_of(beside_, [](const auto& list) { return list.empty(); })) return least;
         std::size_t shares = 1; // parts of the cubes, processed one after the other
-        std::vector<Index> suspects;
         for (std::size_t share = 0; share < shares; ++share) {
             if (!gather(share, shares)) {
                 shares *= 2; // start again with less at a time
                 share = static_cast<std::size_t>(-1);
-                suspects.clear();
                 continue;
             }
-            find_twins(suspects);
+            std::vector<Vec3> places;
+            for (const Entry& entry : entries_) places.push_back(entry.place);
+            const auto pair = find_coincident(places, 0, tolerance_, bounds_, context_);
+            if (!pair) continue;
+            const std::array<Index, 2> nodes{entries_[index((*pair)[0])].node,
+                                             entries_[index((*pair)[1])].node};
+            if (!least || nodes < *least) least = nodes;
         }
-        return suspects.empty() ? std::nullopt : nearest(std::move(suspects));
+        return least;
     }
 
 private:
     struct Entry {
-        std::uint64_t cube;
-        Index point;
-        friend auto operator<=>(const Entry&, const Entry&) = default;
+        Index node;
+        Vec3 place;
     };
     /// Most entries held at once: 64 MB.
-    static constexpr std::size_t kMost = std::size_t(1) << 22;
+    static constexpr std::size_t kMost = std::size_t(1) << 21;
 
     /// Call `visit(node, point)` for the nodes of a slab that lie in the box of another slab.
     template <class Visit>
@@ -180,34 +179,39 @@ private:
         }
     }
 
-    /// Collect nodes by cubes with sides of eight tolerances, for one share of the cubes. A node within a
-    /// tolerance of another cube is entered there too. @return false if there are too many
+    /// Collect the nodes, ascending, of one share of the cubes with sides of eight tolerances. A node within
+    /// a tolerance of another cube belongs to that too. @return false if there are too many
     bool gather(std::size_t share, std::size_t shares)
     {
         entries_.clear();
-        const double side = 8 * tolerance_;
         for (std::size_t slab = 0; slab < slabs_.size(); ++slab) {
             check_cancelled(context_);
-            bool room = true;
             each_node(slab, [&](Index node, const Vec3& p) {
-                std::array<std::array<std::int64_t, 2>, 3> range;
-                for (int d = 0; d < 3; ++d) {
-                    const double at = p[d] - bounds_.min()[d];
-                    range[std::size_t(d)] = {static_cast<std::int64_t>(std::floor((at - tolerance_) / side)),
-                                             static_cast<std::int64_t>(std::floor((at + tolerance_) / side))};
-                }
-                for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x)
-                    for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y)
-                        for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z) {
-                            const std::uint64_t cube = mixed(x, y, z);
-                            if ((cube >> 40) % shares != share) continue;
-                            room = room && entries_.size() < kMost;
-                            if (room) entries_.push_back({cube, node});
-                        }
+                if (entries_.size() <= kMost && is_in_share(p, share, shares)) entries_.push_back({node, p});
             });
-            if (!room) return false;
+            if (entries_.size() > kMost) return false;
         }
+        // Nodes between two slabs are there twice.
+        std::ranges::stable_sort(entries_, {}, &Entry::node);
+        const auto twice = std::ranges::unique(entries_, {}, &Entry::node);
+        entries_.erase(twice.begin(), twice.end());
         return true;
+    }
+
+    [[nodiscard]] bool is_in_share(const Vec3& p, std::size_t share, std::size_t shares) const
+    {
+        const double side = 8 * tolerance_;
+        std::array<std::array<std::int64_t, 2>, 3> range;
+        for (int d = 0; d < 3; ++d) {
+            const double at = p[d] - bounds_.min()[d];
+            range[std::size_t(d)] = {static_cast<std::int64_t>(std::floor((at - tolerance_) / side)),
+                                     static_cast<std::int64_t>(std::floor((at + tolerance_) / side))};
+        }
+        for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x)
+            for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y)
+                for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z)
+                    if ((mixed(x, y, z) >> 40) % shares == share) return true;
+        return false;
     }
 
     static std::uint64_t mixed(std::int64_t x, std::int64_t y, std::int64_t z)
@@ -216,36 +220,6 @@ private:
         h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(y)) * 0xBF58476D1CE4E5B9u;
         h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(z)) * 0x94D049BB133111EBu;
         return h ^ (h >> 31);
-    }
-
-    /// Compare the nodes that share a cube.
-    void find_twins(std::vector<Index>& suspects)
-    {
-        std::sort(entries_.begin(), entries_.end());
-        entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
-        for (std::size_t i = 0; i < entries_.size();) {
-            std::size_t end = i + 1;
-            while (end < entries_.size() && entries_[end].cube == entries_[i].cube) ++end;
-            for (std::size_t k = i; end - i > 1 && k < end; ++k) suspects.push_back(entries_[k].point);
-            i = end;
-        }
-    }
-
-    std::optional<std::array<Index, 2>> nearest(std::vector<Index> suspects)
-    {
-        std::sort(suspects.begin(), suspects.end());
-        suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
-        std::vector<Vec3> place(suspects.size());
-        for (std::size_t slab = 0; slab < slabs_.size(); ++slab) {
-            each_node(slab, [&](Index node, const Vec3& p) {
-                const auto found = std::lower_bound(suspects.begin(), suspects.end(), node);
-                if (found != suspects.end() && *found == node)
-                    place[static_cast<std::size_t>(found - suspects.begin())] = p;
-            });
-        }
-        const auto pair = find_coincident(place, 0, tolerance_, bounds_, context_);
-        if (!pair) return std::nullopt;
-        return std::array<Index, 2>{suspects[index((*pair)[0])], suspects[index((*pair)[1])]};
     }
 
     const LayeredMesh& layered_;
@@ -259,16 +233,12 @@ private:
     std::vector<Entry> entries_;
 };
 
-Finding twins(const LayeredMesh& layered, const std::array<Index, 2>& pair, const RunContext& context)
+std::string name_of_node(const LayeredMesh& layered, Index node, const RunContext& context)
 {
-    const auto name = [&](Index node) {
-        std::vector<Vec3> row(index(layered.mesh.nodes_per_layer));
-        const int level = node / layered.mesh.nodes_per_layer;
-        layered.nodes.place(level, level + 1, row, context);
-        return node_name(row[index(node % layered.mesh.nodes_per_layer)], node, layered.mesh.nodes_per_layer,
-                         static_cast<std::size_t>(layered.mesh.layers) + 1);
-    };
-    return coincident_nodes(name(pair[0]), name(pair[1]));
+    const Index row = layered.mesh.nodes_per_layer;
+    std::vector<Vec3> nodes(index(row));
+    layered.nodes.place(node / row, node / row + 1, nodes, context);
+    return node_name(nodes[index(node % row)], node, row, static_cast<std::size_t>(layered.mesh.layers) + 1);
 }
 
 template <class A, class Own>
@@ -299,24 +269,12 @@ SlabPlace place_of(std::span<const Vec3> nodes, int first, std::size_t row, cons
     SlabPlace place;
     place.bounds = finite_bounds(nodes, context);
     if (place.bounds.isEmpty()) {
-        const auto wrong = std::find_if(nodes.begin(), nodes.end(),
-                                        [](const Vec3& p) { return !p.allFinite(); });
         place.not_finite = static_cast<Index>(static_cast<std::size_t>(first) * row) +
-                           static_cast<Index>(wrong - nodes.begin());
+                           first_not_finite(nodes);
         return place;
     }
     lay_box(nodes, row, place);
     return place;
-}
-
-Finding not_finite_node(const LayeredMesh& layered, Index node, const RunContext& context)
-{
-    const HexMesh& mesh = layered.mesh;
-    std::vector<Vec3> row(index(mesh.nodes_per_layer));
-    const int level = node / mesh.nodes_per_layer;
-    layered.nodes.place(level, level + 1, row, context);
-    return not_finite(node_name(row[index(node % mesh.nodes_per_layer)], node, mesh.nodes_per_layer,
-                                static_cast<std::size_t>(mesh.layers) + 1));
 }
 
 } // namespace
@@ -330,7 +288,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
     const auto [begin, end] = share_of(team, slabs.size());
     Eigen::AlignedBox3d bounds;
     for (const SlabPlace& place : places) {
-        if (place.not_finite >= 0) return not_finite_node(layered, place.not_finite, context);
+        if (place.not_finite >= 0) return not_finite(name_of_node(layered, place.not_finite, context));
         bounds.extend(place.bounds);
     }
     const double tolerance = coincidence_tolerance(bounds);
@@ -369,7 +327,8 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
          }))
         take(pair);
     if (!least) return std::nullopt;
-    return twins(layered, *least, context);
+    return coincident_nodes(name_of_node(layered, (*least)[0], context),
+                            name_of_node(layered, (*least)[1], context));
 }
 
 MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, const Team* team)

@@ -3,8 +3,6 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/shared/parallel.h>
-
 #include <algorithm>
 
 namespace lacuna::quality {
@@ -127,36 +125,31 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
                     float* kept = nullptr)
 {
     const std::size_t count = cells.columns() * cells.layers();
-    const std::size_t width = chunk_width(cells, kLanes);
-    const std::size_t chunks = (cells.columns() + width - 1) / width;
-    std::vector<Partial> partials(chunks);
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+    const Chunks chunks{cells, kLanes};
+    std::vector<Partial> partials(chunks.count);
+    chunks.for_each(context, [&](std::size_t c, std::size_t begin, std::size_t end) {
         Values values;
-        for (std::size_t c = begin; c < end; ++c)
-            for_each_batch<kLanes>(
-                cells, c * width, std::min((c + 1) * width, cells.columns()),
-                [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
-                    evaluate(batch, values);
-                    Signs signs = signs_after_cut(values);
-                    std::array<Vec3, 27> nodes;
-                    for (int lane = 0; lane < filled; ++lane) {
-                        if (!curved(first + static_cast<std::size_t>(lane), nodes)) continue;
-                        const CurvedCell cell = judge(nodes);
-                        put_cell(values, signs, lane, cell.scaled_jacobian, cell.volume, cell.positive);
-                    }
-                    for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                        const WedgeValues wedge = evaluate_wedge(corners);
-                        put_cell(values, signs, lane, wedge.scaled, wedge.volume, is_positive(wedge));
-                        ++partials[c].wedges;
-                    });
-                    add_batch(partials[c], cells, values, signs, first, filled);
-                    if (kept == nullptr) return;
-                    for (int lane = 0; lane < filled; ++lane)
-                        kept[first + static_cast<std::size_t>(lane)] = static_cast<float>(
-                            values.scaled[lane]);
+        for_each_batch<kLanes>(
+            cells, begin, end, [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
+                evaluate(batch, values);
+                Signs signs = signs_after_cut(values);
+                std::array<Vec3, 27> nodes;
+                for (int lane = 0; lane < filled; ++lane) {
+                    if (!curved(first + static_cast<std::size_t>(lane), nodes)) continue;
+                    const CurvedCell cell = judge(nodes);
+                    put_cell(values, signs, lane, cell.scaled_jacobian, cell.volume, cell.positive);
+                }
+                for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
+                    const WedgeValues wedge = evaluate_wedge(corners);
+                    put_cell(values, signs, lane, wedge.scaled, wedge.volume, is_positive(wedge));
+                    ++partials[c].wedges;
                 });
+                add_batch(partials[c], cells, values, signs, first, filled);
+                if (kept == nullptr) return;
+                std::transform(values.scaled, values.scaled + filled, kept + first,
+                               [](double scaled) { return static_cast<float>(scaled); });
+            });
     });
-
     Quality quality;
     quality.hexes = count;
     if (count == 0) return quality;

@@ -106,20 +106,16 @@ template <class Cells, class Body>
 void for_each_value(const Cells& cells, std::span<const Metric> metrics, double average_volume,
                     const RunContext& context, const Body& body)
 {
-    const std::size_t width = chunk_width(cells, kMetricLanes);
-    const std::size_t chunks = (cells.columns() + width - 1) / width;
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
+    Chunks{cells, kMetricLanes}.for_each(context, [&](std::size_t c, std::size_t begin, std::size_t end) {
         std::vector<double> values(metrics.size() * kMetricLanes);
-        for (std::size_t c = begin; c < end; ++c)
-            for_each_batch<kMetricLanes>(
-                cells, c * width, std::min((c + 1) * width, cells.columns()),
-                [&](const CellBatch<kMetricLanes>& batch, std::size_t first, int filled) {
-                    evaluate_metrics(batch, metrics, average_volume, values.data());
-                    for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                        put_wedge(metrics, corners, values.data() + lane);
-                    });
-                    body(c, first, filled, values.data());
+        for_each_batch<kMetricLanes>(
+            cells, begin, end, [&](const CellBatch<kMetricLanes>& batch, std::size_t first, int filled) {
+                evaluate_metrics(batch, metrics, average_volume, values.data());
+                for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
+                    put_wedge(metrics, corners, values.data() + lane);
                 });
+                body(c, first, filled, values.data());
+            });
     });
 }
 
@@ -127,8 +123,7 @@ template <class Cells>
 std::vector<Tally> tally(const Cells& cells, std::span<const Metric> metrics, double average_volume,
                          const RunContext& context)
 {
-    const std::size_t width = chunk_width(cells, kMetricLanes);
-    const std::size_t chunks = (cells.columns() + width - 1) / width;
+    const std::size_t chunks = Chunks{cells, kMetricLanes}.count;
     std::vector<Tally> parts(chunks * metrics.size());
     for_each_value(cells, metrics, average_volume, context,
                    [&](std::size_t chunk, std::size_t first, int filled, const double* values) {
@@ -165,8 +160,7 @@ template <class Cells>
 double sum_of_volumes(const Cells& cells, const RunContext& context)
 {
     const Metric volume = Metric::volume;
-    const std::size_t width = chunk_width(cells, kMetricLanes);
-    std::vector<double> sums((cells.columns() + width - 1) / width, 0.0);
+    std::vector<double> sums(Chunks{cells, kMetricLanes}.count, 0.0);
     for_each_value(cells, {&volume, 1}, 1, context,
                    [&](std::size_t chunk, std::size_t, int filled, const double* values) {
                        for (int lane = 0; lane < filled; ++lane) sums[chunk] += values[lane];
@@ -242,10 +236,8 @@ template <class Cells>
 std::vector<double> scaled_jacobians(const Cells& cells, const RunContext& context)
 {
     std::vector<double> result(cells.columns() * cells.layers());
-    const std::size_t width = chunk_width(cells, kLanes);
-    const std::size_t chunks = (cells.columns() + width - 1) / width;
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        put_scaled_jacobians(cells, begin * width, std::min(end * width, cells.columns()), result.data());
+    Chunks{cells, kLanes}.for_each(context, [&](std::size_t, std::size_t begin, std::size_t end) {
+        put_scaled_jacobians(cells, begin, end, result.data());
     });
     return result;
 }

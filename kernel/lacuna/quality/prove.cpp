@@ -193,14 +193,16 @@ Finding coincident_nodes(const std::string& a, const std::string& b)
     return {Fault::coincident_nodes, a + " and " + b + " coincide (within 1e-9 of the diagonal of the mesh)"};
 }
 
+Index first_not_finite(std::span<const Vec3> nodes)
+{
+    const auto wrong = std::ranges::find_if(nodes, [](const Vec3& p) { return !p.allFinite(); });
+    return static_cast<Index>(wrong - nodes.begin());
+}
+
 Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunContext& context)
 {
     const Eigen::AlignedBox3d bounds = finite_bounds(nodes, context);
-    if (bounds.isEmpty()) {
-        const auto wrong = std::find_if(nodes.begin(), nodes.end(),
-                                        [](const Vec3& p) { return !p.allFinite(); });
-        return not_finite(node_name(nodes, static_cast<Index>(wrong - nodes.begin()), nodes_per_layer));
-    }
+    if (bounds.isEmpty()) return not_finite(node_name(nodes, first_not_finite(nodes), nodes_per_layer));
     if (const auto pair = find_coincident(nodes, index(std::max<Index>(nodes_per_layer, 0)),
                                           coincidence_tolerance(bounds), bounds, context))
         return coincident_nodes(node_name(nodes, (*pair)[0], nodes_per_layer),

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/text.h>
+
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace lacuna::quality {
 namespace {
-
-template <class... Format>
-std::string digits_of(double value, Format... format)
-{
-    char text[512];
-    const auto end = std::to_chars(text, text + sizeof text, value, format...);
-    return {text, end.ptr};
-}
 
 std::string pad_left(const std::string& text, std::size_t width)
 {
@@ -23,11 +16,11 @@ std::string pad_left(const std::string& text, std::size_t width)
 
 } // namespace
 
-std::string number(double value) { return digits_of(value, std::chars_format::general, 6); }
+std::string number(double value) { return with_digits(value, 6); }
 
 std::string fixed(double value, int digits, std::size_t width)
 {
-    return pad_left(digits_of(value, std::chars_format::fixed, digits), width);
+    return pad_left(with_decimals(value, digits), width);
 }
 
 std::string place(const Vec3& point)

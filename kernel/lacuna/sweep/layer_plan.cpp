@@ -39,11 +39,11 @@ struct Placed {
 };
 
 template <class A, class Plan>
-void put_plan(A& with, Plan& plan, std::int8_t& straight, std::int8_t& spread)
+void put_plan(A& with, Plan& plan)
 {
     with(plan.source.nodes), with(plan.source.quads), with(plan.source.loops), with(plan.target);
     with(plan.columns.layers), with(plan.columns.rim), with(plan.columns.points);
-    with(plan.options.heights), with(straight), with(spread);
+    with(plan.options), with(plan.laid), with(plan.middles);
 }
 
 /// Lay nodes elsewhere as the plan says.
@@ -174,34 +174,8 @@ mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells)
     return plan.middles ? mesh::number_sides(cells, plan.middles->full) : mesh::MiddleNodes{};
 }
 
-void put(Writer& writer, const LayerPlan& plan)
-{
-    auto straight = static_cast<std::int8_t>(plan.options.straight_lines),
-         spread = static_cast<std::int8_t>(plan.options.spread_residual);
-    put_plan(writer, plan, straight, spread);
-    std::vector<Index> laid;
-    std::vector<Vec3> places;
-    for (const auto& [node, place] : plan.laid) laid.push_back(node), places.push_back(place);
-    writer(laid), writer(places);
-    writer(static_cast<std::int8_t>(!plan.middles ? 0 : plan.middles->full ? 2 : 1));
-    if (plan.middles) writer(plan.middles->skin);
-}
-
-void put(Reader& reader, LayerPlan& plan)
-{
-    std::int8_t straight = 0, spread = 0;
-    put_plan(reader, plan, straight, spread);
-    std::vector<Index> laid;
-    std::vector<Vec3> places;
-    reader(laid), reader(places);
-    if (laid.size() != places.size()) throw ProtocolError("a plan lays nodes elsewhere and says not where");
-    for (std::size_t i = 0; i < laid.size(); ++i) plan.laid.emplace_back(laid[i], places[i]);
-    std::int8_t middles = 0; // 1: hex20, 2: hex27
-    reader(middles);
-    if (middles != 0) reader(plan.middles.emplace().skin), plan.middles->full = middles == 2;
-    plan.options.straight_lines = straight != 0;
-    plan.options.spread_residual = spread != 0;
-}
+void put(Writer& writer, const LayerPlan& plan) { put_plan(writer, plan); }
+void put(Reader& reader, LayerPlan& plan) { put_plan(reader, plan); }
 
 LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
                            const RunContext& context)

@@ -20,32 +20,8 @@ template <class A, class Mesh>
 void put_mesh(A& with, Mesh& mesh)
 {
     with(mesh.nodes_per_layer), with(mesh.layers), with(mesh.rim);
-    put_each(with, mesh.patches, [&](auto& patch) { with(patch.tag), with(patch.groups), with(patch.face); });
-    with(mesh.source_patch), with(mesh.target_patch), with(mesh.wall_patch);
+    with(mesh.patches), with(mesh.source_patch), with(mesh.target_patch), with(mesh.wall_patch);
     with(mesh.volume_groups);
-}
-
-void put_file(Writer& writer, const LayeredFile& file)
-{
-    std::vector<int> metrics;
-    for (const quality::Metric metric : file.quality) metrics.push_back(static_cast<int>(metric));
-    writer(static_cast<std::int8_t>(file.binary)), writer(file.version), writer(metrics);
-    writer(file.material), writer(file.partition.parts), writer(file.partition.ghosts);
-    writer(static_cast<std::int8_t>(file.all_groups));
-}
-
-LayeredFile read_file(Reader& reader)
-{
-    LayeredFile file;
-    std::int8_t binary = 0, all_groups = 0;
-    std::vector<int> metrics;
-    reader(binary), reader(file.version), reader(metrics);
-    reader(file.material), reader(file.partition.parts), reader(file.partition.ghosts);
-    reader(all_groups);
-    file.binary = binary != 0;
-    file.all_groups = all_groups != 0;
-    for (const int metric : metrics) file.quality.push_back(static_cast<quality::Metric>(metric));
-    return file;
 }
 
 /// A mesh received from rank 0, with the plan that computes its nodes.
@@ -66,21 +42,11 @@ Received read_mesh(Reader& reader, const RunContext& context)
     return received;
 }
 
-void put_numbers(Writer& writer, const mesh::NodeNumbers& numbers)
-{
-    std::vector<Index> nodes, known;
-    for (const auto& [node, number] : numbers.known()) nodes.push_back(node), known.push_back(number);
-    writer(numbers.first()), writer(nodes), writer(known);
-}
-
 mesh::NodeNumbers read_numbers(Reader& reader, const mesh::HexMesh& mesh)
 {
     Index first = 0;
-    std::vector<Index> nodes, numbers;
-    reader(first), reader(nodes), reader(numbers);
-    if (nodes.size() != numbers.size()) throw ProtocolError("numbers of nodes are missing");
     std::vector<std::pair<Index, Index>> known;
-    for (std::size_t i = 0; i < nodes.size(); ++i) known.emplace_back(nodes[i], numbers[i]);
+    reader(first), reader(known);
     return {first, std::move(known), mesh::corner_count(mesh)};
 }
 
@@ -136,8 +102,8 @@ void help_write_parts(const std::string& bytes, const Team& team, const RunConte
         parts.push_back({received.back().mesh, &received.back().layers.nodes, numbers.back()});
     }
     std::string path;
-    reader(path);
-    const LayeredFile file = read_file(reader);
+    LayeredFile file;
+    reader(path), reader(file);
     reader.finish();
     write_share(parts, path, file, &team, context);
 }
@@ -151,7 +117,7 @@ void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& pla
     Writer writer;
     sweep::put(writer, plan);
     put_mesh(writer, layered.mesh);
-    writer(path.text()), put_file(writer, file);
+    writer(path.text()), writer(file);
     const Team& team = crew->call(kWriteTask, std::move(writer).take());
     do_together(&team, [&] { write_share(layered, path, file, &team, context); });
 }
@@ -172,9 +138,9 @@ void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& pat
     for (std::size_t p = 0; p < parts.size(); ++p) {
         sweep::put(writer, *assembly.parts[p].plan);
         put_mesh(writer, parts[p].mesh);
-        put_numbers(writer, parts[p].numbers);
+        writer(parts[p].numbers.first()), writer(parts[p].numbers.known());
     }
-    writer(path.text()), put_file(writer, file);
+    writer(path.text()), writer(file);
     const Team& team = crew->call(kPartsTask, std::move(writer).take());
     do_together(&team, [&] { write_share(parts, path, file, &team, context); });
 }
@@ -188,8 +154,8 @@ void help(std::string_view task, const std::string& bytes, const Team& team, con
         Reader reader(bytes);
         const Received received = read_mesh(reader, context);
         std::string path;
-        reader(path);
-        const LayeredFile file = read_file(reader);
+        LayeredFile file;
+        reader(path), reader(file);
         reader.finish();
         write_share({received.mesh, received.layers.nodes}, path, file, &team, context);
     });

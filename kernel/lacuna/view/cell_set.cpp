@@ -23,6 +23,11 @@ bool is_of_void(const std::string& group)
 
 } // namespace
 
+std::string counted(std::size_t count, const std::string& what)
+{
+    return std::to_string(count) + " " + what + (count == 1 ? "" : what.ends_with('x') ? "es" : "s");
+}
+
 std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 {
     std::vector<ShownPatch> shown;

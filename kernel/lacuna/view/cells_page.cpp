@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 namespace lacuna::view {
@@ -41,17 +43,6 @@ std::vector<Index> shifted(std::vector<Index> patches, Index first)
     for (Index& patch : patches)
         if (patch >= 0) patch += first;
     return patches;
-}
-
-void add_patches(Json& json, const std::vector<ShownPatch>& patches)
-{
-    for (const ShownPatch& patch : patches)
-        json.begin_object()
-            .member("tag", patch.tag)
-            .member("groups", patch.groups)
-            .member("void", patch.made_void)
-            .member("quads", patch.quads)
-            .end_object();
 }
 
 void add_swept(Json& json, const Region& region, const Grid& grid, Index first_patch,
@@ -102,9 +93,26 @@ void add_listed(Json& json, const ListedCells& region, const Grid& grid)
     json.end_object();
 }
 
-std::string counted(std::size_t n, const std::string& what)
+/// @param add_regions  writes the regions as elements of an array.
+void write_cells(const std::string& title, const std::vector<std::string>& facts, const Grid& grid,
+                 const std::vector<ShownPatch>& patches, const std::function<void(Json&)>& add_regions,
+                 const io::OutputPath& path)
 {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : what.ends_with('x') ? "es" : "s");
+    Json json;
+    json.begin_object().member("kind", "cells").member("title", title).member("facts", facts);
+    add_frame(json, grid);
+    json.key("patches").begin_array();
+    for (const ShownPatch& patch : patches)
+        json.begin_object()
+            .member("tag", patch.tag)
+            .member("groups", patch.groups)
+            .member("void", patch.made_void)
+            .member("quads", patch.quads)
+            .end_object();
+    json.end_array().key("regions").begin_array();
+    add_regions(json);
+    json.end_array().end_object();
+    write_html(json, path);
 }
 
 } // namespace
@@ -132,26 +140,20 @@ void write_page(std::span<const Region> regions, const io::OutputPath& path, con
     if (regions.size() > 1) facts.push_back(counted(regions.size(), "region"));
     if (order == 2) facts.emplace_back("order 2");
 
-    Json json;
-    json.begin_object().member("kind", "cells");
-    json.member("title", options.title.empty() ? regions.front().name : options.title);
-    json.member("facts", facts);
-    add_frame(json, grid);
     std::vector<Index> first_patch;
-    Index next = 0;
-    json.key("patches").begin_array();
+    std::vector<ShownPatch> patches;
     for (const Region& region : regions) {
-        first_patch.push_back(next);
-        next += static_cast<Index>(region.mesh->patches.size());
-        add_patches(json, shown_patches(*region.mesh));
+        first_patch.push_back(static_cast<Index>(patches.size()));
+        std::ranges::move(shown_patches(*region.mesh), std::back_inserter(patches));
     }
-    json.end_array().key("regions").begin_array();
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        check_cancelled(context);
-        add_swept(json, regions[r], grid, first_patch[r], context);
-    }
-    json.end_array().end_object();
-    write_html(json, path);
+    const auto add_regions = [&](Json& json) {
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            check_cancelled(context);
+            add_swept(json, regions[r], grid, first_patch[r], context);
+        }
+    };
+    write_cells(options.title.empty() ? regions.front().name : options.title, facts, grid, patches,
+                add_regions, path);
 }
 
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options,
@@ -170,19 +172,14 @@ void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOpti
     if (cells.second_order) facts.emplace_back("order 2");
     if (cells.straightened) facts.emplace_back("some of order 2 drawn by their corners");
 
-    Json json;
-    json.begin_object().member("kind", "cells");
-    json.member("title", options.title.empty() ? deck.path : options.title).member("facts", facts);
-    add_frame(json, grid);
-    json.key("patches").begin_array();
-    add_patches(json, cells.patches);
-    json.end_array().key("regions").begin_array();
-    for (const ListedCells& region : cells.regions) {
-        check_cancelled(context);
-        add_listed(json, region, grid);
-    }
-    json.end_array().end_object();
-    write_html(json, path);
+    const auto add_regions = [&](Json& json) {
+        for (const ListedCells& region : cells.regions) {
+            check_cancelled(context);
+            add_listed(json, region, grid);
+        }
+    };
+    write_cells(options.title.empty() ? deck.path : options.title, facts, grid, cells.patches, add_regions,
+                path);
 }
 
 } // namespace lacuna::view

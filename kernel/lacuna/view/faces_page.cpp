@@ -108,11 +108,7 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
         if (!names.empty()) regions.push_back(names.front());
     json.member("regions", regions);
     json.member("void", face.origin == Origin::made_void).member("geometry", word(face.geometry));
-    json.key("role");
-    if (role != nullptr)
-        json.value(role);
-    else
-        json.value(std::numeric_limits<double>::quiet_NaN()); // null
+    json.key("role").value(role);
     json.member("first", sides.first[f]).member("quads", sides.quads[f]).member("sides", sides.count[f]);
     json.key("edges").begin_array();
     for (const EdgeId edge : edges_of(face)) json.value(edge.index());
@@ -159,16 +155,11 @@ void add_cavities(Json& json, const Model& model, const std::vector<closure::Cav
     json.end_array();
 }
 
-/// Text for a model whose faces are to be selected, or for a volume with roles.
-struct Told {
-    const closure::ModelFacts* model = nullptr;
-    const std::vector<topology::Role>* roles = nullptr;
-};
-
-void write_faces(const Model& model, const Told& told, const std::vector<std::string>& facts,
+/// @param roles  of each face of a volume; null: a model, whose faces are to be selected.
+void write_faces(const Model& model, const closure::ModelFacts& found,
+                 const std::vector<topology::Role>* roles, const std::vector<std::string>& facts,
                  const io::OutputPath& path, const PageOptions& options, const RunContext& context)
 {
-    const auto of_faces = told.model != nullptr ? told.model->faces : topology::face_facts(model);
     Eigen::AlignedBox3d box;
     for (const topology::Face& face : model.faces)
         for (const Triangle& triangle : face.triangles)
@@ -190,16 +181,15 @@ void write_faces(const Model& model, const Told& told, const std::vector<std::st
         check_cancelled(context);
         const FaceId id(f);
         json.begin_object();
-        add_face(json, model, id, sides, told.roles != nullptr ? word((*told.roles)[f]) : nullptr);
-        add_facts(json, model, of_faces[f],
-                  told.model != nullptr ? told.model->round[f] : topology::round_shape(model, id));
-        if (told.model != nullptr) json.member("use", closure::use_of(*told.model, id));
+        add_face(json, model, id, sides, roles != nullptr ? word((*roles)[f]) : nullptr);
+        add_facts(json, model, found.faces[f], found.round[f]);
+        if (roles == nullptr) json.member("use", closure::use_of(found, id));
         json.end_object();
     }
     json.end_array();
     add_edges(json, model);
-    add_gaps(json, model, told.model != nullptr ? told.model->gaps : std::vector<topology::Gap>{});
-    add_cavities(json, model, told.model != nullptr ? told.model->cavities : std::vector<closure::Cavity>{});
+    add_gaps(json, model, found.gaps);
+    add_cavities(json, model, found.cavities);
     json.end_object();
     write_html(json, path);
 }
@@ -209,9 +199,8 @@ void write_faces(const Model& model, const Told& told, const std::vector<std::st
 void write_page(const Model& model, const io::OutputPath& path, const PageOptions& options,
                 const RunContext& context)
 {
-    const closure::ModelFacts facts = closure::model_facts(model, context);
-    write_faces(model, {&facts, nullptr}, {std::to_string(model.faces.size()) + " faces"}, path, options,
-                context);
+    write_faces(model, closure::model_facts(model, context), nullptr,
+                {std::to_string(model.faces.size()) + " faces"}, path, options, context);
 }
 
 void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, const PageOptions& options,
@@ -223,7 +212,11 @@ void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, 
         facts.emplace_back("sealed");
     else
         facts.push_back("class " + std::string(topology::to_string(topology::classify(volume).value)));
-    write_faces(volume.model, {nullptr, &volume.role}, facts, path, options, context);
+    closure::ModelFacts found;
+    found.faces = topology::face_facts(volume.model);
+    for (std::size_t f = 0; f < volume.model.faces.size(); ++f)
+        found.round.push_back(topology::round_shape(volume.model, FaceId(f)));
+    write_faces(volume.model, found, &volume.role, facts, path, options, context);
 }
 
 } // namespace lacuna::view

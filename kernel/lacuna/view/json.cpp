@@ -61,6 +61,8 @@ Json& Json::value(std::string_view text)
     return *this;
 }
 
+Json& Json::value(const char* text) { return text != nullptr ? value(std::string_view(text)) : raw("null"); }
+
 Json& Json::value(bool truth) { return raw(truth ? "true" : "false"); }
 
 Json& Json::value(double number)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/detail/legend.h>
 
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/view/detail/stroke_font.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace lacuna::view {
 
@@ -23,16 +23,6 @@ void write(std::vector<Mark>& marks, const std::string& text, const Vec2& at, do
 {
     for (const auto& [from, to] : stroked(text).strokes)
         marks.push_back({at + height * from, at + height * to, kInk, height / 8, false});
-}
-
-std::string number(double value)
-{
-    char digits[32];
-    const int n = std::snprintf(digits, sizeof digits, value == std::floor(value) ? "%.0f" : "%.1f", value);
-    std::string said(digits, static_cast<std::size_t>(n));
-    for (char& c : said)
-        if (c == ',') c = '.'; // the locale of the host may use a comma
-    return said;
 }
 
 double width_of(const Key& key) { return kBox + kGap + width_of(key.text, kLetters); }
@@ -76,6 +66,9 @@ PlacedLegend place_legend(const Legend& legend, int width, int height)
             placed.marks.push_back({{kEdge + kBarWide * i / kSteps, top},
                                     {kEdge + kBarWide * (i + 1) / kSteps, top + kBarHigh},
                                     on_ramp(legend.ramp, (i + 0.5) / kSteps)});
+        const auto number = [](double value) {
+            return with_decimals(value, value == std::floor(value) ? 0 : 1);
+        };
         const std::string low = number(legend.low), high = number(legend.high);
         const double text = bottom - kLetters;
         write(placed.marks, low, {kEdge, text}, kLetters);

@@ -70,14 +70,6 @@ double distance_to(const Vec2& at, const Vec2& a, const Vec2& b)
     return (at - a - t * along).norm();
 }
 
-Colour mixed(const Colour& a, const Colour& b, double share)
-{
-    Colour c{};
-    for (std::size_t k = 0; k < 3; ++k)
-        c[k] = static_cast<std::uint8_t>(std::lround(a[k] * (1 - share) + b[k] * share));
-    return c;
-}
-
 /// A side in sample coordinates.
 struct Placed {
     std::array<Vec3, 4> corner; ///< projected

@@ -160,11 +160,6 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                                               std::to_string(most));
 }
 
-std::string counted(std::size_t count, const std::string& one)
-{
-    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 std::string title_of(std::span<const Region> regions)
 {
     std::size_t cells = 0;
@@ -173,8 +168,6 @@ std::string title_of(std::span<const Region> regions)
     const auto layers = static_cast<std::size_t>(regions.front().mesh->layers);
     return regions.front().name + ": " + counted(cells, "cell") + ", " + counted(layers, "layer");
 }
-
-std::string joined(const std::vector<std::string>& names) { return full_list(names, std::identity()); }
 
 /// Whether sides inside the volume may be visible.
 bool laid_open(const PictureOptions& options) { return options.cut || options.layers; }
@@ -211,7 +204,7 @@ Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& co
                 const ShownPatch& patch = own.patches[p];
                 if (patch.quads == 0) continue;
                 const std::string name = patch.groups.empty() ? "patch " + std::to_string(patch.tag)
-                                                              : joined(patch.groups);
+                                                              : full_list(patch.groups, std::identity());
                 legend.keys.push_back({kind_colour(own.first_patch + p), name, patch.made_void});
             }
         break;
@@ -251,7 +244,6 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
             DrawnSide like;
             like.colour = own.of(cell, cell / mesh.quads.size(), patch);
             like.hatched = own.hatched(patch);
-            like.hidden = options.edges ? 0 : 15;
             add_side(scene.sides, mesh, cell, face, like);
         });
     }

@@ -22,6 +22,9 @@ struct InputFile {
     std::vector<std::string> notes;                    ///< which script commands are skipped
 };
 
+/// The first bytes of a file, `most` at most.
+std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
+
 /// FNV-1a hash over words of eight bytes; `before` is the hash of the preceding bytes.
 std::uint64_t digest_of(std::span<const char> bytes, std::uint64_t before);
 std::uint64_t digest_of(std::uint64_t word, std::uint64_t before);

@@ -25,11 +25,8 @@ SolidSources sources_of(const topology::Model& model, const RunContext& context)
 /// How a sealed volume is made into a solid: each face is an exact face, a plane, spline patches or a filled
 /// surface, with the edges that these need.
 struct SolidPlan {
-    std::vector<Vec3> points;
-    std::vector<cad_protocol::SolidEdge> edges;
-    std::vector<cad_protocol::SolidFace> faces;
-    double diagonal = 0;                ///< [model length]
-    std::size_t planes = 0, fitted = 0; ///< numbers of void faces made so
+    cad_protocol::MakeSolidRequest request; ///< with the points, edges, faces and the diagonal
+    std::size_t planes = 0, fitted = 0;     ///< numbers of void faces made so
 };
 /// @param found  which entities of the sources exist in the CAD process.
 /// @throw InvalidInput  a face is curved and has no exact surface; names it.

@@ -16,8 +16,8 @@ namespace lacuna::cad {
 /// exactly that half.
 /// @param sides      of the loop of the face, in order: source, side, target, side.
 /// @param precision  how closely the sides are met [model length].
-std::vector<SplineSurface> void_patches(const topology::Model& model, const topology::Face& face,
-                                        const std::vector<std::vector<topology::EdgeUse>>& sides,
-                                        double precision);
+std::vector<SplineSurfaceData> void_patches(const topology::Model& model, const topology::Face& face,
+                                            const std::vector<std::vector<topology::EdgeUse>>& sides,
+                                            double precision);
 
 } // namespace lacuna::cad

@@ -60,7 +60,14 @@ public:
     Reply ask(cad_protocol::Opcode opcode, const Request& request, const Task& task,
               const std::vector<int>& descriptors = {})
     {
-        return receive<Reply>(opcode, cad_protocol::encode(request), task, descriptors);
+        const std::string bytes = cad_protocol::encode(request);
+        const std::unique_lock lock = enter(task);
+        cad_protocol::Frame frame = exchange(opcode, bytes, task, descriptors);
+        try {
+            return cad_protocol::decode<Reply>(frame.bytes);
+        } catch (const cad_protocol::ProtocolError& error) {
+            give_up(task, error);
+        }
     }
     /// Add the size of a model to the memory limit, until the model is released.
     void charge(std::uint64_t handle, std::uint64_t bytes);
@@ -75,18 +82,6 @@ public:
 private:
     explicit Worker(const RunContext* context);
 
-    template <class Reply>
-    Reply receive(cad_protocol::Opcode opcode, const std::string& bytes, const Task& task,
-                  const std::vector<int>& descriptors)
-    {
-        const std::unique_lock lock = enter(task);
-        cad_protocol::Frame frame = exchange(opcode, bytes, task, descriptors);
-        try {
-            return cad_protocol::decode<Reply>(frame.bytes);
-        } catch (const cad_protocol::ProtocolError& error) {
-            give_up(task, error);
-        }
-    }
     /// Notice that the process has ended by itself, and clean up. @pre `busy_` is held
     void notice_end() noexcept;
     std::unique_lock<std::timed_mutex> enter(const Task& task);

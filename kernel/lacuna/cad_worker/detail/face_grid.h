@@ -16,11 +16,14 @@ public:
     /// @param density  number of grid lines wanted in each interval between knots.
     GridAxis(std::vector<double> knots, const std::vector<double>& density, int least_cells);
 
-    [[nodiscard]] double to_grid(double parameter) const;
-    [[nodiscard]] double to_parameter(double grid) const;
+    [[nodiscard]] double to_grid(double parameter) const { return through(knots_, grid_, parameter); }
+    [[nodiscard]] double to_parameter(double grid) const { return through(grid_, knots_, grid); }
     [[nodiscard]] int cells() const { return cells_; }
 
 private:
+    /// Value at `x` of the piecewise linear map that takes `from` to `to`.
+    static double through(const std::vector<double>& from, const std::vector<double>& to, double x);
+
     std::vector<double> knots_, grid_;
     int cells_ = 1;
 };

@@ -15,22 +15,6 @@
 
 namespace lacuna::cad_worker {
 
-/// Whether Gmsh has been initialised.
-inline bool gmsh_is_initialized()
-{
-#if LACUNA_GMSH_AT_LEAST(4, 10)
-    return gmsh::isInitialized() != 0;
-#else
-    try { // An initialised Gmsh has at least one model; otherwise the list is empty or it throws.
-        std::vector<std::string> names;
-        gmsh::model::list(names);
-        return !names.empty();
-    } catch (...) {
-        return false;
-    }
-#endif
-}
-
 /// The type as Gmsh names it: "Plane", "Cylinder", "Unknown", …
 inline std::string gmsh_type(int dim, int tag)
 {
@@ -41,6 +25,41 @@ inline std::string gmsh_type(int dim, int tag)
     gmsh::model::getType(dim, tag, type);
 #endif
     return type;
+}
+
+/// Tags of the entities of a dimension in the current model, ascending.
+inline std::vector<int> tags_of(int dim)
+{
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dim);
+    std::vector<int> tags;
+    for (const auto& entity : entities) tags.push_back(entity.second);
+    return tags;
+}
+
+/// The boundaries of entities, one after the other: a seam is there twice.
+inline gmsh::vectorpair boundary_of(const gmsh::vectorpair& entities)
+{
+    gmsh::vectorpair boundary;
+    gmsh::model::getBoundary(entities, boundary, false, false, false);
+    return boundary;
+}
+
+/// Length, area or volume of a shape of Open CASCADE.
+inline double mass_of(int dim, int tag)
+{
+    double mass = 0;
+    gmsh::model::occ::getMass(dim, tag, mass);
+    return mass;
+}
+
+/// Add the shapes of a file to the current model. @param format  "step", "iges" or "brep".
+/// @param highest_only  leave out shapes that bound no shape of the highest dimension
+inline void import_shapes(const std::string& path, const char* format, bool highest_only = false)
+{
+    gmsh::vectorpair all;
+    gmsh::model::occ::importShapes(path, all, highest_only, format);
+    gmsh::model::occ::synchronize();
 }
 
 } // namespace lacuna::cad_worker

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/fields.h>
 #include <lacuna/core/types.h>
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -23,9 +25,11 @@ public:
     explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
 };
 
-/// Types that are copied byte by byte: numbers and fixed-size arrays of numbers.
+/// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. Not `bool`, of
+/// which only the bytes 0 and 1 are values.
 template <class T>
-struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {
+struct IsPlain
+    : std::bool_constant<(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>> {
 };
 template <class T, std::size_t n>
 struct IsPlain<std::array<T, n>> : IsPlain<T> {
@@ -40,32 +44,40 @@ struct IsPlain<Vec3> : std::true_type {
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian and never swapped");
 static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
 
-/// Appends values to a buffer: numbers as they are in memory, arrays and strings preceded by their length.
-/// Arrays of other types use `put(writer, value)`, found in the namespace of the type.
+/// Appends values to a buffer: numbers as they are in memory, arrays and strings preceded by their length,
+/// structs as their members in the order of declaration.
 class Writer {
 public:
     template <class T>
-    requires IsPlain<T>::value void operator()(const T& value) { append(&value, sizeof(T)); }
+    void operator()(const T& value)
+    {
+        if constexpr (IsPlain<T>::value)
+            append(&value, sizeof(T));
+        else
+            each_field(value, *this);
+    }
+    void operator()(bool truth) { (*this)(static_cast<std::uint8_t>(truth)); }
     void operator()(const std::string& text)
     {
         (*this)(static_cast<std::uint64_t>(text.size()));
         append(text.data(), text.size());
     }
     template <class T>
+    void operator()(const std::optional<T>& value)
+    {
+        (*this)(value.has_value());
+        if (value) (*this)(*value);
+    }
+    template <class T>
     void operator()(const std::vector<T>& values)
     {
         (*this)(static_cast<std::uint64_t>(values.size()));
-        if constexpr (IsPlain<T>::value) {
+        if constexpr (IsPlain<T>::value)
             append(values.data(), values.size() * sizeof(T));
-        } else {
-            for (const T& value : values) {
-                if constexpr (requires { (*this)(value); })
-                    (*this)(value);
-                else
-                    put(*this, value);
-            }
-        }
+        else
+            for (const T& value : values) (*this)(value);
     }
+
     [[nodiscard]] std::string take() && { return std::move(bytes_); }
 
 private:
@@ -73,6 +85,7 @@ private:
     {
         if (size > 0) bytes_.append(static_cast<const char*>(data), size);
     }
+
     std::string bytes_;
 };
 
@@ -82,14 +95,25 @@ public:
     explicit Reader(std::string_view bytes) : left_(bytes) {}
 
     template <class T>
-    requires IsPlain<T>::value void operator()(T& value)
+    void operator()(T& value)
     {
-        std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+        if constexpr (IsPlain<T>::value)
+            std::memcpy(static_cast<void*>(&value), take(sizeof(T)), sizeof(T));
+        else
+            each_field(value, *this);
     }
+    void operator()(bool& truth) { truth = *take(1) != 0; }
     void operator()(std::string& text)
     {
         const std::size_t size = length(1);
         text.assign(take(size), size);
+    }
+    template <class T>
+    void operator()(std::optional<T>& value)
+    {
+        bool is_set = false;
+        (*this)(is_set);
+        if (is_set) (*this)(value.emplace());
     }
     template <class T>
     void operator()(std::vector<T>& values)
@@ -103,15 +127,10 @@ public:
             // Each element takes at least one byte, so the number of bytes left bounds the loop.
             const std::size_t count = length(1);
             values.clear();
-            for (std::size_t i = 0; i < count; ++i) {
-                T& value = values.emplace_back();
-                if constexpr (requires { (*this)(value); })
-                    (*this)(value);
-                else
-                    put(*this, value);
-            }
+            for (std::size_t i = 0; i < count; ++i) (*this)(values.emplace_back());
         }
     }
+
     [[nodiscard]] bool is_empty() const { return left_.empty(); }
     /// @throw ProtocolError  bytes are left over.
     void finish() const
@@ -136,15 +155,5 @@ private:
     }
     std::string_view left_;
 };
-
-/// Read or write an array; `put_one(value)` lists the fields of one element, for reading and writing alike.
-template <class Archive, class Values, class PutOne>
-void put_each(Archive& with, Values& values, const PutOne& put_one)
-{
-    std::uint64_t count = values.size();
-    with(count);
-    if constexpr (!std::is_const_v<Values>) values.resize(count);
-    for (auto& value : values) put_one(value);
-}
 
 } // namespace lacuna

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quality/detail/cell_batch.h>
 #include <lacuna/quality/detail/wedge.h>
@@ -58,12 +59,29 @@ struct ListedCells {
 /// depend on the threads.
 inline constexpr std::size_t kChunk = 4096;
 
-/// Number of columns of a partial result: a multiple of `lanes`.
+/// The columns of the partial results: each has a multiple of `lanes`, but for the last.
 template <class Cells>
-std::size_t chunk_width(const Cells& cells, std::size_t lanes)
-{
-    return lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, cells.layers()));
-}
+struct Chunks {
+    const Cells& cells;
+    std::size_t width, count;
+
+    Chunks(const Cells& of, std::size_t lanes)
+        : cells(of),
+          width(lanes * std::max<std::size_t>(1, kChunk / lanes / std::max<std::size_t>(1, of.layers()))),
+          count((of.columns() + width - 1) / width)
+    {
+    }
+
+    /// Call `body(chunk, first column, last column + 1)` for each chunk, in parallel.
+    template <class Body>
+    void for_each(const RunContext& context, const Body& body) const
+    {
+        parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c)
+                body(c, c * width, std::min((c + 1) * width, cells.columns()));
+        });
+    }
+};
 
 /// Corners of one level of at most a batch of columns; unused lanes repeat the last column.
 template <int N, class Cells>

@@ -24,6 +24,9 @@ Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunC
 /// Check for cells that are not certified, or below the limit; the finding names the worst cells.
 Found check_quality(const Quality& quality, double min_scaled_jacobian, int layers);
 
+/// The first node that is not finite. @pre  there is one
+Index first_not_finite(std::span<const Vec3> nodes);
+
 /// "node 12 (level 2 of 9, at x y z)"; numbers for people start at 1. `nodes_per_layer` 0: no levels.
 std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer);
 std::string node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels);

@@ -10,6 +10,9 @@
 
 namespace lacuna::view {
 
+/// "1 hex", "3 hexes"
+std::string counted(std::size_t count, const std::string& what);
+
 /// A patch of the skin as it is displayed.
 struct ShownPatch {
     int tag = 0;

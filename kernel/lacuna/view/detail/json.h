@@ -23,7 +23,7 @@ public:
     Json& key(std::string_view name);
 
     Json& value(std::string_view text);
-    Json& value(const char* text) { return value(std::string_view(text)); }
+    Json& value(const char* text); ///< may be null
     Json& value(bool truth);
     Json& value(double number);
     Json& value(std::integral auto number) { return raw(std::to_string(number)); }

@@ -27,4 +27,7 @@ inline constexpr Colour kWall{0x6c, 0x8e, 0xc4};
 /// Interpolated colour. @param at  0: the first, 1: the last; clamped.
 Colour on_ramp(std::span<const Colour> ramp, double at);
 
+/// Interpolated colour. @param share  0: `a`, 1: `b`
+Colour mixed(const Colour& a, const Colour& b, double share);
+
 } // namespace lacuna::view
