@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace lacuna::quads {
@@ -43,7 +44,7 @@ public:
     {
         for (const auto& loop : region.loops) {
             Front front{loop, {}};
-            for (const Index p : loop) front.table.push_back(rows.table[static_cast<std::size_t>(p)]);
+            for (const Index p : loop) front.table.push_back(rows.table[index(p)]);
             fronts_.push_back(std::move(front));
         }
     }
@@ -59,39 +60,27 @@ public:
         return true;
     }
 
-    /// What is left inside the rows, and the nodes of the whole that its nodes are.
-    [[nodiscard]] PlanarRegion core(const PlanarRegion& region, std::vector<Index>& own) const
+    /// What is left inside the rows.
+    [[nodiscard]] RegionWithin core(const SizeField& size) const
     {
-        PlanarRegion inside{{}, {}, region.size, {}};
-        for (const Front& front : fronts_) {
-            inside.loops.emplace_back();
-            for (const Index p : front.nodes) {
-                inside.loops.back().push_back(static_cast<Index>(own.size()));
-                inside.points.push_back(partial_.at(p));
-                own.push_back(p);
-            }
-        }
-        return inside;
+        std::vector<Cycle> loops;
+        for (const Front& front : fronts_) loops.push_back(front.nodes);
+        return region_within(partial_.points, loops, size);
     }
 
     /// The boundary node with rows that has the least room for them.
     [[nodiscard]] RowsFinding least_room() const
     {
-        const PartialMesh given{
-            {partial_.points.begin(), partial_.points.begin() + static_cast<std::ptrdiff_t>(partial_.fixed)},
-            {},
-            partial_.fixed,
-            {}};
-        const GapFinder gaps(given, given_);
+        const GapFinder gaps(partial_, given_);
         double least = std::numeric_limits<double>::infinity();
         RowsFinding finding;
         for (const Cycle& loop : given_) {
             for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-                const int table = rows_.table[static_cast<std::size_t>(loop[i])];
+                const int table = rows_.table[index(loop[i])];
                 if (table < 0) continue;
                 const Index before = loop[(i + n - 1) % n], after = loop[(i + 1) % n];
-                const Vec2 along = (given.at(after) - given.at(loop[i])).normalized();
-                const double scale = scale_at(given.at(loop[i]));
+                const Vec2 along = (partial_.at(after) - partial_.at(loop[i])).normalized();
+                const double scale = scale_at(partial_.at(loop[i]));
                 const double room =
                     gaps.ahead(before, loop[i], after, {-along.y(), along.x()}, gaps.diagonal()) / scale;
                 const double asked = heights_of(table).back();
@@ -109,7 +98,7 @@ public:
 private:
     [[nodiscard]] const std::vector<double>& heights_of(int table) const
     {
-        return rows_.heights[static_cast<std::size_t>(table)];
+        return rows_.heights[index(table)];
     }
 
     [[nodiscard]] double scale_at(const Vec2& p) const { return rows_.scale ? rows_.scale(p) : 1; }
@@ -117,7 +106,7 @@ private:
     /// The boundary node a row's node was laid over, for messages.
     [[nodiscard]] Index foot_of(Index node) const
     {
-        return partial_.is_fixed(node) ? node : foot_[static_cast<std::size_t>(node) - partial_.fixed];
+        return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
     /// How the front turns at a place. Where it has gone over rows, its angle says that.
@@ -125,7 +114,7 @@ private:
     {
         const Index node = front.nodes[i];
         if (partial_.is_fixed(node) && !is_cut_[index(node)]) return turn_[index(node)];
-        return inner_angle(partial_, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
+        return corner_angle(partial_.points, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
     }
 
     /// Whether rows go on past a place of the front.
@@ -180,8 +169,8 @@ private:
         const std::size_t count = run.closed ? run.sides : run.sides + 1;
         for (std::size_t k = 0; k < count; ++k) base.nodes.push_back(front.nodes[(run.first + k) % n]);
         const auto unit = [&](std::size_t k) {
-            return Vec2((partial_.at(front.nodes[(run.first + k + 1) % n]) -
-                         partial_.at(front.nodes[(run.first + k) % n]))
+            return Vec2((point_of(partial_.points, front.nodes, run.first + k + 1) -
+                         point_of(partial_.points, front.nodes, run.first + k))
                             .normalized());
         };
         double length = 0;
@@ -252,33 +241,27 @@ private:
 
     /// How much of an end's lean a node that far from it has: all within the block, then less and less, so
     /// slowly that nodes keep their order.
-    static double share_of(const RunEnd& end, double most, double distance, double length)
+    static double share_of(const RunEnd& end, double distance, double length)
     {
         constexpr double kSlowly = 3; // of the lean: nodes come no closer than a third; a choice
+        const double most = std::ranges::max(end.lean |
+                                             std::views::transform([](double x) { return std::abs(x); }));
         if (distance <= end.block) return 1;
         const double over = std::max(length - 2 * end.block, 0.0);
         const double reach = std::min(kSlowly * most, over);
         return reach > 0 ? std::max(0.0, 1 - (distance - end.block) / reach) : 0;
     }
 
-    static double most_of(const std::vector<double>& lean)
-    {
-        double most = 0;
-        for (const double x : lean) most = std::max(most, std::abs(x));
-        return most;
-    }
-
     bool lay_run(Front& front, const Run& run)
     {
         const int table = front.table[run.first];
         const std::vector<double>& heights = heights_of(table);
-        const std::size_t rows = heights.size(), n = front.nodes.size();
+        const std::size_t rows = heights.size();
         const Base base = base_of(front, run);
         RunEnd start, end;
         if (!run.closed && (!make_end(front, run, base, table, false, start) ||
                             !make_end(front, run, base, table, true, end)))
             return false;
-        const double start_most = most_of(start.lean), end_most = most_of(end.lean);
         std::vector<std::vector<Index>> level{base.nodes};
         for (std::size_t r = 0; r < rows; ++r) {
             std::vector<Index>& row = level.emplace_back();
@@ -295,8 +278,8 @@ private:
                 Vec2 p = foot + base.normal[k] * (heights[r] * scale_at(foot));
                 if (!run.closed) {
                     const double length = base.at.back(), here = base.at[k];
-                    p += base.along[k] * (start.lean[r] * share_of(start, start_most, here, length) -
-                                          end.lean[r] * share_of(end, end_most, length - here, length));
+                    p += base.along[k] * (start.lean[r] * share_of(start, here, length) -
+                                          end.lean[r] * share_of(end, length - here, length));
                 }
                 row.push_back(add(p, base.nodes[k]));
             }
@@ -312,7 +295,7 @@ private:
                 partial_.quads.push_back(quad);
             }
         }
-        replace(front, run, level, start, end, n);
+        replace(front, run, level, start, end);
         return true;
     }
 
@@ -330,7 +313,7 @@ private:
 
     /// The front goes over the rows now.
     void replace(Front& front, const Run& run, const std::vector<std::vector<Index>>& level,
-                 const RunEnd& start, const RunEnd& end, std::size_t n)
+                 const RunEnd& start, const RunEnd& end)
     {
         Front next;
         const std::vector<Index>& top = level.back();
@@ -340,7 +323,7 @@ private:
             front = std::move(next);
             return;
         }
-        const std::size_t rows = level.size() - 1;
+        const std::size_t rows = level.size() - 1, n = front.nodes.size();
         const std::size_t after = run.first + run.sides; // the place of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
         // What is not covered: from the last node, or from that where the rows end, on round to the first.
@@ -399,8 +382,7 @@ RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows,
     check(region);
     RowLayer layer(region, rows);
     if (!layer.lay()) return {{}, layer.finding()};
-    std::vector<Index> own;
-    const PlanarRegion inside = layer.core(region, own);
+    const auto [inside, own] = layer.core(region.size);
     try {
         check(inside);
     } catch (const InvalidInput&) { // rows that meet what lies opposite leave no region
@@ -410,14 +392,7 @@ RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows,
     PartialMesh& laid = layer.partial();
     RowsFilling result;
     result.mesh = {std::move(laid.points), std::move(laid.quads), filling.how + " inside rows"};
-    for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
-        own.push_back(static_cast<Index>(result.mesh.points.size()));
-        result.mesh.points.push_back(filling.points[p]);
-    }
-    for (Quad quad : filling.quads) {
-        for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
-        result.mesh.quads.push_back(quad);
-    }
+    add_filling(result.mesh, own, filling);
     return result;
 }
 

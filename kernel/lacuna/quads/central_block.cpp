@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/central_block.h>
 
-#include <lacuna/quads/detail/corner_sine.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,9 +24,8 @@ double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
     double least = std::numeric_limits<double>::infinity();
     for (const Vec2& p : region.points) {
         const Vec2 d = p - centre;
-        double off = std::remainder(std::atan2(d.y(), d.x()) - angle, kPi / 2);
-        off = std::abs(off);
-        if (off < kPi / 8) least = std::min(least, d.norm());
+        if (std::abs(std::remainder(std::atan2(d.y(), d.x()) - angle, kPi / 2)) < kPi / 8)
+            least = std::min(least, d.norm());
     }
     return least;
 }
@@ -53,7 +50,7 @@ std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
 } // namespace
 
 std::optional<CentralBlock> central_block(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                          const std::function<double(const Vec2&)>& size, int choice)
+                                          const SizeField& size, int choice)
 {
     const std::optional<double> axis = eighths(symmetries);
     if (!axis) return std::nullopt;
@@ -100,9 +97,9 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         if (y == sides) return 3 * sides - x;
         return x == 0 ? 4 * sides - y : -1;
     };
-    std::vector<Index> node(static_cast<std::size_t>((sides + 1) * (sides + 1)));
-    const auto slot = [&](int x, int y) { return static_cast<std::size_t>(y * (sides + 1) + x); };
-    const auto rim_at = [&](int x, int y) -> const Vec2& { return rim[static_cast<std::size_t>(at(x, y))]; };
+    std::vector<Index> node(index((sides + 1) * (sides + 1)));
+    const auto slot = [&](int x, int y) { return index(y * (sides + 1) + x); };
+    const auto rim_at = [&](int x, int y) -> const Vec2& { return rim[index(at(x, y))]; };
     for (int y = 0; y <= sides; ++y) {
         for (int x = 0; x <= sides; ++x) {
             if (at(x, y) >= 0) {

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::quads::cleaning {
 
 namespace {
 
-constexpr double kRight = std::numbers::pi / 2;
 /// Right angles that a boundary point may have more or less than quads. A choice, not a measurement.
 constexpr double kFits = 0.65;
 /// Loss of a quad whose area is off by a factor e from the one asked, and the power of e that a folded one
@@ -64,15 +62,6 @@ bool CleanMesh::is_sound() const
     return true;
 }
 
-std::size_t CleanMesh::irregular() const
-{
-    std::size_t count = 0;
-    for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
-        if (net_.is_used(p) && net_.valence(p) != 4 && !net_.on_boundary(p)) ++count;
-    }
-    return count;
-}
-
 int CleanMesh::right_angles(Index p) const
 {
     Vec2 first(0, 0), last(0, 0);
@@ -83,22 +72,21 @@ int CleanMesh::right_angles(Index p) const
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
     // Half way between two numbers either will do, so the one that is there stays.
-    const double fit = turn_between(first, last) / kRight;
+    const double fit = turn_between(first, last) / kRightAngle;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
 }
 
 const QuadLoss& CleanMesh::loss(Index q)
 {
-    const auto i = static_cast<std::size_t>(q);
+    const auto i = index(q);
     if (loss_known_[i] == 0) loss_[i] = loss_of(points_, net_.quad(q), options_);
     loss_known_[i] = 1;
     return loss_[i];
 }
 
-std::size_t CleanMesh::remove_doublets()
+void CleanMesh::remove_doublets()
 {
-    std::size_t removed = 0;
     std::vector<Index> left;
     for (std::size_t p = fixed_; p < points_.size(); ++p) left.push_back(static_cast<Index>(p));
     while (!left.empty()) {
@@ -113,12 +101,10 @@ std::size_t CleanMesh::remove_doublets()
         const std::array<Index, 2> old{sides[0] / 4, sides[1] / 4};
         const std::array<Quad, 1> merged{{{a, b, c, d}}};
         replace(old, merged);
-        ++removed;
         for (const Index q : {a, c}) {
             if (index(q) >= fixed_) left.push_back(q);
         }
     }
-    return removed;
 }
 
 Index CleanMesh::add_point(const Vec2& position)
@@ -131,7 +117,7 @@ Index CleanMesh::add_point(const Vec2& position)
 void CleanMesh::move(Index p, const Vec2& position)
 {
     points_[index(p)] = position;
-    net_.for_sides(p, [&](Index side) { loss_known_[static_cast<std::size_t>(side / 4)] = 0; });
+    net_.for_sides(p, [&](Index side) { loss_known_[index(side / 4)] = 0; });
 }
 
 void CleanMesh::replace(std::span<const Index> removed, std::span<const Quad> added)

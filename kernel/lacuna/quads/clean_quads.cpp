@@ -52,12 +52,12 @@ public:
         limits_ = limits;
         due_.assign(mesh_.points().size(), 1);
     }
-    /// @return how many patches were refilled
-    std::size_t pass(CleanReport& report, const RunContext& context);
+    /// @return whether patches were refilled
+    bool pass(const RunContext& context);
 
 private:
-    bool improve(Index seed, CleanReport& report);
-    bool refill(const QuadPatch& patch, CleanReport& report);
+    bool improve(Index seed);
+    bool refill(const QuadPatch& patch);
 
     CleanMesh& mesh_;
     const CleanOptions& options_;
@@ -71,7 +71,7 @@ private:
     std::vector<Vec2> loop_;
 };
 
-bool Cleaner::refill(const QuadPatch& patch, CleanReport& report)
+bool Cleaner::refill(const QuadPatch& patch)
 {
     if (fewest_irregular(patch.loop.size(), patch.corners) >= patch.irregular) return false;
     std::uint64_t key = 0;
@@ -89,19 +89,17 @@ bool Cleaner::refill(const QuadPatch& patch, CleanReport& report)
         if (poor_.contains(filled)) continue;
         const TemplateMesh filling = fill_template(loop_, patch.corners, cut);
         budget_ -= static_cast<long>(filling.quads.size() + around.size());
-        ++report.tried;
         const Verdict verdict = trial_.run(filling, limits_.sweeps, limits_.hopeless);
         if (verdict == Verdict::poor) poor_.insert(filled);
         if (verdict != Verdict::good) continue;
         due_.resize(mesh_.points().size(), 1);
-        ++report.patches;
         return true;
     }
     return false;
 }
 
 /// Grow a patch from an irregular point to one irregular point after the other, until a filling is better.
-bool Cleaner::improve(Index seed, CleanReport& report)
+bool Cleaner::improve(Index seed)
 {
     grower_.start(seed, limits_.growths);
     const std::size_t largest = std::min(limits_.largest, static_cast<std::size_t>(options_.largest_patch));
@@ -109,21 +107,21 @@ bool Cleaner::improve(Index seed, CleanReport& report)
         if (growth > 0 && !grower_.grow_to(grower_.others()[growth - 1])) continue;
         const PatchState outline = grower_.close(largest);
         if (outline == PatchState::too_large) return false;
-        if (outline == PatchState::fine && refill(grower_.patch(), report)) return true;
+        if (outline == PatchState::fine && refill(grower_.patch())) return true;
         if (budget_ < 0) return false;
     }
     return false;
 }
 
-std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
+bool Cleaner::pass(const RunContext& context)
 {
-    std::size_t improved = 0;
+    bool improved = false;
     for (Index p = 0; p < static_cast<Index>(mesh_.points().size()) && budget_ >= 0; ++p) {
         if (due_[index(p)] == 0 || !mesh_.is_irregular(p)) continue;
         check_cancelled(context);
         due_[index(p)] = 0;
-        if (!improve(p, report)) continue;
-        ++improved;
+        if (!improve(p)) continue;
+        improved = true;
         // Points that were looked at in vain before have changed surroundings now.
         for (const Index q : grower_.seen_points()) due_[index(q)] = 1;
     }
@@ -134,27 +132,22 @@ std::size_t Cleaner::pass(CleanReport& report, const RunContext& context)
 
 } // namespace cleaning
 
-CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options,
-                        const RunContext& context)
+void clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options, const RunContext& context)
 {
-    CleanReport report;
     cleaning::CleanMesh work(mesh, fixed, options);
-    if (!work.is_sound()) return report;
-    report.irregular_before = work.irregular();
-    report.doublets = work.remove_doublets();
+    if (!work.is_sound()) return;
+    work.remove_doublets();
     cleaning::Cleaner cleaner(work, options, mesh.quads.size());
     const std::span stages(cleaning::kStages);
     for (const cleaning::SearchLimits& limits : options.thorough ? stages : stages.first(stages.size() - 1)) {
         cleaner.begin(limits);
         for (int pass = 0; pass < options.passes; ++pass) {
-            if (cleaner.pass(report, context) == 0) break;
+            if (!cleaner.pass(context)) break;
         }
     }
-    report.irregular_after = work.irregular();
     PlanarQuads cleaned = work.result();
     mesh.points = std::move(cleaned.points);
     mesh.quads = std::move(cleaned.quads);
-    return report;
 }
 
 } // namespace lacuna::quads

@@ -164,7 +164,7 @@ void Trial::put_in(const TemplateMesh& filling)
     const auto rim = static_cast<Index>(patch_->loop.size());
     std::vector<Quad> added = filling.quads;
     for (Quad& quad : added) {
-        for (Index& p : quad) p = p < rim ? patch_->loop[index(p)] : made[static_cast<std::size_t>(p - rim)];
+        for (Index& p : quad) p = p < rim ? patch_->loop[index(p)] : made[index(p - rim)];
     }
     mesh_.replace(patch_->quads, added);
 }

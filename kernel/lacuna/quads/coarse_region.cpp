@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/coarse_region.h>
 
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/region_loops.h>
 
 #include <algorithm>
 #include <array>
@@ -30,17 +30,15 @@ void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<I
              std::size_t whole)
 {
     const std::size_t sides = nodes.size() - 1;
-    const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(nodes[i])]; };
     if (whole == 0) {
-        for (std::size_t i = 0; i < sides; i += 2) add_point(made, at(i), nodes[i], nodes[i + 1]);
+        for (std::size_t i = 0; i < sides; i += 2)
+            add_point(made, region.points[index(nodes[i])], nodes[i], nodes[i + 1]);
         return;
     }
     const WholeRun& run = made.runs.emplace_back(WholeRun{nodes, static_cast<Index>(made.own.size()), whole});
     for (std::size_t i = 0; i < run.points(); ++i) {
         const double place = static_cast<double>(i * sides) / static_cast<double>(run.points());
-        const auto before = static_cast<std::size_t>(place);
-        const double share = place - static_cast<double>(before);
-        add_point(made, (1 - share) * at(before) + share * at(before + 1), -1, -1);
+        add_point(made, point_along(region.points, nodes, 0, place), -1, -1);
     }
 }
 
@@ -130,7 +128,7 @@ void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::
 {
     std::size_t place = 0;
     for (std::size_t i = 0; i < run.points(); ++i) {
-        const bool is_whole = std::find(whole.begin(), whole.end(), i) != whole.end();
+        const bool is_whole = std::ranges::find(whole, i) != whole.end();
         made.own[index(run.first) + i] = run.nodes[place];
         made.next[index(run.first) + i] = is_whole ? -1 : run.nodes[place + 1];
         place += is_whole ? 1 : 2;
@@ -143,10 +141,7 @@ bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size
 {
     // 20°, so that round holes keep nine nodes at least. A choice, not a measurement.
     constexpr double kTurnsLeftOut = std::numbers::pi / 9;
-    const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
-    const double angle = turn_between(at(place + 1) - at(place), at(place + n - 1) - at(place));
-    return std::abs(angle - std::numbers::pi) > kTurnsLeftOut;
+    return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
 }
 
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop)

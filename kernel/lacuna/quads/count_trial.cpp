@@ -19,26 +19,19 @@ PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, s
     made.row_height = region.row_height;
     for (const std::vector<Index>& loop : region.loops) {
         const std::size_t n = loop.size();
-        const auto own = [&](std::size_t i) { return segment[static_cast<std::size_t>(loop[i % n])]; };
-        const auto at = [&](std::size_t i) -> const Vec2& {
-            return region.points[static_cast<std::size_t>(loop[i % n])];
-        };
+        const auto own = [&](std::size_t i) { return segment[index(loop[i % n])]; };
         // From where a segment starts; a loop that is one segment has its first node there.
         std::size_t start = 0;
         while (start < n && own(start) == own(start + n - 1)) ++start;
         if (start == n) start = 0;
         made.loops.emplace_back();
+        const std::size_t first = made.points.size();
         for (std::size_t from = start, to = start; from < start + n; from = to) {
             while (to < start + n && own(to) == own(from)) ++to;
-            const int sides = counts[static_cast<std::size_t>(own(from))];
-            for (int k = 0; k < sides; ++k) {
-                const double place = static_cast<double>(k) / sides * static_cast<double>(to - from);
-                const auto whole = static_cast<std::size_t>(place);
-                const double part = place - static_cast<double>(whole);
-                made.loops.back().push_back(static_cast<Index>(made.points.size()));
-                made.points.push_back((1 - part) * at(from + whole) + part * at(from + whole + 1));
-            }
+            add_divided(region.points, loop, from, to, counts[index(own(from))], made.points);
         }
+        while (made.loops.back().size() + first < made.points.size())
+            made.loops.back().push_back(static_cast<Index>(first + made.loops.back().size()));
     }
     return made;
 }

@@ -10,21 +10,10 @@ namespace {
 
 double cost_of(const CountedRun& run, int count) { return cost_of_sides(run.wanted, count); }
 
-/// What a side of a run adds to the excess of sides one way over those back.
-std::array<int, 2> step_of(int quarter)
-{
-    std::array<int, 2> step{};
-    step[static_cast<std::size_t>(quarter % 2)] = quarter < 2 ? 1 : -1;
-    return step;
-}
-
-int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
-
 void add(CountedLoop& loop, CountedRun& run, int by)
 {
     run.count += by;
-    const auto step = step_of(run.quarter);
-    for (std::size_t k = 0; k < 2; ++k) loop.excess[k] += by * step[k];
+    advance(loop.excess, run.quarter, by);
 }
 
 /// Whether a run may have `count` sides, where its segment has `now` in all.
@@ -39,21 +28,16 @@ bool may_be(const CountTask& task, int now, const CountedRun& run, int count, co
 bool improves(const CountedLoop& loop, const CountedRun& run, int by, const CountedRun* other)
 {
     std::array<int, 2> now = loop.excess;
-    for (std::size_t k = 0; k < 2; ++k) {
-        now[k] += by * step_of(run.quarter)[k];
-        if (other != nullptr) now[k] -= by * step_of(other->quarter)[k];
-    }
+    advance(now, run.quarter, by);
+    if (other != nullptr) advance(now, other->quarter, -by);
     return badness(now) < badness(loop.excess);
 }
 
 double area_of(const PlanarRegion& region, const std::vector<Index>& loop)
 {
     double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 &a = region.points[static_cast<std::size_t>(loop[i])],
-                   &b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-        twice += a.x() * b.y() - a.y() * b.x();
-    }
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        twice += cross(point_of(region.points, loop, i), point_of(region.points, loop, i + 1));
     return twice / 2;
 }
 
@@ -64,8 +48,8 @@ std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, 
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::size_t s = task.segment_of(loop.nodes[i]);
         const int quarter = quarter_of(loop.heading[i]);
-        auto run = std::find_if(runs.begin(), runs.end(),
-                                [&](const CountedRun& r) { return r.segment == s && r.quarter == quarter; });
+        auto run = std::ranges::find_if(
+            runs, [&](const CountedRun& r) { return r.segment == s && r.quarter == quarter; });
         if (run == runs.end()) run = runs.insert(run, {s, quarter, 0, 0});
         run->wanted += share * task.segments[s].wanted / task.own[s];
         ++run->count;
@@ -100,13 +84,10 @@ double mean_size(const CountTask& task)
 {
     double length = 0, wanted = 0;
     for (const auto& loop : task.region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = task.region.points[static_cast<std::size_t>(loop[i])],
-                       &b = task.region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-            length += (b - a).norm();
-            wanted += task.segments[task.segment_of(loop[i])].wanted / task.own[task.segment_of(loop[i])];
-        }
+        for (const Index p : loop)
+            wanted += task.segments[task.segment_of(p)].wanted / task.own[task.segment_of(p)];
     }
+    for_boundary_sides(task.region, [&](const Vec2& a, const Vec2& b) { length += (b - a).norm(); });
     return length / wanted;
 }
 
@@ -128,18 +109,17 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 {
     CountedLoop counted;
     counted.runs = runs_of(task, loop, share);
-    counted.soft = static_cast<int>(std::count(loop.movable.begin(), loop.movable.end(), 1));
+    counted.soft = static_cast<int>(std::ranges::count(loop.movable, 1));
     std::vector<Vec2> points = task.region.points;
     std::vector<Quad> quads;
     if (!lay_pattern_rows(loop, points, quads, [](const Vec2&) { return 1.0; })) return std::nullopt;
     for (const int h : loop.heading) {
         const int quarter = quarter_of(h);
-        const auto step = step_of(quarter);
-        for (std::size_t k = 0; k < 2; ++k) counted.excess[k] += step[k];
-        if (quarter < 2) ++counted.added[static_cast<std::size_t>(quarter)];
+        advance(counted.excess, quarter);
+        if (quarter < 2) ++counted.added[index(quarter)];
     }
     for (const CountedRun& run : counted.runs) {
-        if (run.quarter < 2) counted.added[static_cast<std::size_t>(run.quarter)] -= run.count;
+        if (run.quarter < 2) counted.added[index(run.quarter)] -= run.count;
     }
     for (CountedRun& run : counted.runs) {
         counted.wanted += run.wanted;
@@ -219,7 +199,7 @@ void change_both(const CountTask& task, CountedLoop& loop, int quarter)
                 const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
                 if (cost >= own) continue;
                 own = cost;
-                cheapest[static_cast<std::size_t>(back)] = &run;
+                cheapest[index(back)] = &run;
             }
             sum += own;
         }

@@ -14,15 +14,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lacuna::quads {
 namespace {
 
-using Loop = std::vector<Index>;
-using Size = std::function<double(const Vec2&)>;
-
-const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
+/// A coordinate round a ring, from 0 up to the period.
+int wrapped(int along, int period) { return ((along % period) + period) % period; }
 
 /// The lines of a grid that goes round a hole, from the outer loop across to it: one for every side along.
 class Spokes {
@@ -38,7 +35,7 @@ public:
     [[nodiscard]] int shift() const { return shift_; }
 
     /// Rows between the loops, so that they are as high as asked.
-    [[nodiscard]] int rows(const Size& size) const
+    [[nodiscard]] int rows(const SizeField& size) const
     {
         double sum = 0;
         int least = 1;
@@ -90,14 +87,14 @@ private:
     static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
                                     bool outer)
     {
-        std::vector<End> ends(static_cast<std::size_t>(period));
+        std::vector<End> ends(index(period));
         std::vector<char> set(ends.size(), 0);
         for (std::size_t i = 0; i < loop.nodes.size(); ++i) {
-            const int u = ((loop.positions[i][0] % period) + period) % period, row = loop.positions[i][1];
-            const auto at = static_cast<std::size_t>(u);
+            const auto at = index(wrapped(loop.positions[i][0], period));
+            const int row = loop.positions[i][1];
             if (set[at] && (outer ? row <= ends[at].row : row >= ends[at].row)) continue;
             set[at] = 1;
-            ends[at] = {point(points, loop.nodes[i]), row};
+            ends[at] = {points[index(loop.nodes[i])], row};
         }
         return ends;
     }
@@ -126,7 +123,7 @@ private:
     [[nodiscard]] double side_of(std::size_t u, const Vec2& p) const
     {
         const Vec2 across = inner_[u].at - outer_[u].at;
-        return paving::cross(p - outer_[u].at, across) / across.norm();
+        return cross(p - outer_[u].at, across) / across.norm();
     }
 
     std::vector<End> outer_, inner_;
@@ -144,7 +141,7 @@ void move(GridLoop& loop, int along, int across, int period)
 {
     for (GridPosition& p : loop.positions) {
         p = {p[0] + along, p[1] + across};
-        if (period > 0) p[0] = ((p[0] % period) + period) % period;
+        if (period > 0) p[0] = wrapped(p[0], period);
     }
 }
 
@@ -171,8 +168,7 @@ void spread_folds(PlanarQuads& mesh, std::size_t fixed)
         std::fill(sides.begin(), sides.end(), 0);
         for (const Quad& quad : mesh.quads) {
             for (std::size_t k = 0; k < 4; ++k) {
-                const auto a = static_cast<std::size_t>(quad[k]),
-                           b = static_cast<std::size_t>(quad[(k + 1) % 4]);
+                const auto a = index(quad[k]), b = index(quad[(k + 1) % 4]);
                 sum[a] += points[b];
                 sum[b] += points[a];
                 ++sides[a];
@@ -186,9 +182,19 @@ void spread_folds(PlanarQuads& mesh, std::size_t fixed)
     if (least_scaled_jacobian(points, mesh.quads) > before) mesh.points = std::move(points);
 }
 
+/// A mesh with smooth inner nodes and rows of right heights; nothing where it has a fault.
+std::optional<PlanarQuads> smoothed(PlanarQuads mesh, const PlanarRegion& region, const SizeField& size,
+                                    const RunContext& context)
+{
+    smooth_plane(mesh.points, mesh.quads, region.points.size(), {.size = size}, context);
+    paving::correct_row_heights(mesh, region, size);
+    if (!find_fault(mesh, region).empty()) return std::nullopt;
+    return mesh;
+}
+
 class PatternFiller {
 public:
-    PatternFiller(const PlanarRegion& region, const FacePattern& pattern, const Size& size)
+    PatternFiller(const PlanarRegion& region, const FacePattern& pattern, const SizeField& size)
         : region_(region), pattern_(pattern), size_(size), points_(region.points), loops_(region.loops.size())
     {
     }
@@ -199,17 +205,9 @@ public:
         SubmapGrid grid(grid_, period_);
         if (!grid.enclose(grid_)) return std::nullopt;
         PlanarQuads mesh{std::move(points_), std::move(quads_), words()};
-        const auto first = static_cast<Index>(mesh.points.size());
-        mesh.points.resize(mesh.points.size() + static_cast<std::size_t>(grid.number_inner(first)),
-                           Vec2::Zero());
-        grid.place_inner(mesh.points, first);
-        const std::vector<Quad> cells = grid.quads();
-        mesh.quads.insert(mesh.quads.end(), cells.begin(), cells.end());
+        grid.add_cells(mesh);
         spread_folds(mesh, region_.points.size());
-        smooth_plane(mesh.points, mesh.quads, region_.points.size(), {.size = size_}, context);
-        paving::correct_row_heights(mesh, region_, size_);
-        if (!find_fault(mesh, region_).empty()) return std::nullopt;
-        return mesh;
+        return smoothed(std::move(mesh), region_, size_, context);
     }
 
     /// Soft turns, over all loops.
@@ -229,13 +227,13 @@ private:
         return soft_ > 0 ? "rings with " + std::to_string(soft_) + " turns" : "rings";
     }
 
-    bool head(std::size_t l, const LoopFrame& frame, double weight, int turns)
+    bool head(std::size_t l, const LoopFrame& frame, int turns)
     {
-        auto headed = head_loop(region_.points, region_.loops[l], frame, weight, 1, pattern_.style);
+        auto headed = head_loop(region_.points, region_.loops[l], frame, pattern_.style);
         if (!headed) return false;
         set_soft_rows(*headed, pattern_.rows);
         loops_[l] = std::move(*headed);
-        soft_ += std::count(loops_[l].movable.begin(), loops_[l].movable.end(), 1);
+        soft_ += std::ranges::count(loops_[l].movable, 1);
         return loops_[l].turns == turns;
     }
 
@@ -250,15 +248,15 @@ private:
 
     bool place_straight()
     {
-        const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
+        const LoopFrame frame = straight_frame(region_);
         grid_.resize(loops_.size());
         for (std::size_t l = 0; l < loops_.size(); ++l) {
-            if (!head(l, frame, kStraightWeight, l == 0 ? 4 : -4) || !close(l, 0)) return false;
+            if (!head(l, frame, l == 0 ? 4 : -4) || !close(l, 0)) return false;
         }
         for (std::size_t l = 1; l < loops_.size(); ++l) {
             std::vector<Vec2> goal;
             for (const Index p : grid_[l].nodes)
-                goal.push_back(mean_value_position(points_, grid_[0], point(points_, p)));
+                goal.push_back(mean_value_position(points_, grid_[0], points_[index(p)]));
             if (!settle(l, goal)) return false;
         }
         return true;
@@ -300,10 +298,8 @@ private:
     {
         grid_.resize(loops_.size());
         for (const std::size_t l : {std::size_t{0}, pattern_.about}) {
-            const Loop& loop = region_.loops[l];
-            const LoopFrame frame{true, centre_of(region_.points, loop), 0};
-            const double weight = kRoundWeight / static_cast<double>(loop.size());
-            if (!head(l, frame, weight, 0) || !is_ring_loop(region_.points, loops_[l])) return false;
+            const LoopFrame frame{true, centre_of(region_.points, region_.loops[l])};
+            if (!head(l, frame, 0) || !is_ring_loop(region_.points, loops_[l])) return false;
         }
         if (!make_alike(loops_[0], loops_[pattern_.about])) return false;
         for (const std::size_t l : {std::size_t{0}, pattern_.about}) {
@@ -346,7 +342,7 @@ private:
     static int along(const PatternLoop& loop)
     {
         int sum = 0;
-        for (const int h : loop.heading) sum += h % 4 == 0 ? 1 : std::abs(h % 4) == 2 ? -1 : 0;
+        for (const int h : loop.heading) sum += grid_step(h)[0];
         return sum;
     }
 
@@ -354,10 +350,10 @@ private:
     bool place_beside(std::size_t l, const Spokes& spokes, int rows)
     {
         const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
-        if (!head(l, frame, kStraightWeight, -4) || !close(l, 0)) return false;
+        if (!head(l, frame, -4) || !close(l, 0)) return false;
         std::vector<Vec2> goal;
         for (const Index p : grid_[l].nodes) {
-            const auto at = spokes.position(point(points_, p), rows);
+            const auto at = spokes.position(points_[index(p)], rows);
             if (!at) return false;
             goal.push_back(*at);
             if (goal.size() == 1) continue;
@@ -369,7 +365,7 @@ private:
 
     const PlanarRegion& region_;
     FacePattern pattern_;
-    const Size& size_;
+    const SizeField& size_;
     std::vector<Vec2> points_;
     std::vector<Quad> quads_;
     std::vector<PatternLoop> loops_;
@@ -382,13 +378,13 @@ private:
 
 /// The ways to fill a ring whose outer loop has more sides than the other, or fewer, those with the fewest
 /// irregular nodes first.
-std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const Size& size, std::size_t about,
+std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
     // With more, a straight grid has as few irregular nodes: four for each loop.
     constexpr int kMostCorners = 4;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
-    const double height = size(point(region.points, region.loops[about].front()));
+    const double height = size(region.points[index(region.loops[about].front())]);
     const int pairs = std::abs(more_sides) / 2, rows = widths.changing(height);
     std::vector<FacePattern> patterns;
     if (widths.steps(height) > 0) {
@@ -414,10 +410,8 @@ bool is_fine(const PlaneQuality& quality, double least, double rows)
 std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 {
     std::vector<std::size_t> corners;
-    const Loop& loop = region.loops[0];
-    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-        const auto at = [&](std::size_t k) -> const Vec2& { return point(region.points, loop[k % n]); };
-        const int quads = paving::quads_in(paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)));
+    for (std::size_t i = 0; i < region.loops[0].size(); ++i) {
+        const int quads = quads_in(corner_angle(region.points, region.loops[0], i));
         if (quads > 2) return {};
         if (quads < 2) corners.push_back(i);
     }
@@ -482,10 +476,10 @@ private:
     /// Rows that suit the soft turns of all loops in a straight grid.
     [[nodiscard]] int fitting_rows(TurnStyle style) const
     {
-        const LoopFrame frame{false, Vec2::Zero(), main_angle(region_)};
+        const LoopFrame frame = straight_frame(region_);
         int most = 1;
-        for (const Loop& loop : region_.loops) {
-            const auto headed = head_loop(region_.points, loop, frame, kStraightWeight, 1, style);
+        for (const Cycle& loop : region_.loops) {
+            const auto headed = head_loop(region_.points, loop, frame, style);
             if (headed) most = std::max(most, quads::fitting_rows(*headed));
         }
         return most;
@@ -496,8 +490,7 @@ private:
     {
         const std::vector<std::size_t> corners = lone_corners(region_);
         if (corners.size() < 3 || corners.size() > kMostSides) return;
-        std::vector<Vec2> loop;
-        for (const Index p : region_.loops[0]) loop.push_back(point(region_.points, p));
+        const std::vector<Vec2> loop = region_within(region_.points, {region_.loops[0]}).region.points;
         for (const TemplateCut& cut : find_cuts(loop, corners, 1)) {
             check_cancelled(context_);
             if (auto mesh = fill_corners(loop, corners, cut)) keep(std::move(*mesh));
@@ -509,20 +502,9 @@ private:
                                                           const TemplateCut& cut) const
     {
         const TemplateMesh filled = fill_template(loop, corners, cut);
-        PlanarQuads mesh{region_.points, filled.quads,
-                         "grids at " + std::to_string(corners.size()) + " corners"};
-        mesh.points.insert(mesh.points.end(), filled.inner.begin(), filled.inner.end());
-        const std::size_t own = loop.size(), fixed = region_.points.size();
-        for (Quad& quad : mesh.quads) {
-            for (Index& p : quad) {
-                const auto at = static_cast<std::size_t>(p);
-                p = at < own ? region_.loops[0][at] : static_cast<Index>(fixed + at - own);
-            }
-        }
-        smooth_plane(mesh.points, mesh.quads, fixed, {.size = sizes_.usual}, context_);
-        paving::correct_row_heights(mesh, region_, sizes_.usual);
-        if (!find_fault(mesh, region_).empty()) return std::nullopt;
-        return mesh;
+        PlanarQuads mesh{region_.points, {}, "grids at " + std::to_string(corners.size()) + " corners"};
+        add_filling(mesh.points, mesh.quads, region_.loops[0], filled.inner, filled.quads);
+        return smoothed(std::move(mesh), region_, sizes_.usual, context_);
     }
 
     void keep(PlanarQuads mesh)

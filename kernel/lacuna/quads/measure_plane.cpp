@@ -3,19 +3,16 @@
 
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
-#include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/detail/plane_stars.h>
+#include <lacuna/quads/detail/region_loops.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <set>
 
 namespace lacuna::quads {
 
 namespace {
-
-constexpr double kRight = std::numbers::pi / 2;
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
@@ -23,7 +20,7 @@ const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)];
 bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height,
                  double first, double second)
 {
-    const std::array<double, 4> wanted{first, second, 2 * kRight - second, 2 * kRight - first};
+    const std::array<double, 4> wanted{first, second, 2 * kRightAngle - second, 2 * kRightAngle - first};
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t k = (side + i) % 4;
         const Vec2& here = at(points, quad[k]);
@@ -47,7 +44,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     std::size_t count = 0, i = 0;
     for (const std::vector<Index>& loop : region.loops) {
         for (const Index p : loop) {
-            const double wanted = std::max(1.0, std::round(angles[i++] / kRight));
+            const double wanted = std::max(1.0, std::round(angles[i++] / kRightAngle));
             if (valence[index(p)] != static_cast<Index>(wanted)) ++count;
         }
     }
@@ -62,7 +59,7 @@ std::string find_bad_corner(const PlanarQuads& mesh)
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const Quad& quad = mesh.quads[q];
         for (std::size_t k = 0; k < 4; ++k) {
-            if (quad[k] < 0 || static_cast<std::size_t>(quad[k]) >= mesh.points.size())
+            if (quad[k] < 0 || index(quad[k]) >= mesh.points.size())
                 return "quad " + std::to_string(q) + " has corner " + std::to_string(quad[k]) +
                        ", which is no point";
             for (std::size_t j = 0; j < k; ++j) {
@@ -88,12 +85,9 @@ std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, s
         if (opposite[side] == mesh::kRimSide) rim.emplace_back(a, b);
     }
     edges = (opposite.size() + rim.size()) / 2;
-    for (const std::vector<Index>& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            wanted.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
-    }
-    std::sort(rim.begin(), rim.end());
-    std::sort(wanted.begin(), wanted.end());
+    for_sides_of(region.loops, [&](Index a, Index b) { wanted.emplace_back(a, b); });
+    std::ranges::sort(rim);
+    std::ranges::sort(wanted);
     if (rim == wanted) return {};
     std::vector<std::pair<Index, Index>> odd;
     std::set_difference(wanted.begin(), wanted.end(), rim.begin(), rim.end(), std::back_inserter(odd));
@@ -130,21 +124,16 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
 std::vector<double> boundary_angles(const PlanarRegion& region)
 {
     std::vector<double> angles;
-    for (const std::vector<Index>& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& here = at(region.points, loop[i]);
-            angles.push_back(
-                turn_between(at(region.points, loop[(i + 1) % loop.size()]) - here,
-                             at(region.points, loop[(i + loop.size() - 1) % loop.size()]) - here));
-        }
+    for (const Cycle& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) angles.push_back(corner_angle(region.points, loop, i));
     }
     return angles;
 }
 
 double row_corner(double angle, Index quads)
 {
-    constexpr double kMostBend = kRight / 2 * (1 + 1e-6); // eight sides for a full turn bend by 45° each
-    return quads == 2 && std::abs(angle - 2 * kRight) <= kMostBend ? angle / 2 : kRight;
+    constexpr double kMostBend = kRightAngle / 2 * (1 + 1e-6); // eight sides for a full turn bend by 45° each
+    return quads == 2 && std::abs(angle - 2 * kRightAngle) <= kMostBend ? angle / 2 : kRightAngle;
 }
 
 bool may_be_good(double angle, Index quads)
@@ -166,12 +155,9 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
     PlaneQuality result;
     result.quads = mesh.quads.size();
     result.points = mesh.points.size();
-    std::vector<Index> valence(mesh.points.size(), 0);
-    for (const Quad& quad : mesh.quads) {
-        for (const Index p : quad) ++valence[index(p)];
-    }
+    const std::vector<Index> valence = valences(mesh.quads, mesh.points.size());
     std::vector<char> on_boundary(mesh.points.size(), 0);
-    std::vector<double> wanted(mesh.points.size(), kRight);
+    std::vector<double> wanted(mesh.points.size(), kRightAngle);
     std::vector<char> possible(mesh.points.size(), 1);
     const std::vector<double> angles = boundary_angles(region);
     std::size_t node = 0;
@@ -192,7 +178,7 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region)
         jacobians += jacobian;
         for (std::size_t k = 0; k < 4; ++k) {
             const Index other = opposite[4 * q + k];
-            if (other >= 0 && static_cast<std::size_t>(other) < 4 * q + k) continue;
+            if (other >= 0 && index(other) < 4 * q + k) continue;
             const Vec2& a = at(mesh.points, quad[k]);
             const Vec2& b = at(mesh.points, quad[(k + 1) % 4]);
             const double length = (b - a).norm();
@@ -224,7 +210,7 @@ int least_irregular(std::span<const double> angles, int euler, double either)
 {
     int low = 4 * euler, high = 4 * euler;
     for (const double angle : angles) {
-        const double fit = angle / kRight;
+        const double fit = angle / kRightAngle;
         const int fewest = std::max(1, static_cast<int>(std::ceil(fit - 0.5 - either)));
         const int most = std::max(fewest, static_cast<int>(std::floor(fit + 0.5 + either)));
         low -= 2 - fewest;
@@ -247,12 +233,9 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
     std::size_t edges = 0;
     if (std::string fault = find_bad_side(mesh, region, edges); !fault.empty()) return fault;
 
-    std::vector<char> used(mesh.points.size(), 0);
-    for (const Quad& quad : mesh.quads) {
-        for (const Index p : quad) used[index(p)] = 1;
-    }
-    const auto unused = std::find(used.begin(), used.end(), 0);
-    if (unused != used.end()) return "point " + std::to_string(unused - used.begin()) + " has no quad";
+    const std::vector<Index> valence = valences(mesh.quads, mesh.points.size());
+    const auto unused = std::ranges::find(valence, 0);
+    if (unused != valence.end()) return "point " + std::to_string(unused - valence.begin()) + " has no quad";
     // Euler: a disc with holes, in one piece and nowhere pinched.
     const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
     if (euler != 2 - static_cast<long>(region.loops.size()))

@@ -33,7 +33,7 @@ struct Halved {
     std::vector<int> segment;   ///< of the side from each node to the next
     std::vector<Index> next;    ///< node of each node's loop
     std::vector<double> weight; ///< that side in sides of the region: 1 or ½
-    [[nodiscard]] int segment_at(Index p) const { return segment[static_cast<std::size_t>(p)]; }
+    [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
 };
 
 Halved halve_crossed(const CountTask& task)
@@ -42,15 +42,11 @@ Halved halve_crossed(const CountTask& task)
     std::vector<char> crossed(region.points.size(), 0);
     for (const SegmentSymmetry& symmetry : end_symmetries(region, task.segment)) {
         const std::vector<Index>& to = symmetry.nodes.to;
-        for (const auto& loop : region.loops) {
-            for (std::size_t i = 0; i < loop.size() && symmetry.nodes.map.mirrors; ++i) {
-                const auto a = static_cast<std::size_t>(loop[i]);
-                const Index b = loop[(i + 1) % loop.size()];
-                if (to[a] == b && to[static_cast<std::size_t>(b)] == loop[i] &&
-                    !task.segments[task.segment_of(loop[i])].fixed)
-                    crossed[a] = 1;
-            }
-        }
+        if (!symmetry.nodes.map.mirrors) continue;
+        for_sides_of(region.loops, [&](Index a, Index b) {
+            if (to[index(a)] == b && to[index(b)] == a && !task.segments[task.segment_of(a)].fixed)
+                crossed[index(a)] = 1;
+        });
     }
     Halved halved;
     halved.region.size = region.size;
@@ -65,11 +61,10 @@ Halved halve_crossed(const CountTask& task)
         halved.region.loops.emplace_back();
         const auto first = static_cast<Index>(halved.region.points.size());
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const auto a = static_cast<std::size_t>(loop[i]),
-                       b = static_cast<std::size_t>(loop[(i + 1) % loop.size()]);
+            const std::size_t a = index(loop[i]);
             const int own = task.segment[a];
             push(region.points[a], own, crossed[a] ? 0.5 : 1);
-            if (crossed[a]) push((region.points[a] + region.points[b]) / 2, own, 0.5);
+            if (crossed[a]) push((region.points[a] + point_of(region.points, loop, i + 1)) / 2, own, 0.5);
         }
         halved.next.back() = first;
     }
@@ -79,9 +74,9 @@ Halved halve_crossed(const CountTask& task)
 /// The segment that the side from a node of a part to the next is mapped to.
 std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetry& image, Index p)
 {
-    Index a = part.whole[static_cast<std::size_t>(p)];
-    if (image.map.mirrors) a = halved.next[static_cast<std::size_t>(a)];
-    return static_cast<std::size_t>(halved.segment_at(image.to[static_cast<std::size_t>(a)]));
+    Index a = part.whole[index(p)];
+    if (image.map.mirrors) a = halved.next[index(a)];
+    return index(halved.segment_at(image.to[index(a)]));
 }
 
 /// The segments of a part: pieces of axes and of the whole region's segments.
@@ -99,7 +94,7 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
     for (const auto& loop : part.region.loops) {
         int last = -1;
         for (const Index p : loop) {
-            const auto at = static_cast<std::size_t>(p);
+            const auto at = index(p);
             const int axis = part.axis[at];
             const int key = axis >= 0 ? -2 - axis : halved.segment_at(part.whole[at]);
             if (p == loop.front() || key != last) {
@@ -110,11 +105,11 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
             made.own[at] = static_cast<int>(made.all.size()) - 1;
             BoundarySegment& segment = made.all.back();
             if (axis >= 0) {
-                segment.wanted = part.wanted[static_cast<std::size_t>(axis)];
+                segment.wanted = part.wanted[index(axis)];
                 continue;
             }
-            const auto s = static_cast<std::size_t>(key);
-            const double share = halved.weight[static_cast<std::size_t>(part.whole[at])] / task.own[s];
+            const auto s = index(key);
+            const double share = halved.weight[index(part.whole[at])] / task.own[s];
             segment.wanted += share * task.segments[s].wanted;
             for (const Symmetry& image : part.images)
                 segment.fixed = segment.fixed || task.segments[image_of(halved, part, image, p)].fixed;
@@ -123,7 +118,7 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
     for (std::size_t t = 0; t < made.all.size(); ++t) {
         if (made.starts[t] < 0) continue;
         BoundarySegment& own = made.all[t];
-        const auto s = static_cast<std::size_t>(halved.segment_at(made.starts[t]));
+        const auto s = index(halved.segment_at(made.starts[t]));
         const BoundarySegment& whole = task.segments[s];
         own.least = std::max(1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kTiny)));
     }
@@ -156,7 +151,7 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
     std::vector<char> done(segments.all.size(), 0);
     for (const auto& loop : part.region.loops) {
         for (const Index p : loop) {
-            const auto t = static_cast<std::size_t>(segments.own[static_cast<std::size_t>(p)]);
+            const auto t = index(segments.own[index(p)]);
             if (done[t] || segments.starts[t] < 0) continue;
             done[t] = 1;
             for (const Symmetry& image : part.images) sum[image_of(halved, part, image, p)] += sides[t];
@@ -167,39 +162,24 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
 
 } // namespace
 
-std::optional<MirrorCounts> mirror_counts(const CountTask& task)
+std::optional<Counts> mirror_counts(const CountTask& task)
 {
     const Halved halved = halve_crossed(task);
     std::vector<Symmetry> symmetries;
     for (SegmentSymmetry& symmetry : end_symmetries(halved.region, halved.segment))
         symmetries.push_back(std::move(symmetry.nodes));
     if (symmetries.empty()) return std::nullopt;
-    std::function<double(const Vec2&)> asked = task.region.size;
+    SizeField asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
     // Few quads do not change their size as slowly as many.
-    std::vector<std::function<double(const Vec2&)>> sizes{paving::sizes_with_boundary(task.region).usual};
+    std::vector<SizeField> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
-    std::optional<std::vector<int>> first, best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& size : sizes) {
-        const std::size_t choices = &size == &sizes.back() ? 1 : kMostChoices;
-        for (std::size_t choice = 0; choice < choices; ++choice) {
-            const auto part = mirror_part(halved.region, symmetries, size, choice);
-            if (!part) break;
-            Counts counts = counts_by_part(task, halved, *part, sizes.size() > 1);
-            if (counts.cost < least) best = counts.sides;
-            least = std::min(least, counts.cost);
-            if (&size == &sizes.back()) first = std::move(counts.sides);
-        }
-        if (best) break;
-    }
-    if (best) return MirrorCounts{std::move(*best), true};
-    if (first) return MirrorCounts{std::move(*first), false};
-    return std::nullopt;
+    return cheapest_of_parts(halved.region, symmetries, sizes, [&](const MirrorPart& part) {
+        return counts_by_part(task, halved, part, sizes.size() > 1);
+    });
 }
 
-std::optional<double> count_axes(MirrorPart& part, const std::function<double(const Vec2&)>& size, bool few,
-                                 const RunContext& context)
+double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context)
 {
     // Given sides between corners are segments of their own, for no corner may move.
     std::vector<int> segment(part.region.points.size());
@@ -207,17 +187,13 @@ std::optional<double> count_axes(MirrorPart& part, const std::function<double(co
     std::vector<std::size_t> of_axis(part.wanted.size());
     for (const auto& loop : part.region.loops) {
         for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            const auto at = [&](std::size_t k) -> const Vec2& {
-                return part.region.points[static_cast<std::size_t>(loop[k % n])];
-            };
-            const int axis = part.axis[static_cast<std::size_t>(loop[i])];
-            const int last = part.axis[static_cast<std::size_t>(loop[(i + n - 1) % n])];
-            const bool corner = paving::quads_in(
-                                    paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i))) != 2;
+            const int axis = part.axis[index(loop[i])];
+            const int last = part.axis[index(loop[(i + n - 1) % n])];
+            const bool corner = quads_in(corner_angle(part.region.points, loop, i)) != 2;
             if (i == 0 || axis != last || (axis < 0 && corner)) segments.push_back({0, 1, axis < 0});
-            segment[static_cast<std::size_t>(loop[i])] = static_cast<int>(segments.size()) - 1;
+            segment[index(loop[i])] = static_cast<int>(segments.size()) - 1;
             segments.back().wanted += 1;
-            if (axis >= 0) of_axis[static_cast<std::size_t>(axis)] = segments.size() - 1;
+            if (axis >= 0) of_axis[index(axis)] = segments.size() - 1;
         }
     }
     std::vector<int> sides;
@@ -232,11 +208,9 @@ std::optional<double> count_axes(MirrorPart& part, const std::function<double(co
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
     // Quads alone take an even number of sides.
-    if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0)
-        ++*std::max_element(sides.begin(), sides.end());
+    if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
-    if (!counts) return std::nullopt;
-    return counts->cost;
+    return counts ? counts->cost : std::numeric_limits<double>::infinity();
 }
 
 } // namespace lacuna::quads

@@ -214,8 +214,8 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
             }
         }
     }
-    std::sort(window.nodes.begin(), window.nodes.end());
-    std::sort(window.quads.begin(), window.quads.end());
+    std::ranges::sort(window.nodes);
+    std::ranges::sort(window.quads);
     std::vector<char> on_rim(mesh.points.size(), 0);
     for (const std::vector<Index>& loop : divided.loops)
         for (const Index n : loop)
@@ -295,7 +295,7 @@ std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on
     std::optional<Quad> triangle;
     result.mesh.quads.reserve(mesh.quads.size());
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-        if (std::find(row.gone.begin(), row.gone.end(), static_cast<Index>(q)) != row.gone.end()) continue;
+        if (std::ranges::find(row.gone, static_cast<Index>(q)) != row.gone.end()) continue;
         Quad corners;
         std::size_t count = 0;
         for (const Index n : mesh.quads[q]) {
@@ -365,8 +365,7 @@ PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> side
         divided.points.push_back((a + b) / 2);
     }
     // From the last place to the first, so that places stay what they were.
-    std::sort(added.begin(), added.end(),
-              [](const auto& a, const auto& b) { return a.first.place > b.first.place; });
+    std::ranges::sort(added, [](const auto& a, const auto& b) { return a.first.place > b.first.place; });
     for (const auto& [side, middle] : added) {
         std::vector<Index>& loop = divided.loops[side.loop];
         loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(side.place) + 1, middle);

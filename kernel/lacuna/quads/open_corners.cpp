@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/open_corners.h>
 
-#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/quad_net.h>
+#include <lacuna/quads/detail/region_loops.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
@@ -72,35 +72,30 @@ public:
         constexpr double kWide = 0.78 * std::numbers::pi;  // 140°: a sine of 0.64
         needed_.assign(fixed_, 0);
         better_.assign(fixed_, 0);
-        for (const auto& loop : region.loops) {
-            for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-                const Vec2& p = at(loop[i]);
-                const double angle = turn_between(at(loop[(i + 1) % n]) - p, at(loop[(i + n - 1) % n]) - p);
+        for (const Cycle& loop : region.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const double angle = corner_angle(mesh.points, loop, i);
                 needed_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWidest));
                 better_[index(loop[i])] = static_cast<int>(std::ceil(angle / kWide));
             }
         }
     }
 
-    int run()
+    void run()
     {
         constexpr int kMostTries = 4; // each change adds a quad at the node, and no angle needs more
         constexpr double kGood = 0.5; // least sine that a quad that is not needed may leave; a choice
-        int changes = 0;
         for (Index p = 0; index(p) < fixed_; ++p) {
             if (!net_.is_used(p)) continue;
-            for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries) {
+            for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries)
                 if (!swap_edge(p, 0)) pillow_widest(p);
-                ++changes;
-            }
             // A wide node gets another quad where it costs the quads around little.
-            if (net_.valence(p) < better_[index(p)] && swap_edge(p, kGood)) ++changes;
+            if (net_.valence(p) < better_[index(p)]) swap_edge(p, kGood);
         }
         for (std::size_t q = 0; q < net_.quad_slots(); ++q) {
             if (q == mesh_.quads.size()) mesh_.quads.emplace_back();
             mesh_.quads[q] = net_.quad(static_cast<Index>(q));
         }
-        return changes;
     }
 
 private:
@@ -167,19 +162,16 @@ private:
 
 } // namespace
 
-int open_corners(PlanarQuads& mesh, const PlanarRegion& region) { return CornerOpener(mesh, region).run(); }
+void open_corners(PlanarQuads& mesh, const PlanarRegion& region) { CornerOpener(mesh, region).run(); }
 
-int pillow_folds(PlanarQuads& mesh, double least)
+void pillow_folds(PlanarQuads& mesh, double least)
 {
-    int count = 0;
     for (std::size_t q = 0, n = mesh.quads.size(); q < n; ++q) {
         if (scaled_jacobian(mesh.points, mesh.quads[q]) > least) continue;
         const std::array<Quad, 5> made = pillow(mesh.points, mesh.quads[q]);
         mesh.quads[q] = made[0];
         mesh.quads.insert(mesh.quads.end(), made.begin() + 1, made.end());
-        ++count;
     }
-    return count;
 }
 
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)

@@ -2,7 +2,6 @@
 #include <lacuna/quads/detail/outline_symmetry.h>
 
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>
 #include <array>
@@ -44,18 +43,16 @@ public:
         std::vector<Symmetry> found = all();
         // More make no better mesh. A choice, not a measurement.
         constexpr std::size_t kMostTurns = 64;
-        const auto turns = 1 +
-                           static_cast<std::size_t>(std::count_if(
-                               found.begin(), found.end(), [](const Symmetry& s) { return !s.map.mirrors; }));
+        const auto turns = 1 + static_cast<std::size_t>(std::ranges::count_if(
+                                   found, [](const Symmetry& s) { return !s.map.mirrors; }));
         if (turns <= kMostTurns) return found;
         // Quarter turns, where there are any, are among them.
         const std::size_t quarters = std::gcd(turns, std::size_t{4});
         std::size_t every = (turns + kMostTurns - 1) / kMostTurns;
         while (turns % every != 0 || turns / every % quarters != 0) ++every;
         const Index first = region_.loops[0][0];
-        const auto through = std::find_if(found.begin(), found.end(), [&](const Symmetry& s) {
-            return s.map.mirrors && s.to[index(first)] == first;
-        });
+        const auto through = std::ranges::find_if(
+            found, [&](const Symmetry& s) { return s.map.mirrors && s.to[index(first)] == first; });
         const bool has_axis = through != found.end();
         const double axis = has_axis ? through->map.angle() : 0;
         const double step = 2 * std::numbers::pi * static_cast<double>(every) / static_cast<double>(turns);
@@ -140,14 +137,21 @@ struct Axis {
     std::size_t symmetry = 0;
 };
 
-/// Points along a line, both ends included, with as many of the sizes asked between them each.
-std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides,
-                          const std::function<double(const Vec2&)>& size)
+constexpr int kSteps = 64; ///< along a line, where the size is asked: a choice, not a measurement
+
+/// The sum of one over the size along a line, up to each step.
+std::vector<double> sizes_to(const Vec2& from, const Vec2& to, const SizeField& size)
 {
-    constexpr int kSteps = 64; // where the size is asked: a choice, not a measurement
     std::vector<double> run{0};
     for (int i = 0; i < kSteps; ++i)
         run.push_back(run.back() + 1 / size(from + (i + 0.5) / kSteps * (to - from)));
+    return run;
+}
+
+/// Points along a line, both ends included, with as many of the sizes asked between them each.
+std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides, const SizeField& size)
+{
+    const std::vector<double> run = sizes_to(from, to, size);
     std::vector<Vec2> points;
     std::size_t step = 0;
     for (int k = 0; k <= sides; ++k) {
@@ -158,14 +162,6 @@ std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides,
         points.push_back(k == sides ? to : Vec2(from + part * (to - from)));
     }
     return points;
-}
-
-double sizes_along(const Vec2& from, const Vec2& to, const std::function<double(const Vec2&)>& size)
-{
-    constexpr int kSteps = 64; // as above
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i) sum += 1 / size(from + (i + 0.5) / kSteps * (to - from));
-    return sum * (to - from).norm() / kSteps;
 }
 
 /// Cuts a region between two rays from its centre; a half turn apart they are one line.
@@ -181,7 +177,7 @@ public:
     {
     }
 
-    std::optional<MirrorPart> run(const std::function<double(const Vec2&)>& size)
+    std::optional<MirrorPart> run(const SizeField& size)
     {
         if (!collect()) return std::nullopt;
         part_.has_centre = has_centre_;
@@ -198,10 +194,6 @@ public:
     }
 
 private:
-    struct Chain {
-        std::vector<Index> nodes;
-    };
-
     [[nodiscard]] Vec2 arm(Index p) const { return region_.points[index(p)] - centre_; }
     /// How far a point is within the ray's side.
     [[nodiscard]] double within(const Vec2& d, int ray) const
@@ -237,7 +229,7 @@ private:
                     if (in[i] && !is_inside(d) && ray_of(d) == 0) return false;
                 }
             }
-            const auto out = static_cast<std::size_t>(std::find(in.begin(), in.end(), 0) - in.begin());
+            const auto out = static_cast<std::size_t>(std::ranges::find(in, 0) - in.begin());
             if (out == n) {
                 whole_loops_.push_back(loop);
                 // A loop that touches a ray is none of a part.
@@ -251,68 +243,46 @@ private:
                 const char ray = ray_of(arm(loop[i]));
                 if (!in[before] || ray != 0) {
                     if (ray == 0) return false;
-                    chains_.push_back({{loop[i]}});
+                    chains_.push_back({loop[i]});
                 }
-                chains_.back().nodes.push_back(loop[(i + 1) % n]);
+                chains_.back().push_back(loop[(i + 1) % n]);
             }
         }
-        for (const Chain& chain : chains_) {
-            if (ray_of(arm(chain.nodes.back())) == 0) return false;
-        }
-        return !chains_.empty();
+        return !chains_.empty() && std::ranges::none_of(chains_, [&](const auto& chain) {
+            return ray_of(arm(chain.back())) == 0;
+        });
     }
 
-    Index push(Index whole, int axis = -1)
-    {
-        const auto own = static_cast<Index>(part_.region.points.size());
-        part_.region.points.push_back(region_.points[index(whole)]);
-        part_.whole.push_back(whole);
-        part_.axis.push_back(axis);
-        part_.ray.push_back(ray_of(arm(whole)));
-        part_.region.loops.back().push_back(own);
-        return own;
-    }
+    void push(Index whole) { part_.add(region_.points[index(whole)], whole, -1, ray_of(arm(whole))); }
 
     /// Follow chains and axes round one loop.
-    bool join_chains(const std::function<double(const Vec2&)>& size)
+    bool join_chains(const SizeField& size)
     {
         part_.region.loops.emplace_back();
-        const Index start = chains_.front().nodes.front();
-        std::size_t c = 0;
+        const Index start = chains_.front().front();
+        auto at = chains_.begin();
         while (true) {
-            const Chain chain = chains_[c];
-            chains_.erase(chains_.begin() + static_cast<std::ptrdiff_t>(c));
-            for (const Index p : chain.nodes) push(p);
-            const Index last = chain.nodes.back();
+            const std::vector<Index> chain = *at;
+            chains_.erase(at);
+            for (const Index p : chain) push(p);
             // The chain that starts where the ray comes to the region's boundary again.
-            const char ray = ray_of(arm(last));
-            auto next = next_start(ray, ray == 1 ? arm(last).norm() : -arm(last).norm(), start);
-            if (!next && ray == 2) {
-                if (!has_centre_) return false;
+            Vec2 from = region_.points[index(chain.back())];
+            char ray = ray_of(from - centre_);
+            auto next = next_start(ray, (ray == 1 ? 1 : -1) * (from - centre_).norm(), start);
+            if (!next && ray == 2 && has_centre_) { // over the centre to the other ray
                 next = next_start(1, 0, start);
-                if (!next) return false;
-                if (!is_half_) {
-                    walk_axis(region_.points[index(last)], centre_, 2, size);
-                    part_.region.points.push_back(centre_);
-                    part_.region.loops.back().push_back(static_cast<Index>(part_.region.points.size()) - 1);
-                    part_.whole.push_back(-1);
-                    part_.ray.push_back(3);
-                    part_.axis.push_back(-1);
-                    walk_axis(centre_, region_.points[index(*next)], 1, size);
-                } else {
-                    walk_axis(region_.points[index(last)], region_.points[index(*next)], 1, size);
+                if (next && !is_half_) {
+                    walk_axis(from, centre_, 2, size);
+                    part_.add(centre_, -1, -1, 3);
+                    from = centre_;
                 }
-            } else if (!next) {
-                return false;
-            } else {
-                walk_axis(region_.points[index(last)], region_.points[index(*next)], ray, size);
+                ray = 1;
             }
+            if (!next) return false;
+            walk_axis(from, region_.points[index(*next)], ray, size);
             if (*next == start) return true;
-            c = static_cast<std::size_t>(
-                std::find_if(chains_.begin(), chains_.end(),
-                             [&](const Chain& other) { return other.nodes.front() == *next; }) -
-                chains_.begin());
-            if (c == chains_.size()) return false;
+            at = std::ranges::find(chains_, *next, [](const auto& other) { return other.front(); });
+            if (at == chains_.end()) return false;
         }
     }
 
@@ -329,25 +299,19 @@ private:
             best = p;
         };
         look(start);
-        for (const Chain& chain : chains_) look(chain.nodes.front());
+        for (const auto& chain : chains_) look(chain.front());
         return best;
     }
 
     /// Nodes along an axis from the last node pushed, both ends left out.
-    void walk_axis(const Vec2& from, const Vec2& to, char ray, const std::function<double(const Vec2&)>& size)
+    void walk_axis(const Vec2& from, const Vec2& to, char ray, const SizeField& size)
     {
         const auto axis = static_cast<int>(part_.wanted.size());
-        part_.wanted.push_back(sizes_along(from, to, size));
+        part_.wanted.push_back(sizes_to(from, to, size).back() * (to - from).norm() / kSteps);
         const int sides = std::max(1, static_cast<int>(std::lround(part_.wanted.back())));
         part_.axis.back() = axis;
         const std::vector<Vec2> points = divided(from, to, sides, size);
-        for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-            part_.region.loops.back().push_back(static_cast<Index>(part_.region.points.size()));
-            part_.region.points.push_back(points[k]);
-            part_.whole.push_back(-1);
-            part_.ray.push_back(ray);
-            part_.axis.push_back(axis);
-        }
+        for (std::size_t k = 1; k + 1 < points.size(); ++k) part_.add(points[k], -1, axis, ray);
     }
 
     /// The outer loop first. @return false where there is not one
@@ -355,12 +319,7 @@ private:
     {
         std::size_t outer = 0, count = 0;
         for (std::size_t l = 0; l < part_.region.loops.size(); ++l) {
-            const std::vector<Index>& loop = part_.region.loops[l];
-            double twice = 0;
-            for (std::size_t i = 0; i < loop.size(); ++i)
-                twice += cross(part_.region.points[index(loop[i])] - centre_,
-                               part_.region.points[index(loop[(i + 1) % loop.size()])] - centre_);
-            if (twice <= 0) continue;
+            if (twice_area(part_.region.points, part_.region.loops[l]) <= 0) continue;
             outer = l;
             ++count;
         }
@@ -374,20 +333,18 @@ private:
     const std::array<Vec2, 2> ray_;
     const bool is_half_, has_centre_;
     std::vector<std::vector<Index>> whole_loops_;
-    std::vector<Chain> chains_;
+    std::vector<std::vector<Index>> chains_;
     MirrorPart part_;
 };
 
 /// Whether a side goes over onto itself, so that the axis crosses it.
 bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 {
-    for (const std::vector<Index>& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Index a = loop[i], b = loop[(i + 1) % loop.size()];
-            if (mirror.to[index(a)] == b && mirror.to[index(b)] == a) return true;
-        }
-    }
-    return false;
+    bool crosses = false;
+    for_sides_of(region.loops, [&](Index a, Index b) {
+        crosses = crosses || (mirror.to[index(a)] == b && mirror.to[index(b)] == a);
+    });
+    return crosses;
 }
 
 /// Whether an axis goes through a corner of which it would leave a sharp or an obtuse half.
@@ -395,11 +352,9 @@ bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
     constexpr double kMostOff = 25.0 / 90; // [right angles]; a hole of eight sides has 22.5°. A choice.
     for (const std::vector<Index>& loop : region.loops) {
-        const std::size_t n = loop.size();
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
             if (mirror.to[index(loop[i])] != loop[i]) continue;
-            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
-            const double half = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / std::numbers::pi;
+            const double half = corner_angle(region.points, loop, i) / std::numbers::pi;
             if (std::abs(half - std::round(half)) > kMostOff) return true;
         }
     }
@@ -419,23 +374,19 @@ std::vector<Axis> axes_of(const PlanarRegion& region, const std::vector<Symmetry
         if (axis.angle < 0) axis.angle += std::numbers::pi;
         for (const std::vector<Index>& loop : region.loops) {
             const Index to = symmetry.to[index(loop[0])];
-            if (std::find(loop.begin(), loop.end(), to) != loop.end()) axis.worth += 2;
+            if (std::ranges::find(loop, to) != loop.end()) axis.worth += 2;
         }
         axes.push_back(axis);
     }
-    std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.angle < b.angle; });
+    std::ranges::sort(axes, [](const Axis& a, const Axis& b) { return a.angle < b.angle; });
     return axes;
 }
 
 bool lies_in(const PlanarRegion& region, const Vec2& p)
 {
-    std::size_t around = 0;
-    for (const std::vector<Index>& loop : region.loops) {
-        std::vector<Vec2> polygon;
-        for (const Index q : loop) polygon.push_back(region.points[index(q)]);
-        if (geometry::lies_inside(polygon, p)) ++around;
-    }
-    return around == 1;
+    return std::ranges::count_if(region.loops, [&](const Cycle& loop) {
+               return geometry::lies_inside(region_within(region.points, {loop}).region.points, p);
+           }) == 1;
 }
 
 /// The angles at which the part may begin and end, the likeliest first.
@@ -460,12 +411,11 @@ std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, 
                 pairs.push_back({axis.worth + other.worth, axis.angle});
         }
     }
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.worth > b.worth; });
+    std::ranges::stable_sort(pairs, [](const Pair& a, const Pair& b) { return a.worth > b.worth; });
     std::vector<std::array<double, 2>> parts;
     for (const Pair& pair : pairs) parts.push_back({pair.angle, pair.angle + kPi / 2});
     if (!parts.empty()) return parts;
-    const double angle = std::max_element(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
+    const double angle = std::ranges::max_element(axes, [](const Axis& a, const Axis& b) {
                              return a.worth < b.worth;
                          })->angle;
     return {{angle, angle + kPi}};
@@ -476,7 +426,7 @@ std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, 
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region) { return OutlineFinder(region).run(); }
 
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                      const std::function<double(const Vec2&)>& size, std::size_t choice)
+                                      const SizeField& size, std::size_t choice)
 {
     const std::vector<Axis> axes = axes_of(region, symmetries);
     if (axes.empty()) return std::nullopt;
@@ -496,7 +446,7 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     for (int j = 1; j < count; ++j) {
         const bool mirrors = j % 2 != 0;
         const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
-        const auto found = std::find_if(symmetries.begin(), symmetries.end(), [&](const Symmetry& s) {
+        const auto found = std::ranges::find_if(symmetries, [&](const Symmetry& s) {
             constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two symmetries
             return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSame &&
                    std::abs(s.map.sine - std::sin(turn)) < kSame;
@@ -508,8 +458,7 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     return part;
 }
 
-void divide_axes(MirrorPart& part, const std::vector<int>& sides,
-                 const std::function<double(const Vec2&)>& size)
+void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeField& size)
 {
     MirrorPart made;
     made.wanted = part.wanted;
@@ -528,14 +477,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides,
         for (std::size_t k = 0; k < n;) {
             const Index here = loop[(first + k) % n];
             const int axis = part.axis[index(here)];
-            const auto push = [&](const Vec2& p, Index whole, char ray) {
-                made.region.loops.back().push_back(static_cast<Index>(made.region.points.size()));
-                made.region.points.push_back(p);
-                made.whole.push_back(whole);
-                made.axis.push_back(axis);
-                made.ray.push_back(ray);
-            };
-            push(part.region.points[index(here)], part.whole[index(here)], part.ray[index(here)]);
+            made.add(part.region.points[index(here)], part.whole[index(here)], axis, part.ray[index(here)]);
             std::size_t end = k + 1;
             if (axis >= 0) {
                 while (end < n && part.axis[index(loop[(first + end) % n])] == axis) ++end;
@@ -545,7 +487,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides,
                 const std::vector<Vec2> points = divided(part.region.points[index(here)],
                                                          part.region.points[index(last)],
                                                          sides[static_cast<std::size_t>(axis)], size);
-                for (std::size_t i = 1; i + 1 < points.size(); ++i) push(points[i], -1, ray);
+                for (std::size_t i = 1; i + 1 < points.size(); ++i) made.add(points[i], -1, axis, ray);
             }
             k = end;
         }
@@ -580,7 +522,7 @@ PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const Planar
         }
         for (Quad quad : mesh.quads) {
             for (Index& p : quad) p = node[j][index(p)];
-            if (image.map.mirrors) std::reverse(quad.begin(), quad.end());
+            if (image.map.mirrors) std::ranges::reverse(quad);
             whole.quads.push_back(quad);
         }
     }

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/patch_template.h>
 
 #include <lacuna/geometry/shared/transfinite.h>
+#include <lacuna/quads/detail/plane_stars.h>
 
 #include <algorithm>
 
@@ -13,7 +14,7 @@ using Chain = std::vector<Index>; ///< point numbers along a line, both ends inc
 
 Chain reversed(Chain chain)
 {
-    std::reverse(chain.begin(), chain.end());
+    std::ranges::reverse(chain);
     return chain;
 }
 
@@ -68,12 +69,9 @@ public:
         const auto inner = static_cast<std::ptrdiff_t>(loop_);
         mesh.inner.assign(points_.begin() + inner, points_.end());
         mesh.quads = std::move(quads_);
-        std::vector<int> valence(points_.size(), 0);
-        for (const Quad& quad : mesh.quads) {
-            for (const Index p : quad) ++valence[index(p)];
-        }
+        const std::vector<Index> valence = valences(mesh.quads, points_.size());
         mesh.irregular = static_cast<int>(
-            std::count_if(valence.begin() + inner, valence.end(), [](int v) { return v != 4; }));
+            std::count_if(valence.begin() + inner, valence.end(), [](Index v) { return v != 4; }));
         return mesh;
     }
 
@@ -267,8 +265,7 @@ std::vector<Chain> sides_between(std::size_t from, std::size_t to, std::size_t l
         i = (i + 1) % loop;
         sides.back().push_back(static_cast<Index>(i));
         if (i == to) break;
-        if (std::find(corners.begin(), corners.end(), i) != corners.end())
-            sides.push_back({static_cast<Index>(i)});
+        if (std::ranges::find(corners, i) != corners.end()) sides.push_back({static_cast<Index>(i)});
     }
     return sides;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace lacuna::quads {
 namespace {
@@ -13,10 +12,7 @@ namespace {
 std::array<int, 2> excess_of(const PatternLoop& loop)
 {
     std::array<int, 2> excess{};
-    for (const int h : loop.heading) {
-        const int quarter = ((h % 4) + 4) % 4;
-        excess[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? 1 : -1;
-    }
+    for (const int h : loop.heading) advance(excess, h);
     return excess;
 }
 
@@ -61,10 +57,8 @@ std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<
             if (hard ? !may_turn(loop, i, 0) || !may_turn(loop, next, there) : loop.turn(next) != 0) continue;
             const int h = loop.heading[changed] + (forward ? -turn : turn);
             std::array<int, 2> now = excess;
-            for (const auto& [heading, by] : {std::pair{loop.heading[changed], -1}, {h, 1}}) {
-                const int quarter = ((heading % 4) + 4) % 4;
-                now[static_cast<std::size_t>(quarter % 2)] += quarter < 2 ? by : -by;
-            }
+            advance(now, loop.heading[changed], -1);
+            advance(now, h);
             if (badness(now) >= badness(excess)) continue;
             const auto off = [&](int heading) { return std::abs(loop.direction[changed] - heading); };
             const double cost = off(h) * off(h) - off(loop.heading[changed]) * off(loop.heading[changed]);
@@ -115,13 +109,11 @@ bool trade_column_for_row(PatternLoop& loop)
 
 GridLoop positions_of(const PatternLoop& loop)
 {
-    constexpr std::array<GridPosition, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     GridLoop grid{loop.nodes, {}};
     GridPosition at{0, 0};
     for (const int h : loop.heading) {
         grid.positions.push_back(at);
-        const GridPosition& step = kSteps[static_cast<std::size_t>(((h % 4) + 4) % 4)];
-        at = {at[0] + step[0], at[1] + step[1]};
+        advance(at, h);
     }
     return grid;
 }

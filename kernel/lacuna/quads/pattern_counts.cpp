@@ -3,14 +3,12 @@
 
 #include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/mirror_counts.h>
-#include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/ring_counts.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 #include <lacuna/quads/detail/star_counts.h>
 #include <lacuna/quads/detail/straight_counts.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace lacuna::quads {
@@ -23,7 +21,7 @@ std::optional<std::vector<int>> counts_for(const CountTask& task)
     auto ring = ring_counts(task);
     if (ring && are_alike(*ring, mirrored_segments(region, task.segment))) return ring;
     auto mirrored = mirror_counts(task);
-    if (mirrored && mirrored->is_grid) return std::move(mirrored->sides);
+    if (mirrored && std::isfinite(mirrored->cost)) return std::move(mirrored->sides);
     if (auto star = star_counts(task)) return star;
     if (mirrored) return std::move(mirrored->sides);
     if (ring) return ring;

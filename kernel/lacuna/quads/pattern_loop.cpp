@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <array>
@@ -12,9 +13,6 @@
 
 namespace lacuna::quads {
 namespace {
-
-using paving::kRightAngle;
-using paving::turn_between;
 
 /// A turn is soft where the boundary's own differs from it by more than this [right angles]. At an end one
 /// quad has the whole angle, so half way to a side is the most, 135° or a sine of 0.7. Three quads share a
@@ -43,15 +41,13 @@ double in_quarters(double angle) { return std::remainder(angle, 2 * std::numbers
 LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame)
 {
     const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) -> const Vec2& {
-        return points[static_cast<std::size_t>(loop[i % n])];
-    };
     LoopAngles angles;
     double before = 0;
     for (std::size_t i = 0; i <= n; ++i) {
-        const Vec2 out = at(i + 1) - at(i), back = at(i + n - 1) - at(i);
-        const double turn = 2 - turn_between(out, back) / kRightAngle;
-        const double reference = frame_angle(frame, (at(i) + at(i + 1)) / 2);
+        const Vec2 &here = point_of(points, loop, i), &next = point_of(points, loop, i + 1),
+                   out = next - here;
+        const double turn = 2 - corner_angle(points, loop, i) / kRightAngle;
+        const double reference = frame_angle(frame, (here + next) / 2);
         const double direction = i == 0 ? in_quarters(std::atan2(out.y(), out.x()) - reference)
                                         : angles.direction.back() + turn - in_quarters(reference - before);
         before = reference;
@@ -80,6 +76,7 @@ constexpr double kSoftTurn = 0.5;
 /// Headings of least cost from one of the first side.
 class HeadingSearch {
 public:
+    /// @param weight  of a side's deviation against that of a node's angle.
     HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
         : angles_(angles), weight_(weight), style_(style)
     {
@@ -154,20 +151,17 @@ private:
     TurnStyle style_;
 };
 
-const Vec2& point(const std::vector<Vec2>& points, Index p) { return points[static_cast<std::size_t>(p)]; }
-
 } // namespace
 
 Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
 {
-    const Vec2& origin = point(points, loop[0]);
+    const Vec2& origin = points[index(loop[0])];
     Vec2 sum = Vec2::Zero();
     double area = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 a = point(points, loop[i]) - origin,
-                   b = point(points, loop[(i + 1) % loop.size()]) - origin;
-        sum += paving::cross(a, b) * (a + b) / 3;
-        area += paving::cross(a, b);
+        const Vec2 a = point_of(points, loop, i) - origin, b = point_of(points, loop, i + 1) - origin;
+        sum += cross(a, b) * (a + b) / 3;
+        area += cross(a, b);
     }
     return area != 0 ? Vec2(origin + sum / area) : origin;
 }
@@ -189,7 +183,7 @@ double main_angle(const PlanarRegion& region)
     const auto clear = [&] { return std::abs(sum) > kClear * whole; };
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i)
-            add(point(region.points, loop[(i + 1) % loop.size()]) - point(region.points, loop[i]));
+            add(point_of(region.points, loop, i + 1) - point_of(region.points, loop, i));
         if (clear()) return std::arg(sum) / 4;
     }
     std::vector<Vec2> centres;
@@ -199,28 +193,28 @@ double main_angle(const PlanarRegion& region)
         for (std::size_t b = a + 1; b < centres.size(); ++b) add(centres[b] - centres[a]);
     }
     if (clear()) return std::arg(sum) / 4;
-    const Vec2 first = point(region.points, region.loops[0][0]) - centres[0];
+    const Vec2 first = region.points[index(region.loops[0][0])] - centres[0];
     return std::atan2(first.y(), first.x());
 }
 
+LoopFrame straight_frame(const PlanarRegion& region) { return {.angle = main_angle(region)}; }
+
 bool has_half_ends(const PlanarRegion& region)
 {
-    for (const auto& loop : region.loops) {
-        const std::size_t n = loop.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto at = [&](std::size_t k) -> const Vec2& { return point(region.points, loop[k % n]); };
-            const double off = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / kRightAngle - 1;
-            if (off > kSoftHalf && off <= kSoftEnd) return true;
-        }
-    }
-    return false;
+    return std::ranges::any_of(boundary_angles(region), [](double angle) {
+        const double off = angle / kRightAngle - 1;
+        return off > kSoftHalf && off <= kSoftEnd;
+    });
 }
 
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame, double side_weight, int rows, TurnStyle style)
+                                     const LoopFrame& frame, TurnStyle style)
 {
+    // Where the grid goes round a hole the angles decide, for a slot's sides run across any circle: its
+    // weight is for all sides in sum. Choices, not measurements.
+    constexpr double kStraight = 1, kRound = 2;
     const LoopAngles angles = angles_of(points, loop, frame);
-    HeadingSearch search(angles, side_weight, style);
+    HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
     double least = std::numeric_limits<double>::infinity();
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
@@ -234,7 +228,7 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const int turn = headed.turn(i);
         const bool soft = is_soft(angles.turn[i], turn, style);
-        headed.soft.push_back(soft ? rows : 0);
+        headed.soft.push_back(soft ? 1 : 0);
         headed.movable.push_back(soft ? 1 : 0);
     }
     return headed;
@@ -242,11 +236,11 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 
 bool has_doubtful_turns(const PlanarRegion& region)
 {
-    const LoopFrame frame{false, Vec2::Zero(), main_angle(region)};
+    const LoopFrame frame = straight_frame(region);
     return std::ranges::any_of(region.loops, [&](const std::vector<Index>& loop) {
-        const auto soft = head_loop(region.points, loop, frame, kStraightWeight, 1);
+        const auto soft = head_loop(region.points, loop, frame);
         if (!soft || std::ranges::find(soft->movable, 1) == soft->movable.end()) return false;
-        const auto few = head_loop(region.points, loop, frame, kStraightWeight, 1, TurnStyle::few_soft);
+        const auto few = head_loop(region.points, loop, frame, TurnStyle::few_soft);
         return few && few->heading != soft->heading;
     });
 }
@@ -255,15 +249,9 @@ bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
     // Corners of 112° and less: two quads would be left with a sine of 0.83. A choice, not a measurement.
     constexpr double kEnd = 0.75;
-    const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) -> const Vec2& {
-        return points[static_cast<std::size_t>(loop.nodes[i % n])];
-    };
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;
-        if (loop.turn(i) == 0 &&
-            2 - turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i)) / kRightAngle > kEnd)
-            return false;
+        if (loop.turn(i) == 0 && 2 - corner_angle(points, loop.nodes, i) / kRightAngle > kEnd) return false;
     }
     return loop.turns == 0;
 }

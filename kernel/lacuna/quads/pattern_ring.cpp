@@ -11,13 +11,11 @@
 namespace lacuna::quads {
 namespace {
 
-const Vec2& point(std::span<const Vec2> points, Index p) { return points[static_cast<std::size_t>(p)]; }
-
 /// Rows round a loop that change its number of sides.
 class ChangingRows {
 public:
     ChangingRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                 const std::function<double(const Vec2&)>& height)
+                 const SizeField& height)
         : loop_(loop), points_(points), quads_(quads), height_(height)
     {
     }
@@ -74,13 +72,7 @@ public:
 private:
     Index add_above(const std::vector<Index>& nodes, std::size_t i)
     {
-        const std::size_t n = nodes.size();
-        const Vec2 here = point(points_, nodes[i]);
-        const Vec2 along = (point(points_, nodes[(i + 1) % n]) - here).normalized() +
-                           (here - point(points_, nodes[(i + n - 1) % n])).normalized();
-        const double length = along.norm();
-        const Vec2 unit = length > 0 ? Vec2(along / length) : Vec2(1, 0);
-        points_.push_back(here + height_(here) * Vec2(-unit.y(), unit.x()));
+        points_.push_back(point_above(points_, nodes, i, height_));
         return static_cast<Index>(points_.size()) - 1;
     }
 
@@ -91,7 +83,7 @@ private:
         std::vector<Index> nodes = loop_.nodes;
         std::rotate(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(staying), nodes.end());
         std::vector<Vec2> line;
-        for (const Index p : nodes) line.push_back(point(points_, p));
+        for (const Index p : nodes) line.push_back(points_[index(p)]);
         line.push_back(line.front());
         std::vector<double> arc{0};
         for (std::size_t i = 0; i < n; ++i) arc.push_back(arc.back() + (line[i + 1] - line[i]).norm());
@@ -101,15 +93,14 @@ private:
             while (piece + 1 < n && arc[piece + 1] < at) ++piece;
             const double length = arc[piece + 1] - arc[piece];
             const double part = length > 0 ? (at - arc[piece]) / length : 0;
-            points_[static_cast<std::size_t>(nodes[i])] = line[piece] +
-                                                          part * (line[piece + 1] - line[piece]);
+            points_[index(nodes[i])] = line[piece] + part * (line[piece + 1] - line[piece]);
         }
     }
 
     PatternLoop& loop_;
     std::vector<Vec2>& points_;
     std::vector<Quad>& quads_;
-    const std::function<double(const Vec2&)>& height_;
+    const SizeField& height_;
 };
 
 } // namespace
@@ -136,14 +127,14 @@ RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& o
     for (const Index p : outer) {
         double least = std::numeric_limits<double>::infinity();
         for (const Index q : inner)
-            least = std::min(least, (point(points, q) - point(points, p)).squaredNorm());
+            least = std::min(least, (points[index(q)] - points[index(p)]).squaredNorm());
         width.push_back(std::sqrt(least));
     }
     const std::size_t n = width.size();
     RingWidths widths;
-    widths.narrowest = static_cast<std::size_t>(std::min_element(width.begin(), width.end()) - width.begin());
+    widths.narrowest = static_cast<std::size_t>(std::ranges::min_element(width) - width.begin());
     widths.least = width[widths.narrowest];
-    widths.most = *std::max_element(width.begin(), width.end());
+    widths.most = *std::ranges::max_element(width);
     const double middle = (widths.least + widths.most) / 2;
     std::size_t ahead = 0, back = 0;
     while (ahead + 1 < n / 2 && width[(widths.narrowest + ahead) % n] < middle) ++ahead;
@@ -154,8 +145,8 @@ RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& o
 
 bool runs_round(const PatternLoop& loop)
 {
-    return loop.turns == 0 && std::all_of(loop.heading.begin(), loop.heading.end(),
-                                          [&](int h) { return h == loop.heading.front(); });
+    return loop.turns == 0 &&
+           std::ranges::all_of(loop.heading, [&](int h) { return h == loop.heading.front(); });
 }
 
 bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows)
@@ -174,7 +165,7 @@ bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows)
 }
 
 bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                  const std::function<double(const Vec2&)>& height)
+                  const SizeField& height)
 {
     const std::size_t n = loop.size();
     const bool grows = by > 0;

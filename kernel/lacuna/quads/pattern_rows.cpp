@@ -8,14 +8,12 @@ namespace lacuna::quads {
 namespace {
 
 /// Start the loop at another of its nodes.
-void rotate(PatternLoop& loop, std::size_t first)
+void start_at(PatternLoop& loop, std::size_t first)
 {
-    const auto by = static_cast<std::ptrdiff_t>(first);
-    std::rotate(loop.nodes.begin(), loop.nodes.begin() + by, loop.nodes.end());
-    std::rotate(loop.heading.begin(), loop.heading.begin() + by, loop.heading.end());
-    std::rotate(loop.direction.begin(), loop.direction.begin() + by, loop.direction.end());
-    std::rotate(loop.soft.begin(), loop.soft.begin() + by, loop.soft.end());
-    std::rotate(loop.movable.begin(), loop.movable.begin() + by, loop.movable.end());
+    const auto rotate = [by = static_cast<std::ptrdiff_t>(first)](auto&... lists) {
+        (std::rotate(lists.begin(), lists.begin() + by, lists.end()), ...);
+    };
+    rotate(loop.nodes, loop.heading, loop.direction, loop.soft, loop.movable);
     for (std::size_t i = loop.size() - first; i < loop.size(); ++i) {
         loop.heading[i] += loop.turns;
         loop.direction[i] += loop.turns;
@@ -28,7 +26,7 @@ bool is_hard(const PatternLoop& loop, std::size_t i) { return loop.turn(i) != 0 
 class PatternRows {
 public:
     PatternRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                const std::function<double(const Vec2&)>& height)
+                const SizeField& height)
         : loop_(loop), points_(points), quads_(quads), height_(height)
     {
     }
@@ -112,10 +110,7 @@ public:
 private:
     static constexpr std::size_t kFewestRoundEnd = 5; ///< nodes, so that three are left
 
-    [[nodiscard]] const Vec2& at(std::size_t i) const
-    {
-        return points_[static_cast<std::size_t>(loop_.nodes[i % loop_.size()])];
-    }
+    [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 
     Index add(const Vec2& p)
     {
@@ -124,14 +119,7 @@ private:
     }
 
     /// A node above node i of the loop.
-    Index add_inner(std::size_t i)
-    {
-        const std::size_t n = loop_.size();
-        const Vec2 along = (at(i + 1) - at(i)).normalized() + (at(i) - at(i + n - 1)).normalized();
-        const double length = along.norm();
-        const Vec2 unit = length > 0 ? Vec2(along / length) : Vec2(1, 0);
-        return add(at(i) + height_(at(i)) * Vec2(-unit.y(), unit.x()));
-    }
+    Index add_inner(std::size_t i) { return add(point_above(points_, loop_.nodes, i, height_)); }
 
     /// A node square to a side at one of its ends.
     Index add_square(std::size_t i, std::size_t side)
@@ -143,7 +131,7 @@ private:
     PatternLoop& loop_;
     std::vector<Vec2>& points_;
     std::vector<Quad>& quads_;
-    const std::function<double(const Vec2&)>& height_;
+    const SizeField& height_;
 };
 
 } // namespace
@@ -177,7 +165,7 @@ std::vector<int> rows_to_try(int fitting)
     }
     if (fitting <= kAlways) return rows;
     const auto off = [&](int r) { return std::abs(std::log(static_cast<double>(r) / fitting)); };
-    std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return off(a) < off(b); });
+    std::ranges::stable_sort(rows, [&](int a, int b) { return off(a) < off(b); });
     return rows;
 }
 
@@ -190,7 +178,7 @@ void set_soft_rows(PatternLoop& loop, int rows)
 }
 
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                      const std::function<double(const Vec2&)>& height)
+                      const SizeField& height)
 {
     while (true) {
         const std::size_t n = loop.size();
@@ -205,7 +193,7 @@ bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<
             rows.lay_round();
             continue;
         }
-        rotate(loop, hard);
+        start_at(loop, hard);
         std::size_t end = 1;
         while (end < n && !is_hard(loop, end)) ++end;
         if (!rows.lay_part(end)) return false;

@@ -12,26 +12,10 @@
 #include <lacuna/quads/detail/square_rows.h>
 #include <lacuna/quads/shared/pattern_counts.h>
 
-#include <sstream>
-
 namespace lacuna::quads {
 namespace {
 
 using namespace paving;
-
-std::string position_text(const Vec2& p)
-{
-    std::ostringstream text;
-    text << "(" << p.x() << ", " << p.y() << ")";
-    return text.str();
-}
-
-std::vector<Vec2> polygon_of(const PlanarRegion& region, std::size_t loop)
-{
-    std::vector<Vec2> polygon;
-    for (const Index p : region.loops[loop]) polygon.push_back(region.points[index(p)]);
-    return polygon;
-}
 
 /// Lay rows of their own height, which stay as they are, and pave what is inside them as a region by itself.
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
@@ -53,32 +37,15 @@ Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, c
         if (now == 0) break;
         laid += now;
     }
-    PlanarRegion core{{}, {}, region.size, {}};
-    std::vector<Index> own;
-    for (const Cycle& loop : loops) {
-        core.loops.emplace_back();
-        for (const Index p : loop) {
-            core.loops.back().push_back(static_cast<Index>(own.size()));
-            core.points.push_back(partial.at(p));
-            own.push_back(p);
-        }
-    }
+    const auto [core, own] = region_within(partial.points, loops, region.size);
     PaveOptions inside = options;
     inside.exact_rows = 0;
     auto [filling, report] = pave(core, inside, context);
     PlanarQuads mesh{std::move(partial.points), std::move(partial.quads), filling.how};
-    for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
-        own.push_back(static_cast<Index>(mesh.points.size()));
-        mesh.points.push_back(filling.points[p]);
-    }
-    for (Quad quad : filling.quads) {
-        for (Index& p : quad) p = own[static_cast<std::size_t>(p)];
-        mesh.quads.push_back(quad);
-    }
+    add_filling(mesh, own, filling);
     mesh.how += " inside " + std::to_string(laid) +
                 (laid == 1 ? " row of its own height" : " rows of their own height") + missing;
     drop_loose_points(mesh, region.points.size());
-    report.rows += laid;
     return {std::move(mesh), std::move(report)};
 }
 
@@ -99,28 +66,27 @@ void check(const PlanarRegion& region)
         }
         sides += loop.size();
         for (const Index p : loop) {
-            if (p < 0 || static_cast<std::size_t>(p) >= seen.size())
+            if (p < 0 || index(p) >= seen.size())
                 throw InvalidInput("surface.pave_loops", name + " names node " + std::to_string(p + 1) +
                                                              " of " + std::to_string(seen.size()));
-            if (seen[static_cast<std::size_t>(p)])
+            if (seen[index(p)])
                 throw InvalidInput("surface.pave_loops", name + " comes to node " + std::to_string(p + 1) +
                                                              " a second time; loops may not touch");
-            seen[static_cast<std::size_t>(p)] = true;
+            seen[index(p)] = true;
         }
     }
     if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
-        const auto node = static_cast<std::size_t>(region.loops[crossing->loop_a][crossing->segment_a]);
+        const auto node = index(region.loops[crossing->loop_a][crossing->segment_a]);
         throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
                                                      std::to_string(crossing->loop_b + 1) +
                                                      " of a region to be filled cross or touch near " +
                                                      position_text(region.points[node]));
     }
-    const PartialMesh given{region.points, {}, region.points.size(), {}};
-    const std::vector<Vec2> outline = polygon_of(region, 0);
+    const std::vector<Vec2> outline = region_within(region.points, {region.loops[0]}).region.points;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const auto& loop = region.loops[l];
         const bool outer = l == 0;
-        if ((twice_area(given, loop) > 0) == outer &&
+        if ((twice_area(region.points, loop) > 0) == outer &&
             (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
             continue;
         throw InvalidInput(
@@ -165,7 +131,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                               ", has a scaled Jacobian of " + std::to_string(best.worst) +
                               ": the boundary's sides are long for the gap there");
     }
-    if (options.smooth && static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
+    if (static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
         const std::vector<Symmetry> symmetries = mesh_symmetries(best.mesh, region);
         const bool is_symmetric = symmetrise(best.mesh, region.points.size(), symmetries) > 1;
         square_rows(best.mesh, region, is_symmetric ? symmetries : std::vector<Symmetry>());

@@ -6,7 +6,6 @@
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_rows.h>
-#include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/row_heights.h>
@@ -22,7 +21,7 @@ bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
     constexpr double kGood = 0.8; // quality from which rows gain nothing; a choice, not a measurement
     if (loops.size() > 1 || loops.front().size() < 8) return false;
-    const PatchFit fit = fit_patch(partial, loops.front(), angles_of(partial, loops.front()));
+    const PatchFit fit = fit_patch(partial, loops.front(), corner_angles(partial.points, loops.front()));
     return fit.quality > kGood;
 }
 
@@ -40,7 +39,7 @@ int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 bool is_conforming(const PlanarQuads& mesh)
 {
     const auto opposite = mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()));
-    return std::find(opposite.begin(), opposite.end(), mesh::kBadSide) == opposite.end();
+    return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
 /// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
@@ -53,7 +52,7 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
         if (round > 0) pillow_folds(tried.mesh, setting.flat);
         raise_flat_quads(tried.mesh, fixed);
         judge(tried);
-        if (tried.worst <= setting.flat && round == 0 && setting.options.clean) {
+        if (tried.worst <= setting.flat && round == 0) {
             clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
             raise_flat_quads(tried.mesh, fixed);
             judge(tried);
@@ -69,7 +68,7 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
         if (!better || attempt.worst > setting.flat) break;
     }
     if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, 0, setting.size);
+    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, setting.size);
     judge(attempt);
 }
 
@@ -77,12 +76,9 @@ void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thor
                       const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
-    if (setting.options.clean)
-        clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
-    if (setting.options.smooth) {
-        smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
-        correct_row_heights(attempt.mesh, setting.region, setting.size);
-    }
+    clean_quads(attempt.mesh, fixed, {.size = setting.size, .thorough = thorough}, context);
+    smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed, {.size = setting.size}, context);
+    correct_row_heights(attempt.mesh, setting.region, setting.size);
     judge(attempt);
 }
 
@@ -91,32 +87,27 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
                    const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    if (style == RowStyle::by_shape && is_patch(partial, loops)) style = RowStyle::mapped;
+    const bool one_patch = style == RowStyle::by_shape && is_patch(partial, loops);
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = rows_for(partial, loops[l], l == 0);
-        rows.push_back(style == RowStyle::no_rows || style == RowStyle::mapped ? 0
-                       : style == RowStyle::buffer                             ? 1
-                                                                               : own);
+        rows.push_back(style == RowStyle::no_rows || one_patch ? 0 : style == RowStyle::buffer ? 1 : own);
     }
     const RowKind kind = style == RowStyle::buffer ? RowKind::buffer
                          : style == RowStyle::thin ? RowKind::thin
                                                    : RowKind::tall;
+    int laid = 0;
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
-        if (std::none_of(wanted.begin(), wanted.end(), [](bool w) { return w; })) break;
-        attempt.report.rows += lay_rows(partial, loops, wanted, partial.size, kind);
+        if (std::ranges::none_of(wanted, [](bool w) { return w; })) break;
+        laid += lay_rows(partial, loops, wanted, partial.size, kind);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const CoreCount count = fill_core(partial, loops, style == RowStyle::mapped, context);
-    attempt.report.mapped = count.patches;
-    attempt.report.cuts = count.cuts;
-    attempt.report.templates = count.templates;
-    attempt.report.used = count.cuts == 0 && count.patches == 1 && attempt.report.rows == 0 ? "mapped"
-                                                                                            : "paved";
+    const bool is_one_patch = fill_core(partial, loops, one_patch, context);
+    attempt.report.used = is_one_patch && laid == 0 ? "mapped" : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);
 }
@@ -127,7 +118,7 @@ void judge(Attempt& attempt)
 {
     attempt.worst = 1;
     for (const Quad& q : attempt.mesh.quads) {
-        const auto at = [&](std::size_t k) { return attempt.mesh.points[static_cast<std::size_t>(q[k])]; };
+        const auto at = [&](std::size_t k) { return attempt.mesh.points[index(q[k])]; };
         const double sine = least_sine(at(0), at(1), at(2), at(3));
         if (sine >= attempt.worst) continue;
         attempt.worst = sine;
@@ -158,7 +149,7 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough, const RunContext& context)
 {
     if (attempt.worst < -1) return; // there are no quads, or they do not conform
-    if (setting.options.smooth) open_folds(attempt, setting, context);
+    open_folds(attempt, setting, context);
     if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_choice.h>
 
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
 #include <lacuna/quads/detail/pave_coarse.h>
 #include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/pattern_counts.h>
@@ -16,8 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
-#include <sstream>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -86,13 +86,8 @@ constexpr double kFair = 0.75, kNearly = 0.97;
 double best_at_corners(const PlanarRegion& region)
 {
     double worst = 1;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
-            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            worst = std::min(worst, std::sin(angle / quads_in(angle)));
-        }
-    }
+    for (const double angle : boundary_angles(region))
+        worst = std::min(worst, std::sin(angle / quads_in(angle)));
     return worst;
 }
 
@@ -124,7 +119,6 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
     if (!mesh) return attempt;
     attempt.mesh = std::move(*mesh);
     attempt.report.used = attempt.mesh.how;
-    attempt.report.mapped = 1;
     correct_row_heights(attempt.mesh, setting.region, setting.size);
     judge(attempt);
     return attempt;
@@ -156,20 +150,14 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 /// more irregular nodes than what is not.
 /// @param asked  the size that gives the number of quads.
 /// @param few    the quads are as few as given sides allow: then these decide the sizes.
-bool is_good_part(const Attempt& attempt, const PlanarRegion& region,
-                  const std::function<double(const Vec2&)>& asked, bool few)
+bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0}; // choices, not measurements
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
     // Where images meet, on an axis or at the centre, each may have a quad too many.
     constexpr Index kMostQuads = 6;
-    std::vector<Index> valence(attempt.mesh.points.size(), 0);
-    for (const Quad& quad : attempt.mesh.quads) {
-        for (const Index p : quad) {
-            if (++valence[index(p)] > kMostQuads) return false;
-        }
-    }
+    if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
     return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
 }
 
@@ -194,6 +182,11 @@ double score_of(const PlaneQuality& quality)
            quality.row_share() / 2 - 2 * irregular;
 }
 
+std::string position_text(const Vec2& p)
+{
+    return "(" + with_digits(p.x(), 6) + ", " + with_digits(p.y(), 6) + ")";
+}
+
 std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 
 double flat_below(const PlanarRegion& region)
@@ -201,13 +194,8 @@ double flat_below(const PlanarRegion& region)
     // A corner of about 1°, or a third of the outline's sharpest corner; choices, not measurements.
     constexpr double kFlat = 0.02, kShare = 0.3;
     double sharpest = 1;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            const auto at = [&](std::size_t k) { return region.points[index(loop[k % n])]; };
-            const double angle = turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-            if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
-        }
-    }
+    for (const double angle : boundary_angles(region))
+        if (angle < kRightAngle) sharpest = std::min(sharpest, std::sin(angle));
     return std::min(kFlat, kShare * sharpest);
 }
 
@@ -215,13 +203,13 @@ AttemptChooser::AttemptChooser(const PlanarRegion& region, const PaveOptions& op
                                const RunContext& context, bool cut)
     : region_(region),
       judged_(region),
-      options_(options),
+      grids_(options.grids),
       context_(context),
       cut_(cut),
       least_irregular_(least_irregular(region)),
       is_few_(quads_within(region) < kFewQuads),
       few_graded_(quads_within(region) < kFewForGrading && region.size),
-      setting_{region_, options_, {}, flat_below(region)}
+      setting_{region_, {}, flat_below(region)}
 {
     BoundarySizes sizes = sizes_with_boundary(region);
     setting_.size = std::move(sizes.usual);
@@ -255,15 +243,13 @@ void AttemptChooser::complete(Attempt& attempt) const
 {
     finish_attempt(attempt, setting_, !is_few_, context_);
     if (attempt.worst > setting_.flat) return;
-    std::ostringstream text;
-    text << "quads fold near (" << attempt.where.x() << ", " << attempt.where.y() << "): paving differently";
-    log_line(context_, text.str());
+    log_line(context_, "quads fold near " + position_text(attempt.where) + ": paving differently");
 }
 
 void AttemptChooser::finish(Attempt begun)
 {
     const std::uint64_t name = name_of(begun.mesh);
-    if (std::find(finished_.begin(), finished_.end(), name) != finished_.end()) return;
+    if (std::ranges::find(finished_, name) != finished_.end()) return;
     finished_.push_back(name);
     complete(begun);
     consider(std::move(begun));
@@ -331,8 +317,8 @@ void AttemptChooser::try_grids()
 
 bool AttemptChooser::try_coarse()
 {
-    if (!cut_ || !options_.clean || !options_.smooth || quads_within(region_) < kManyQuads) return false;
-    std::optional<Paved> paved = pave_in_four(region_, options_, judged_.size, context_);
+    if (!cut_ || quads_within(region_) < kManyQuads) return false;
+    std::optional<Paved> paved = pave_in_four(region_, judged_.size, context_);
     if (!paved) return false;
     Attempt attempt{std::move(paved->mesh), std::move(paved->report)};
     judge(attempt);
@@ -389,7 +375,7 @@ bool AttemptChooser::try_blocks()
 Attempt AttemptChooser::fill_about(const CentralBlock& block) const
 {
     constexpr std::size_t kImages = 8;
-    const AttemptChooser chooser(block.around, options_, context_);
+    const AttemptChooser chooser(block.around, {}, context_);
     const std::optional<MirrorPart> part = chooser.part_of_region();
     if (!part || part->images.size() != kImages) return {};
     Attempt attempt = chooser.fill_part(*part);
@@ -406,31 +392,22 @@ Attempt AttemptChooser::fill_about(const CentralBlock& block) const
 std::optional<MirrorPart> AttemptChooser::part_of_region() const
 {
     const std::vector<Symmetry> symmetries = outline_symmetries(region_);
-    std::vector<std::function<double(const Vec2&)>> sizes{setting_.size};
+    std::vector<SizeField> sizes{setting_.size};
     if (few_graded_) sizes.insert(sizes.begin(), region_.size);
-    std::optional<MirrorPart> first, best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& size : sizes) {
-        const std::size_t choices = &size == &sizes.back() ? 1 : kMostChoices;
-        for (std::size_t choice = 0; choice < choices; ++choice) {
-            auto part = mirror_part(region_, symmetries, size, choice);
-            if (!part) break;
-            const std::optional<double> cost = count_axes(*part, setting_.size, few_graded_, context_);
-            if (cost && *cost < least) {
-                least = *cost;
-                best = std::move(part);
-            } else if (!first && &size == &sizes.back()) {
-                first = std::move(part);
-            }
-        }
-        if (best) break;
-    }
-    return best ? best : first;
+    struct Priced {
+        MirrorPart part;
+        double cost;
+    };
+    auto best = cheapest_of_parts(region_, symmetries, sizes, [&](MirrorPart part) {
+        const double cost = count_axes(part, setting_.size, few_graded_, context_);
+        return Priced{std::move(part), cost};
+    });
+    return best ? std::optional(std::move(best->part)) : std::nullopt;
 }
 
 Attempt AttemptChooser::fill_part(const MirrorPart& part) const
 {
-    AttemptChooser chooser(part.region, options_, context_, false);
+    AttemptChooser chooser(part.region, {}, context_, false);
     chooser.run();
     Attempt attempt = chooser.take_best();
     if (attempt.worst <= 0) return {};
@@ -461,8 +438,7 @@ void AttemptChooser::try_few_weights()
     };
     for (const CutWeights& weights : kFewWeights) begin_one(RowStyle::no_rows, weights);
     begin_one(RowStyle::by_shape, cut_weight_rows().front());
-    std::stable_sort(begun.begin(), begun.end(),
-                     [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
+    std::ranges::stable_sort(begun, [](const Begun& a, const Begun& b) { return a.irregular < b.irregular; });
     for (std::size_t i = 0; i < begun.size() && !is_good_enough(); ++i) {
         if (i >= kFinished && best_.worst > fair) return;
         finish(std::move(begun[i].attempt));
@@ -471,7 +447,7 @@ void AttemptChooser::try_few_weights()
 
 void AttemptChooser::try_default_weights()
 {
-    if (options_.grids) try_grids();
+    if (grids_) try_grids();
     if (is_good_grid_ || try_coarse()) return;
     if (is_few_) {
         try_few_weights();

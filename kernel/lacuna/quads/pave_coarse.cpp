@@ -29,17 +29,17 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
     std::vector<RegionSide> sides;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const std::vector<Index>& loop = region.loops[l];
-        const std::size_t n = loop.size();
-        const auto at = [&](std::size_t i) -> const Vec2& { return region.points[index(loop[i % n])]; };
+        const auto length = [&](std::size_t i) {
+            return (point_of(region.points, loop, i + 1) - point_of(region.points, loop, i)).norm();
+        };
         const std::vector<std::size_t> corners = runs_of(region, loop);
         for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
             const std::size_t from = corners[c], to = corners[c + 1];
             if ((to - from) % 2 == 0) continue;
             std::size_t longest = from;
-            for (std::size_t i = from; i < to; ++i) {
-                if ((at(i + 1) - at(i)).norm() > (at(longest + 1) - at(longest)).norm()) longest = i;
-            }
-            sides.push_back({l, longest % n});
+            for (std::size_t i = from; i < to; ++i)
+                if (length(i) > length(longest)) longest = i;
+            sides.push_back({l, longest % loop.size()});
             if (sides.size() > kMostDivided) return std::nullopt;
         }
     }
@@ -47,76 +47,65 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
 }
 
 /// Pave a coarse region in one way, and in all others only where that is poor.
-PlanarQuads pave_once(const PlanarRegion& region, const PaveOptions& options, PaveReport& report,
-                      const RunContext& context)
+PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
-    const AttemptSetting setting{region, options, sizes_with_boundary(region).usual, flat_below(region)};
+    const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
     if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {
         report = std::move(attempt.report);
         return std::move(attempt.mesh);
     }
-    auto [mesh, other] = pave(region, options, context);
+    // Many quads of a pattern are stretched where few irregular nodes cost little.
+    auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);
     return std::move(mesh);
 }
 
-double least_without_triangles(const PlanarQuads& mesh)
-{
-    double least = 1;
-    for (const Quad& quad : mesh.quads) {
-        if (!mesh::is_triangle(quad)) least = std::min(least, scaled_jacobian(mesh.points, quad));
-    }
-    return least;
-}
-
 /// Quads and few triangles in a coarse region: made of those of a coarser one where they are many still.
-PlanarQuads fill_coarse(const PlanarRegion& region, const PaveOptions& options, PaveReport& report,
-                        const RunContext& context)
+PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
-        std::optional<Paved> made = pave_in_four(divided, options, sizes_with_boundary(divided).ring,
-                                                 its_context);
+        std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
         if (!made) throw NotSweepable("surface.pave", "no quads of a coarser region");
         report = std::move(made->report);
         return std::move(made->mesh);
     };
-    if (sides) {
+    const auto divided = [&](std::span<const RegionSide> some,
+                             const PlanarQuadMesher& mesher) -> std::optional<PlanarQuads> {
         try {
-            PlanarQuads mesh = fill_divided_region(region, *sides, in_four, context);
-            if (least_without_triangles(mesh) > kFair) return mesh;
+            PlanarQuads mesh = fill_divided_region(region, some, mesher, context);
+            const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last
+            if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kFair) return mesh;
         } catch (const NotSweepable&) {
-            // paved as it is
+            // filled otherwise
         }
+        return std::nullopt;
+    };
+    if (sides) {
+        if (auto mesh = divided(*sides, in_four)) return std::move(*mesh);
     }
     const auto once = [&](const PlanarRegion& even, const RunContext& its_context) {
-        return pave_once(even, options, report, its_context);
+        return pave_once(even, report, its_context);
     };
     const std::vector<RegionSide> by_length = sides_by_length(region);
     if (by_length.size() % 2 != 0) {
-        try {
-            PlanarQuads mesh = fill_divided_region(region, std::span(by_length).first(1), once, context);
-            if (least_without_triangles(mesh) > kFair) return mesh;
-        } catch (const NotSweepable&) {
-            // another side may do
-        }
+        if (auto mesh = divided(std::span(by_length).first(1), once)) return std::move(*mesh);
     }
     return fill_odd_region(region, once, context);
 }
 
 /// The cells of a coarse region cut in four, not yet smoothed; nothing where there is none, or no rows lead
 /// from whole side to whole side.
-std::optional<Paved> fill_and_cut(const PlanarRegion& region, const PaveOptions& options,
-                                  const RunContext& context)
+std::optional<Paved> fill_and_cut(const PlanarRegion& region, const RunContext& context)
 {
     Paved made;
     for (const WholeSides sides : {WholeSides::of_odd_runs, WholeSides::of_outline}) {
         std::optional<CoarseRegion> coarse = coarse_region(region, sides);
         if (!coarse) return std::nullopt;
-        const PlanarQuads filled = fill_coarse(coarse->region, options, made.report, context);
+        const PlanarQuads filled = fill_coarse(coarse->region, made.report, context);
         const std::optional<std::vector<char>> whole = choose_whole_sides(*coarse, filled);
         if (!whole) continue;
         made.mesh = cut_in_four(region, *coarse, filled, *whole);
@@ -127,15 +116,12 @@ std::optional<Paved> fill_and_cut(const PlanarRegion& region, const PaveOptions&
 
 } // namespace
 
-std::optional<Paved> pave_in_four(const PlanarRegion& region, const PaveOptions& options,
-                                  const std::function<double(const Vec2&)>& size, const RunContext& context)
+std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& size,
+                                  const RunContext& context)
 {
-    // Many quads of a pattern are stretched where few irregular nodes cost little.
-    PaveOptions inside = options;
-    inside.grids = false;
     std::optional<Paved> found;
     try {
-        found = fill_and_cut(region, inside, context);
+        found = fill_and_cut(region, context);
     } catch (const InvalidInput&) {
         return std::nullopt; // loops that the nodes left out kept apart
     } catch (const NotSweepable&) {

@@ -11,22 +11,6 @@
 namespace lacuna::quads::paving {
 namespace {
 
-struct LoopBox {
-    Vec2 low, high;
-
-    LoopBox(const PartialMesh& partial, const Cycle& loop) : low(partial.at(loop.front())), high(low)
-    {
-        for (const Index p : loop) {
-            low = low.cwiseMin(partial.at(p));
-            high = high.cwiseMax(partial.at(p));
-        }
-    }
-    [[nodiscard]] double gap(const LoopBox& other) const
-    {
-        return (other.low - high).cwiseMax(low - other.high).cwiseMax(0).norm();
-    }
-};
-
 /// Finds the best bridge between any two loops. Bridges found before are remembered, for only one loop
 /// changes at a time. Pairs farther apart than the best bridge are not looked at, for no bridge costs less
 /// than its length.
@@ -35,7 +19,10 @@ public:
     BridgeFinder(const PartialMesh& partial, const std::vector<Cycle>& loops)
         : partial_(partial), loops_(loops)
     {
-        for (const Cycle& loop : loops) box_.emplace_back(partial, loop);
+        for (const Cycle& loop : loops) {
+            box_.emplace_back();
+            for (const Index p : loop) box_.back().extend(partial.at(p));
+        }
         known_.resize(loops.size() * loops.size());
     }
 
@@ -44,10 +31,11 @@ public:
         std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
         for (std::size_t a = 0; a < loops_.size(); ++a) {
             for (std::size_t b = a + 1; b < loops_.size(); ++b) {
-                if (!loops_[a].empty() && !loops_[b].empty()) pairs.emplace_back(box_[a].gap(box_[b]), a, b);
+                if (!loops_[a].empty() && !loops_[b].empty())
+                    pairs.emplace_back(box_[a].exteriorDistance(box_[b]), a, b);
             }
         }
-        std::sort(pairs.begin(), pairs.end());
+        std::ranges::sort(pairs);
         std::optional<LoopBridge> best;
         for (const auto& [gap, a, b] : pairs) {
             if (best && gap > best->cost) break;
@@ -64,8 +52,7 @@ public:
     /// Tell that loop a has taken in loop b, which is empty now, by a line between two nodes.
     void joined(std::size_t a, std::size_t b, Index from, Index to)
     {
-        box_[a].low = box_[a].low.cwiseMin(box_[b].low);
-        box_[a].high = box_[a].high.cwiseMax(box_[b].high);
+        box_[a].extend(box_[b]);
         for (std::size_t i = 0; i < loops_.size(); ++i) {
             for (std::size_t j = i + 1; j < loops_.size(); ++j) {
                 Known& known = known_[i * loops_.size() + j];
@@ -94,7 +81,7 @@ private:
 
     const PartialMesh& partial_;
     const std::vector<Cycle>& loops_;
-    std::vector<LoopBox> box_;
+    std::vector<Eigen::AlignedBox2d> box_;
     std::vector<Known> known_;
 };
 
@@ -127,42 +114,38 @@ double good_patch(const CutWeights& weights, std::size_t nodes)
 
 } // namespace
 
-CoreCount fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
-                    const RunContext& context)
+bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
+               const RunContext& context)
 {
-    CoreCount count;
-    for (const Cycle& loop : loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) partial.link(loop[i], loop[(i + 1) % loop.size()]);
-    }
+    bool is_one_patch = false;
+    for_sides_of(loops, [&](Index a, Index b) { partial.link(a, b); });
     std::vector<Cycle> parts{join_all(partial, loops)};
-    while (!parts.empty()) {
+    for (bool is_whole = true; !parts.empty(); is_whole = false) {
         check_cancelled(context);
         const Cycle cycle = std::move(parts.back());
         parts.pop_back();
         if (cycle.size() < 4) continue;
         if (cycle.size() <= 6) {
             fill_small(partial, cycle);
-            ++count.templates;
             continue;
         }
-        const std::vector<double> angles = angles_of(partial, cycle);
+        const std::vector<double> angles = corner_angles(partial.points, cycle);
         const PatchFit fit = fit_patch(partial, cycle, angles);
         std::optional<Cut> cut;
         if (!one_patch && fit.quality < good_patch(partial.weights, cycle.size()))
             cut = best_cut(partial, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(partial, cycle, fit.corners)) {
-            ++count.patches;
+            is_one_patch = is_whole;
             continue;
         }
         if (!cut) cut = blind_cut(partial, cycle);
         const Cycle line = nodes_along(partial, cycle[cut->from], cycle[cut->to], cut->edges);
         if (cut->edges == 1) partial.link(line.front(), line.back());
         auto [one, two] = divide(cycle, *cut, line);
-        ++count.cuts;
         parts.push_back(std::move(two));
         parts.push_back(std::move(one));
     }
-    return count;
+    return is_one_patch;
 }
 
 } // namespace lacuna::quads::paving

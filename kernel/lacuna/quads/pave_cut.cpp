@@ -4,10 +4,8 @@
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
-#include <lacuna/quads/detail/pave_fit.h>
 
 #include <limits>
-#include <span>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -58,23 +56,6 @@ bool is_clear(const PartialMesh& partial, const Cycle& cycle, Index a, Index b)
         const double oa = orient2d(pc, pd, pa), ob = orient2d(pc, pd, pb);
         if ((oa > 0 && ob > 0) || (oa < 0 && ob < 0)) continue;
         return false;
-    }
-    return true;
-}
-
-/// Whether the line keeps a distance from all nodes that it passes.
-bool keeps_away(const PartialMesh& partial, const Cycle& cycle, Index a, Index b, double least)
-{
-    const Vec2 pa = partial.at(a), along = partial.at(b) - pa;
-    const double length = along.norm();
-    const Vec2 low = pa.cwiseMin(partial.at(b)) - Vec2::Constant(least);
-    const Vec2 high = pa.cwiseMax(partial.at(b)) + Vec2::Constant(least);
-    for (const Index p : cycle) {
-        const Vec2& x = partial.at(p);
-        if (x.x() < low.x() || x.y() < low.y() || x.x() > high.x() || x.y() > high.y()) continue;
-        const double at = (x - pa).dot(along) / length;
-        if (at > least && at < length - least && std::abs(cross(along, x - pa)) < least * length)
-            return false;
     }
     return true;
 }
@@ -172,18 +153,18 @@ private:
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    [[nodiscard]] bool is_free(const Choice& c, double away) const
-    {
-        return is_clear(partial_, cycle_, cycle_[c.cut.from], cycle_[c.cut.to]) &&
-               (away == 0 || keeps_away(c, away));
-    }
-
     /// Whether a line keeps so many of its edges from all nodes that it passes.
     [[nodiscard]] bool keeps_away(const Choice& c, double away) const
     {
-        const Index a = cycle_[c.cut.from], b = cycle_[c.cut.to];
-        const double edge = (partial_.at(b) - partial_.at(a)).norm() / static_cast<double>(c.cut.edges);
-        return quads::paving::keeps_away(partial_, cycle_, a, b, away * edge);
+        const Vec2 &a = at(c.cut.from), &b = at(c.cut.to), along = b - a;
+        const double length = along.norm(), least = away * (length / static_cast<double>(c.cut.edges));
+        const Vec2 low = a.cwiseMin(b) - Vec2::Constant(least), high = a.cwiseMax(b) + Vec2::Constant(least);
+        return std::ranges::none_of(cycle_, [&](Index p) {
+            const Vec2& x = partial_.at(p);
+            if (x.x() < low.x() || x.y() < low.y() || x.x() > high.x() || x.y() > high.y()) return false;
+            const double at = (x - a).dot(along) / length;
+            return at > least && at < length - least && std::abs(cross(along, x - a)) < least * length;
+        });
     }
 
     [[nodiscard]] std::vector<std::size_t> candidates()
@@ -199,7 +180,7 @@ private:
         for (std::size_t i = 0; i < n_; i += stride_) places.push_back(i);
         const std::size_t skip = bent.size() / kFeatures + 1;
         for (std::size_t i = 0; i < bent.size(); i += skip) places.push_back(bent[i]);
-        std::sort(places.begin(), places.end());
+        std::ranges::sort(places);
         places.erase(std::unique(places.begin(), places.end()), places.end());
         return places;
     }
@@ -301,32 +282,26 @@ private:
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
         if (stride_ == 1) return best;
+        const auto consider = [&](std::size_t one, std::size_t other) {
+            const auto [i, j] = std::minmax({one % n_, other % n_});
+            if (i == j) return;
+            const auto choice = judge(i, j, best.cost);
+            if (choice && is_clear(partial_, cycle_, cycle_[i], cycle_[j]) &&
+                (away == 0 || keeps_away(*choice, away)))
+                best = *choice;
+        };
         for (std::size_t step = stride_; step > 0; step /= 2) {
             const Choice start = best;
-            for (const long di : {-1L, 0L, 1L}) {
-                for (const long dj : {-1L, 0L, 1L}) {
-                    const auto shifted = [&](std::size_t place, long by) {
-                        return (place + n_ + static_cast<std::size_t>(by) * step) % n_;
-                    };
-                    std::size_t i = shifted(start.cut.from, di), j = shifted(start.cut.to, dj);
-                    if (i > j) std::swap(i, j);
-                    if (i == j) continue;
-                    const auto choice = judge(i, j, best.cost);
-                    if (choice && is_free(*choice, away)) best = *choice;
-                }
+            for (const std::size_t i : {n_ - step, n_, n_ + step}) {
+                for (const std::size_t j : {n_ - step, n_, n_ + step})
+                    consider(start.cut.from + i, start.cut.to + j);
             }
         }
         // Numbers of edges agree for single nodes alone, so every node near either end is tried.
         const Choice start = best;
         for (std::size_t k = 0; k <= 2 * stride_; ++k) {
-            for (const bool first : {true, false}) {
-                const std::size_t place = ((first ? start.cut.from : start.cut.to) + n_ + k - stride_) % n_;
-                std::size_t i = place, j = first ? start.cut.to : start.cut.from;
-                if (i == j) continue;
-                if (i > j) std::swap(i, j);
-                const auto choice = judge(i, j, best.cost);
-                if (choice && is_free(*choice, away)) best = *choice;
-            }
+            consider(start.cut.from + n_ + k - stride_, start.cut.to);
+            consider(start.cut.to + n_ + k - stride_, start.cut.from);
         }
         return best;
     }
@@ -369,7 +344,8 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
                                       std::size_t a, std::size_t b)
 {
     const Cycle &one = loops[a], &two = loops[b];
-    const std::vector<double> angles_one = angles_of(partial, one), angles_two = angles_of(partial, two);
+    const std::vector<double> angles_one = corner_angles(partial.points, one),
+                              angles_two = corner_angles(partial.points, two);
     std::optional<LoopBridge> best;
     // Only bridges cheaper than the cheapest so far are looked at; none costs less than its length.
     const auto consider = [&](std::size_t i, std::size_t j) {
@@ -384,7 +360,7 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
         bridge.cost = length * (1 + 0.3 * (end_cost(angles_one[i], part_i, partial.weights) +
                                            end_cost(angles_two[j], part_j, partial.weights)));
         if (best && bridge.cost >= best->cost) return;
-        if (one[i] == two[j] || std::any_of(loops.begin(), loops.end(), [&](const Cycle& loop) {
+        if (one[i] == two[j] || std::ranges::any_of(loops, [&](const Cycle& loop) {
                 return !is_clear(partial, loop, one[i], two[j]);
             }))
             return;

@@ -3,7 +3,6 @@
 
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/quads/detail/patch_template.h>
-#include <lacuna/quads/detail/pave_patch.h>
 
 #include <array>
 #include <numeric>
@@ -67,7 +66,7 @@ Sampled sample(const PartialMesh& partial, const Cycle& cycle, std::size_t from,
 
 Sampled reversed(Sampled side)
 {
-    std::reverse(side.points.begin(), side.points.end());
+    std::ranges::reverse(side.points);
     return side;
 }
 
@@ -77,7 +76,7 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
     const SideCounts counts = side_counts(cycle.size(), corners);
     if (!can_fill(counts)) return -1;
     std::array<std::size_t, 4> edges{};
-    for (std::size_t i = 0; i < 4; ++i) edges[i] = static_cast<std::size_t>(counts.side[i]);
+    for (std::size_t i = 0; i < 4; ++i) edges[i] = index(counts.side[i]);
     const std::size_t n = std::min({kSamples, edges[0], edges[2]}),
                       m = std::min({kSamples, edges[1], edges[3]});
     const std::array<Sampled, 4> side{sample(partial, cycle, corners[0], edges[0], n),
@@ -102,7 +101,7 @@ double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vec
     std::array<int, kMostSides> feet{};
     if (!spoke_feet(counts, false, feet)) return -1;
     const std::size_t n = corners.size(), size = cycle.size();
-    const auto foot = [&](std::size_t i) { return static_cast<std::size_t>(feet[i]); };
+    const auto foot = [&](std::size_t i) { return index(feet[i]); };
     std::vector<Vec2> at;
     Vec2 centre = Vec2::Zero();
     for (std::size_t i = 0; i < n; ++i) {
@@ -119,8 +118,7 @@ double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vec
     };
     double quality = 1;
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = (i + n - 1) % n,
-                          rest = static_cast<std::size_t>(counts.side[before]) - foot(before);
+        const std::size_t before = (i + n - 1) % n, rest = index(counts.side[before]) - foot(before);
         const std::size_t a = std::min(kSamples / 2, foot(i)), b = std::min(kSamples / 2, rest);
         const std::array<Sampled, 4> side{
             sample(partial, cycle, corners[i], foot(i), a), straight(at[i], rest, b),
@@ -163,13 +161,6 @@ PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::ve
 
 } // namespace
 
-std::vector<double> angles_of(const PartialMesh& partial, const Cycle& cycle)
-{
-    std::vector<double> angles(cycle.size());
-    for (std::size_t i = 0; i < cycle.size(); ++i) angles[i] = inner_angle(partial, cycle, i);
-    return angles;
-}
-
 PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
     PatchFit fit;
@@ -188,7 +179,7 @@ PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::ve
         constexpr double kClear = kRightAngle / 9; // 10° wider at the next node; a choice
         if (angles[order[3]] + kClear < angles[order[4]]) {
             std::vector<std::size_t> four(order.begin(), order.begin() + 4);
-            std::sort(four.begin(), four.end());
+            std::ranges::sort(four);
             const double quality = judge_four(partial, cycle, angles, four);
             if (quality > 0) return {four, quality};
         }

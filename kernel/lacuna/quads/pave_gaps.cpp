@@ -6,38 +6,31 @@ namespace lacuna::quads::paving {
 GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops) : partial_(partial)
 {
     double sum = 0, count = 0;
-    low_ = Vec2::Constant(std::numeric_limits<double>::infinity());
-    Vec2 high = -low_;
-    for (const Cycle& loop : loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& p = partial.at(loop[i]);
-            low_ = low_.cwiseMin(p);
-            high = high.cwiseMax(p);
-            sum += (partial.at(loop[(i + 1) % loop.size()]) - p).norm();
-            count += 1;
-        }
-    }
-    diagonal_ = (high - low_).norm();
+    Eigen::AlignedBox2d box;
+    for_sides_of(loops, [&](Index from, Index to) {
+        const Vec2& p = partial.at(from);
+        box.extend(p);
+        sum += (partial.at(to) - p).norm();
+        count += 1;
+    });
+    low_ = box.min();
+    diagonal_ = box.sizes().norm();
     // Cells as wide as a mean side, but no more than kMostCells across, so that a long side is in few of
     // them.
     constexpr double kMostCells = 4096; // a choice, not a measurement
-    cell_ = std::max(
-        {sum / count, (high - low_).maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
-    for (const Cycle& loop : loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Segment side{loop[i], loop[(i + 1) % loop.size()]};
-            const Vec2 a = (partial.at(side[0]) - low_) / cell_, b = (partial.at(side[1]) - low_) / cell_;
-            const auto steps = static_cast<int>((b - a).cwiseAbs().maxCoeff() * 2) + 1;
-            std::int64_t last = -1;
-            for (int k = 0; k <= steps; ++k) {
-                const Vec2 p = a + (b - a) * k / steps;
-                const std::int64_t at = key(static_cast<std::int64_t>(std::floor(p.x())),
-                                            static_cast<std::int64_t>(std::floor(p.y())));
-                if (at != last) sides_[at].push_back(side);
-                last = at;
-            }
+    cell_ = std::max({sum / count, box.sizes().maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
+    for_sides_of(loops, [&](Index from, Index to) {
+        const Vec2 a = (partial.at(from) - low_) / cell_, b = (partial.at(to) - low_) / cell_;
+        const auto steps = static_cast<int>((b - a).cwiseAbs().maxCoeff() * 2) + 1;
+        std::int64_t last = -1;
+        for (int k = 0; k <= steps; ++k) {
+            const Vec2 p = a + (b - a) * k / steps;
+            const std::int64_t at = key(static_cast<std::int64_t>(std::floor(p.x())),
+                                        static_cast<std::int64_t>(std::floor(p.y())));
+            if (at != last) sides_[at].push_back({from, to});
+            last = at;
         }
-    }
+    });
 }
 
 double GapFinder::ahead(Index before, Index node, Index after, const Vec2& direction, double reach) const

@@ -4,24 +4,12 @@
 #include <lacuna/quads/detail/patch_template.h>
 
 namespace lacuna::quads::paving {
-namespace {
-
-std::vector<Vec2> points_of(const PartialMesh& partial, const Cycle& cycle)
-{
-    std::vector<Vec2> points;
-    points.reserve(cycle.size());
-    for (const Index p : cycle) points.push_back(partial.at(p));
-    return points;
-}
-
-} // namespace
 
 bool fill_patch(PartialMesh& partial, const Cycle& cycle, std::span<const std::size_t> corners)
 {
     if (!can_fill(side_counts(cycle.size(), corners))) return false;
-    const TemplateMesh filling = fill_template(points_of(partial, cycle), corners);
-    Cycle own = cycle;
-    for (const Vec2& p : filling.inner) own.push_back(partial.add(p));
+    const TemplateMesh filling = fill_template(region_within(partial.points, {cycle}).region.points, corners);
+    add_filling(partial.points, partial.quads, cycle, filling.inner, filling.quads);
     const auto n = static_cast<Index>(cycle.size());
     for (const Quad& quad : filling.quads) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -29,8 +17,6 @@ bool fill_patch(PartialMesh& partial, const Cycle& cycle, std::span<const std::s
             // A side across the patch between nodes that were there before.
             if (b < n && b - a > 1 && b - a < n - 1) partial.link(cycle[index(a)], cycle[index(b)]);
         }
-        partial.quads.push_back(
-            {own[index(quad[0])], own[index(quad[1])], own[index(quad[2])], own[index(quad[3])]});
     }
     return true;
 }

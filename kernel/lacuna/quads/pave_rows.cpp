@@ -23,7 +23,7 @@ Vec2 rotated(const Vec2& v, double angle)
 /// exact rows change slowly.
 std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
                                 const std::vector<double>& angles, const GapFinder& gaps,
-                                const std::function<double(const Vec2&)>& height, RowKind kind)
+                                const SizeField& height, RowKind kind)
 {
     const std::size_t n = cycle.size();
     std::vector<double> heights(n);
@@ -40,7 +40,7 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
             const std::size_t i = k % n, b = (i + n - 1) % n;
             heights[i] = std::min(heights[i], kChange * heights[b]);
         }
-        std::reverse(heights.begin(), heights.end());
+        std::ranges::reverse(heights);
     }
     return heights;
 }
@@ -58,10 +58,10 @@ public:
     }
 
     /// @return the inner side of the row; nothing, and the mesh as it was, where it cannot be laid.
-    std::optional<Cycle> lay(const GapFinder& gaps, const std::function<double(const Vec2&)>& height)
+    std::optional<Cycle> lay(const GapFinder& gaps, const SizeField& height)
     {
         const std::size_t points = partial_.points.size(), quads = partial_.quads.size();
-        for (std::size_t i = 0; i < n_; ++i) angles_.push_back(inner_angle(partial_, cycle_, i));
+        angles_ = corner_angles(partial_.points, cycle_);
         heights_ = row_heights(partial_, cycle_, angles_, gaps, height, kind_);
         if (ends_far_apart() && high_enough(height)) {
             place_nodes();
@@ -100,7 +100,7 @@ private:
     /// Whether the row is high enough. One that is squeezed below 0.6 of its height on a quarter of its
     /// length is worse than none (choices, not measurements); an exact one may miss its height by a
     /// hundredth, for rounding alone.
-    [[nodiscard]] bool high_enough(const std::function<double(const Vec2&)>& height) const
+    [[nodiscard]] bool high_enough(const SizeField& height) const
     {
         if (kind_ != RowKind::tall && kind_ != RowKind::exact) return true;
         const double kSqueezed = kind_ == RowKind::exact ? 0.99 : 0.6,
@@ -133,7 +133,7 @@ private:
             if (kind(i) != 1) continue;
             const std::size_t before = (i + n_ - 1) % n_, after = (i + 1) % n_;
             const Index shared = inner_[before].back();
-            partial_.points[static_cast<std::size_t>(shared)] = at(before) + at(after) - at(i);
+            partial_.points[index(shared)] = at(before) + at(after) - at(i);
             inner_[after].front() = shared;
         }
     }
@@ -173,17 +173,15 @@ private:
 bool needs_row(const PartialMesh& partial, const Cycle& cycle)
 {
     double off = 0;
-    for (std::size_t i = 0; i < cycle.size(); ++i) {
-        const double angle = inner_angle(partial, cycle, i);
+    for (const double angle : corner_angles(partial.points, cycle))
         off += std::abs(angle - quads_in(angle) * kRightAngle);
-    }
     return off > kRightAngle / 2;
 }
 
 namespace {
 
 std::optional<Cycle> lay_one(PartialMesh& partial, const Cycle& cycle, const GapFinder& gaps,
-                             const std::function<double(const Vec2&)>& height, RowKind kind)
+                             const SizeField& height, RowKind kind)
 {
     if (kind != RowKind::buffer) return RowTrial(partial, cycle, kind).lay(gaps, height);
     constexpr int kFlatter = 5; // tries, each half as high: to a sixteenth; a choice
@@ -199,7 +197,7 @@ std::optional<Cycle> lay_one(PartialMesh& partial, const Cycle& cycle, const Gap
 } // namespace
 
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height, RowKind kind)
+             const SizeField& height, RowKind kind)
 {
     std::vector<std::optional<Cycle>> inner(loops.size());
     const std::size_t points = partial.points.size(), quads = partial.quads.size();

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_size.h>
 
-#include <lacuna/quads/detail/corner_sine.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <utility>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -21,13 +18,9 @@ struct BoundarySide {
 std::vector<BoundarySide> sides_of(const PlanarRegion& region)
 {
     std::vector<BoundarySide> sides;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2& a = region.points[static_cast<std::size_t>(loop[i])];
-            const Vec2& b = region.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-            sides.push_back({(a + b) / 2, (b - a).norm()});
-        }
-    }
+    for_boundary_sides(region, [&](const Vec2& a, const Vec2& b) {
+        sides.push_back({(a + b) / 2, (b - a).norm()});
+    });
     return sides;
 }
 
@@ -36,19 +29,16 @@ class SizeBounds {
 public:
     explicit SizeBounds(const std::vector<BoundarySide>& sides)
     {
-        Vec2 high = sides.front().middle;
-        low_ = high;
-        for (const BoundarySide& side : sides) {
-            low_ = low_.cwiseMin(side.middle);
-            high = high.cwiseMax(side.middle);
-        }
+        Eigen::AlignedBox2d box;
+        for (const BoundarySide& side : sides) box.extend(side.middle);
+        low_ = box.min();
+        const Vec2 high = box.max();
         // Cells of half the shortest side, and no more than so many along the longer side of the box, for the
         // time. Choices, not measurements.
         constexpr double kAcross = 128, kOfSide = 0.5;
-        const double shortest =
-            std::min_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
-                return a.length < b.length;
-            })->length;
+        const double shortest = std::ranges::min_element(sides, [](const auto& a, const auto& b) {
+                                    return a.length < b.length;
+                                })->length;
         cell_ = std::max(
             {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
@@ -131,45 +121,38 @@ BoundarySizes sizes_with_boundary(const PlanarRegion& region)
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;
     for (const BoundarySide& side : sides) sum += side.length;
-    std::function<double(const Vec2&)> asked = region.size;
+    SizeField asked = region.size;
     if (!asked) asked = [mean = sum / static_cast<double>(sides.size())](const Vec2&) { return mean; };
     const auto are_alike = [&](double most) {
-        return std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
+        return std::ranges::all_of(sides, [&](const BoundarySide& side) {
             const double size = asked(side.middle);
             return side.length < most * size && size < most * side.length;
         });
     };
     if (are_alike(kAlike)) return {asked, asked};
-    const std::function<double(const Vec2&)> limited =
-        [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
-            return bounds->limit(p, asked(p));
-        };
+    const SizeField limited = [asked, bounds = std::make_shared<const SizeBounds>(sides)](const Vec2& p) {
+        return bounds->limit(p, asked(p));
+    };
     return {limited, are_alike(kRingAlike) ? asked : limited};
 }
 
 double quads_within(const PlanarRegion& region)
 {
     double area = 0, length = 0, sides = 0;
-    for (const auto& loop : region.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = region.points[index(loop[i])],
-                       &b = region.points[index(loop[(i + 1) % loop.size()])];
-            area += cross(a, b) / 2;
-            length += (b - a).norm();
-            ++sides;
-        }
-    }
+    for_boundary_sides(region, [&](const Vec2& a, const Vec2& b) {
+        area += cross(a, b) / 2;
+        length += (b - a).norm();
+        ++sides;
+    });
     return area * sides * sides / (length * length);
 }
 
-bool has_quads_asked(const PlanarQuads& mesh, const std::function<double(const Vec2&)>& size)
+bool has_quads_asked(const PlanarQuads& mesh, const SizeField& size)
 {
     constexpr double kOff = 0.25;
     double asked = 0;
     for (const Quad& quad : mesh.quads) {
-        const auto at = [&](std::size_t k) -> const Vec2& {
-            return mesh.points[static_cast<std::size_t>(quad[k])];
-        };
+        const auto at = [&](std::size_t k) -> const Vec2& { return mesh.points[index(quad[k])]; };
         const double length = size((at(0) + at(1) + at(2) + at(3)) / 4);
         asked += cross(at(2) - at(0), at(3) - at(1)) / 2 / (length * length);
     }

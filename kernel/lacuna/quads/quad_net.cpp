@@ -13,7 +13,7 @@ QuadNet::QuadNet(std::size_t points, std::vector<Quad> quads)
 {
     opposite_ = mesh::opposite_sides(quads_, static_cast<Index>(points));
     for (std::size_t side = 0; side < opposite_.size(); ++side) {
-        const auto p = static_cast<std::size_t>(quads_[side / 4][side % 4]);
+        const auto p = index(quads_[side / 4][side % 4]);
         if (out_[p] < 0 || opposite_[side] < 0) out_[p] = static_cast<Index>(side);
         ++valence_[p];
     }
@@ -52,7 +52,7 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
         quads_[index(q)] = {-1, -1, -1, -1};
         free_.push_back(q);
     }
-    std::sort(outline.begin(), outline.end(), less);
+    std::ranges::sort(outline, less);
 
     std::vector<Index> numbers;
     std::vector<Link> sides;
@@ -69,11 +69,11 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
         numbers.push_back(q);
         for (Index side = 4 * q; side < 4 * q + 4; ++side) {
             sides.push_back({from(side), to(side), side});
-            out_[static_cast<std::size_t>(from(side))] = side;
-            ++valence_[static_cast<std::size_t>(from(side))];
+            out_[index(from(side))] = side;
+            ++valence_[index(from(side))];
         }
     }
-    std::sort(sides.begin(), sides.end(), less);
+    std::ranges::sort(sides, less);
     const auto find = [&](const std::vector<Link>& list, Index a, Index b) {
         const auto found = std::lower_bound(list.begin(), list.end(), Link{a, b, 0}, less);
         return found != list.end() && found->from == a && found->to == b ? &*found : nullptr;

@@ -17,13 +17,7 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
     // Steps of the mean distance to the neighbours; choices, not measurements.
     constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
     if (star.empty()) return false;
-    const auto worst_at = [&](const Vec2& x) {
-        double worst = 1;
-        for (const Spoke& spoke : star)
-            worst = std::min(worst, least_sine(x, points[index(spoke.next)], points[index(spoke.across)],
-                                               points[index(spoke.before)]));
-        return worst;
-    };
+    const auto worst_at = [&](const Vec2& x) { return worst_quad(points, star, x); };
     Vec2 mean = Vec2::Zero(), x = points[p];
     double distance = 0;
     for (const Spoke& spoke : star) {
@@ -58,7 +52,7 @@ void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
     constexpr double kFlat = 0.15; // better quads are left to the smoother; a choice, not a measurement
     constexpr int kSweeps = 12;    // at most; a choice too
     const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlat; };
-    if (std::none_of(mesh.quads.begin(), mesh.quads.end(), is_flat)) return;
+    if (std::ranges::none_of(mesh.quads, is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);
     const std::vector<double> least_side = sides_to_keep(mesh.points, stars, fixed);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {

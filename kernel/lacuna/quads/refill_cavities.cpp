@@ -2,14 +2,12 @@
 #include <lacuna/quads/detail/refill_cavities.h>
 
 #include <lacuna/geometry/shared/triangulate.h>
-#include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/quad_net.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -17,7 +15,7 @@ namespace lacuna::quads::paving {
 namespace {
 
 /// Closed loops of point numbers, the outer one first.
-using Loops = std::vector<std::vector<Index>>;
+using Loops = std::vector<Cycle>;
 
 /// Rings of quads removed with the folded ones, whose nodes lie where they fold. A choice, not a measurement.
 constexpr int kRings = 2;
@@ -29,12 +27,12 @@ public:
     {
     }
 
-    /// Mark the flat quads and the rings around them. @return whether there are any
-    bool mark(double flat)
+    /// Mark the folded quads and the rings around them. @return whether there are any
+    bool mark()
     {
         for (std::size_t q = 0; q < out_.size(); ++q)
-            out_[q] = !(scaled_jacobian(mesh_.points, mesh_.quads[q]) > flat);
-        if (std::none_of(out_.begin(), out_.end(), [](bool b) { return b; })) return false;
+            out_[q] = !(scaled_jacobian(mesh_.points, mesh_.quads[q]) > 0);
+        if (std::ranges::none_of(out_, [](bool b) { return b; })) return false;
         for (int ring = 0; ring < kRings; ++ring) grow(std::vector<bool>(mesh_.points.size(), true));
         return true;
     }
@@ -141,26 +139,14 @@ private:
             }
             if (p != start || loop.size() < 3) return std::nullopt;
         }
-        const auto outer = std::find_if(loops.begin(), loops.end(),
-                                        [&](const auto& l) { return area(l) > 0; });
+        const auto outer = std::ranges::find_if(
+            loops, [&](const auto& l) { return twice_area(mesh_.points, l) > 0; });
         if (outer == loops.end()) return std::nullopt;
         std::iter_swap(loops.begin(), outer);
         const bool turned = std::any_of(loops.begin() + 1, loops.end(),
-                                        [&](const auto& l) { return !(area(l) < 0); });
+                                        [&](const auto& l) { return !(twice_area(mesh_.points, l) < 0); });
         if (turned || geometry::find_crossing(mesh_.points, loops)) return std::nullopt;
         return loops;
-    }
-
-    [[nodiscard]] double area(const std::vector<Index>& loop) const
-    {
-        const Vec2& origin = mesh_.points[index(loop.front())];
-        double sum = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 a = mesh_.points[index(loop[i])] - origin,
-                       b = mesh_.points[index(loop[(i + 1) % loop.size()])] - origin;
-            sum += cross(a, b);
-        }
-        return sum;
     }
 
     PlanarQuads& mesh_;
@@ -168,44 +154,17 @@ private:
     std::vector<bool> out_; ///< quads to be removed
 };
 
-/// The region within loops of the mesh, and the point of the mesh that each of its points is.
-std::pair<PlanarRegion, std::vector<Index>> region_within(const PlanarQuads& mesh, const Loops& loops,
-                                                          const std::function<double(const Vec2&)>& size)
-{
-    PlanarRegion region;
-    region.size = size;
-    std::vector<Index> own;
-    for (const std::vector<Index>& loop : loops) {
-        std::vector<Index>& local = region.loops.emplace_back();
-        for (const Index p : loop) {
-            local.push_back(static_cast<Index>(own.size()));
-            own.push_back(p);
-            region.points.push_back(mesh.points[index(p)]);
-        }
-    }
-    return {std::move(region), std::move(own)};
-}
-
 } // namespace
 
-int refill_cavities(PlanarQuads& mesh, const PlanarRegion& region, double flat,
-                    const std::function<double(const Vec2&)>& size)
+int refill_cavities(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& size)
 {
     CavityFinder finder(mesh);
-    if (!finder.mark(flat)) return 0;
+    if (!finder.mark()) return 0;
     const std::vector<Loops> cavities = finder.find_cavities();
     finder.remove_quads();
     for (const Loops& loops : cavities) {
-        auto [cavity, own] = region_within(mesh, loops, size);
-        const PlanarQuads filling = quads_of_triangles(cavity);
-        for (std::size_t p = own.size(); p < filling.points.size(); ++p) {
-            own.push_back(static_cast<Index>(mesh.points.size()));
-            mesh.points.push_back(filling.points[p]);
-        }
-        for (Quad quad : filling.quads) {
-            for (Index& p : quad) p = own[index(p)];
-            mesh.quads.push_back(quad);
-        }
+        const auto [cavity, own] = region_within(mesh.points, loops, size);
+        add_filling(mesh, own, quads_of_triangles(cavity));
     }
     drop_loose_points(mesh, region.points.size());
     return static_cast<int>(cavities.size());

@@ -72,7 +72,7 @@ int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::si
         if (first == 0) first = distance;
         if (std::abs(distance - first) > kAlike * first) return 1;
     }
-    const bool same = std::all_of(others.begin(), others.end(), [&](const CountedLoop& loop) {
+    const bool same = std::ranges::all_of(others, [&](const CountedLoop& loop) {
         return std::abs(loop.wanted - others.front().wanted) <= kAlike * others.front().wanted;
     });
     return same && !others.empty() ? static_cast<int>(others.size()) : 1;
@@ -141,9 +141,7 @@ std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
         const bool is_end = l == 0 || l == about;
         LoopFrame frame{is_end, own, 0};
         if (!is_end) frame.angle = std::atan2(own.y() - centre.y(), own.x() - centre.x());
-        auto headed = head_loop(
-            region.points, region.loops[l], frame,
-            is_end ? kRoundWeight / static_cast<double>(region.loops[l].size()) : kStraightWeight, 1);
+        auto headed = head_loop(region.points, region.loops[l], frame);
         if (!headed || headed->turns != (is_end ? 0 : -4) ||
             (is_end && !is_ring_loop(region.points, *headed)))
             return std::nullopt;
@@ -172,8 +170,7 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
         // A loop of many corners has that many sides, and the other as many for a symmetric mesh.
         constexpr CountRange kMany{kRing.least, 4}; // a choice, not a measurement
         const auto corners = static_cast<int>(
-            std::count_if(ends[0].runs.begin(), ends[0].runs.end(),
-                          [](const CountedRun& run) { return run.quarter == 0; }));
+            std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
         if (corners % symmetric == 0 && corners > 2 * symmetric - 1)
             best = ring_ends(task, ends, {corners, corners}, corners, std::array{0}, kMany);
     }

@@ -19,8 +19,7 @@ struct Post {
 
 class RowHeights {
 public:
-    RowHeights(PlanarQuads& mesh, const PlanarRegion& region,
-               const std::function<double(const Vec2&)>& height)
+    RowHeights(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& height)
         : mesh_(mesh), fixed_(region.points.size()), stars_(mesh.points.size(), mesh.quads)
     {
         for (const auto& loop : region.loops) {
@@ -57,13 +56,7 @@ private:
         return -1;
     }
 
-    [[nodiscard]] double worst_at(Index p) const
-    {
-        double worst = 1;
-        for (const Spoke& spoke : stars_[index(p)])
-            worst = std::min(worst, least_sine(at(p), at(spoke.next), at(spoke.across), at(spoke.before)));
-        return worst;
-    }
+    [[nodiscard]] double worst_at(Index p) const { return worst_quad(mesh_.points, stars_[index(p)], at(p)); }
 
     void raise(const Post& post)
     {
@@ -94,8 +87,7 @@ private:
 
 } // namespace
 
-void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region,
-                         const std::function<double(const Vec2&)>& height)
+void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& height)
 {
     RowHeights(mesh, region, height).run();
 }

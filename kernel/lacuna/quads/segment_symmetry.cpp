@@ -15,7 +15,7 @@ constexpr auto kNone = std::numeric_limits<std::size_t>::max();
 std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, std::span<const int> segment,
                                                   std::size_t count, const Symmetry& symmetry)
 {
-    const auto of = [&](Index p) { return static_cast<std::size_t>(segment[index(p)]); };
+    const auto of = [&](Index p) { return index(segment[index(p)]); };
     std::vector<std::size_t> onto(count, kNone), from(count, kNone);
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
@@ -40,7 +40,7 @@ std::vector<Index> starts_of_whole_loops(const PlanarRegion& region, std::span<c
     std::vector<Index> starts;
     for (const auto& loop : region.loops) {
         const int own = segment[index(loop.front())];
-        if (std::all_of(loop.begin(), loop.end(), [&](Index p) { return segment[index(p)] == own; }))
+        if (std::ranges::all_of(loop, [&](Index p) { return segment[index(p)] == own; }))
             starts.push_back(loop.front());
     }
     return starts;
@@ -48,10 +48,14 @@ std::vector<Index> starts_of_whole_loops(const PlanarRegion& region, std::span<c
 
 } // namespace
 
+std::size_t segment_count(std::span<const int> segment)
+{
+    return segment.empty() ? 0 : static_cast<std::size_t>(std::ranges::max(segment)) + 1;
+}
+
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment)
 {
-    std::size_t count = 0;
-    for (const int s : segment) count = std::max(count, static_cast<std::size_t>(s) + 1);
+    const std::size_t count = segment_count(segment);
     std::vector<SegmentSymmetry> symmetries;
     for (Symmetry& symmetry : outline_symmetries(region)) {
         if (auto onto = images_of(region, segment, count, symmetry))
@@ -65,8 +69,8 @@ std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::spa
     std::vector<SegmentSymmetry> symmetries = segment_symmetries(region, segment);
     const std::vector<Index> starts = starts_of_whole_loops(region, segment);
     std::erase_if(symmetries, [&](const SegmentSymmetry& symmetry) {
-        return std::any_of(starts.begin(), starts.end(), [&](Index start) {
-            return std::find(starts.begin(), starts.end(), symmetry.nodes.to[index(start)]) == starts.end();
+        return std::ranges::any_of(starts, [&](Index start) {
+            return std::ranges::find(starts, symmetry.nodes.to[index(start)]) == starts.end();
         });
     });
     return symmetries;
@@ -79,7 +83,7 @@ std::vector<SegmentPair> mirrored_segments(const PlanarRegion& region, std::span
         if (!symmetry.nodes.map.mirrors) continue;
         for (const auto& loop : region.loops) {
             for (const Index p : loop) {
-                const auto own = static_cast<std::size_t>(segment[index(p)]);
+                const auto own = index(segment[index(p)]);
                 const SegmentPair pair{own, symmetry.onto[own]};
                 if (pair[0] <= pair[1] && (pairs.empty() || pairs.back() != pair)) pairs.push_back(pair);
             }
@@ -90,13 +94,13 @@ std::vector<SegmentPair> mirrored_segments(const PlanarRegion& region, std::span
 
 bool are_alike(std::span<const int> counts, std::span<const SegmentPair> pairs)
 {
-    return std::all_of(pairs.begin(), pairs.end(),
-                       [&](const SegmentPair& pair) { return counts[pair[0]] == counts[pair[1]]; });
+    return std::ranges::all_of(pairs,
+                               [&](const SegmentPair& pair) { return counts[pair[0]] == counts[pair[1]]; });
 }
 
 int unlike(std::span<const int> counts, std::span<const SegmentPair> pairs)
 {
-    return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const SegmentPair& pair) {
+    return static_cast<int>(std::ranges::count_if(pairs, [&](const SegmentPair& pair) {
         return counts[pair[0]] != counts[pair[1]] || (pair[0] == pair[1] && counts[pair[0]] % 2 != 0);
     }));
 }

@@ -8,7 +8,6 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -55,8 +54,7 @@ public:
           stars_(points.size(), quads),
           awake_(points.size(), 0)
     {
-        const std::size_t first = std::min(std::max(fixed, options.still), points.size());
-        std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(first), awake_.end(), 1);
+        std::fill(awake_.begin() + static_cast<std::ptrdiff_t>(fixed), awake_.end(), 1);
         if (points.size() >= kMany) part_in_blocks();
     }
 
@@ -89,8 +87,8 @@ public:
         parallel_for(context, quads_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
             for (std::size_t q = begin; q < end; ++q) {
                 const Quad& quad = quads_[q];
-                const bool still = std::none_of(quad.begin(), quad.end(),
-                                                [&](Index p) { return restless_[index(p)] != 0; });
+                const bool still = std::ranges::none_of(quad,
+                                                        [&](Index p) { return restless_[index(p)] != 0; });
                 is_poor[q] = !still && scaled_jacobian(points_, quad) < floor;
             }
         });
@@ -140,7 +138,7 @@ private:
                 return index(other) < fixed_ || (index(other) - fixed_) / kBlock == block;
             };
             const auto star = stars_[p];
-            inside_[p] = std::all_of(star.begin(), star.end(), [&](const Spoke& spoke) {
+            inside_[p] = std::ranges::all_of(star, [&](const Spoke& spoke) {
                 return is_near(spoke.next) && is_near(spoke.across) && is_near(spoke.before);
             });
         }
@@ -247,18 +245,13 @@ private:
 
 } // namespace
 
-SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
-                           const SmoothPlaneOptions& options, const RunContext& context)
+void smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
+                  const SmoothPlaneOptions& options, const RunContext& context)
 {
-    SmoothedPlane result;
+    if (fixed >= points.size()) return;
     double least = least_scaled_jacobian(points, quads, context);
-    result.min_before = result.min_after = least;
-    result.was_folded = result.folded = !(least > 0);
-    if (fixed >= points.size()) return result;
-    if (result.was_folded && options.untangle) {
-        std::vector<char> mask(points.size(), 0);
-        std::fill(mask.begin(), mask.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
-        untangle_plane(points, quads, mask, {});
+    if (!(least > 0) && options.untangle) {
+        untangle_plane(points, quads, fixed);
         least = least_scaled_jacobian(points, quads, context);
     }
     Smoother smoother(points, quads, fixed, options);
@@ -274,9 +267,6 @@ SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quad
         check_cancelled(context);
         if (!smoother.raise(options.good_enough, context)) break;
     }
-    result.min_after = least_scaled_jacobian(points, quads, context);
-    result.folded = !(result.min_after > 0);
-    return result;
 }
 
 } // namespace lacuna::quads

@@ -85,7 +85,7 @@ private:
                     meetings.push_back({steps_[c] + steps_[index(two)], one, two});
             });
         }
-        std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
+        std::ranges::sort(meetings, [](const Meeting& a, const Meeting& b) {
             return std::tie(a.steps, a.one, a.two) < std::tie(b.steps, b.one, b.two);
         });
         // The minimum spanning tree over the groups (Kruskal).

@@ -92,7 +92,7 @@ private:
             if (image == p) {
                 is_centre = own != nullptr || !symmetry.map.mirrors;
                 own = &symmetry;
-            } else if (std::any_of(star.begin(), star.end(), touches)) {
+            } else if (std::ranges::any_of(star, touches)) {
                 near_.push_back(&symmetry);
             }
         }
@@ -155,7 +155,7 @@ private:
 
     /// The square of how far each corner is off what is wanted beyond a limit, as a sine; of 1 where it is
     /// off by more than a right angle.
-    LACUNA_INLINE void beyond_right(const RowSide& row, double limit, Lanes& beyond) const
+    LACUNA_INLINE void beyond_right(const RowSide& row, Lanes& beyond) const
     {
         const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
         const Lanes outx{b.x() - a.x(), c.x() - b.x(), d.x() - c.x(), a.x() - d.x()},
@@ -168,28 +168,19 @@ private:
                     sine = (outy * lastx - outx * lasty) / lengths;
         const Lanes off = sine * row.cosine - cosine * row.sine, size = off < 0 ? -off : off;
         const Lanes most = sine * row.sine + cosine * row.cosine > 0 ? size : Lanes{1, 1, 1, 1};
-        beyond = most > limit ? (most - limit) * (most - limit) : Lanes{};
-    }
-
-    /// How far the ends of the side above are off its height, of that.
-    [[nodiscard]] LACUNA_INLINE std::array<double, 2> off_height(const RowSide& row) const
-    {
-        const auto off = [&](Index p) {
-            return std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
-        };
-        return {off(row.c), off(row.d)};
+        beyond = most > kOffRight ? (most - kOffRight) * (most - kOffRight) : Lanes{};
     }
 
     [[nodiscard]] LACUNA_INLINE double cost_of(const RowSide& row) const
     {
         double cost = 0;
-        const auto beyond = [&](double x, double limit) {
-            if (x > limit) cost += (x - limit) * (x - limit);
-        };
         Lanes right;
-        beyond_right(row, kOffRight, right);
+        beyond_right(row, right);
         for (std::size_t k = 0; k < 4; ++k) cost += right[k];
-        for (const double x : off_height(row)) beyond(x, kOffHeight);
+        for (const Index p : {row.c, row.d}) { // the ends of the side above
+            const double off = std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
+            if (off > kOffHeight) cost += (off - kOffHeight) * (off - kOffHeight);
+        }
         if (cost == 0) return 0;
         // Bounded: no row is spoilt to bring another, which stays off, a little nearer.
         return cost * kGivenUp / (cost + kGivenUp);
@@ -200,8 +191,7 @@ private:
     {
         const std::size_t when = searched_[index(p)];
         const auto is_newer = [&](Index q) { return moved_[index(q)] > when; };
-        return when > moved_[index(p)] &&
-               std::none_of(stars_[index(p)].begin(), stars_[index(p)].end(), [&](const Spoke& s) {
+        return when > moved_[index(p)] && std::ranges::none_of(stars_[index(p)], [&](const Spoke& s) {
                    return is_newer(s.next) || is_newer(s.across) || is_newer(s.before);
                });
     }

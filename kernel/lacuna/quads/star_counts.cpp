@@ -23,12 +23,10 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     if (task.region.loops.size() != 1) return {};
     const std::vector<Index>& loop = task.region.loops[0];
     const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) -> const Vec2& { return task.region.points[index(loop[i % n])]; };
     std::vector<std::size_t> sides;
     for (std::size_t i = 0; i < n; ++i) {
         const bool starts = task.segment_of(loop[i]) != task.segment_of(loop[(i + n - 1) % n]);
-        const double angle = paving::turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
-        if (paving::quads_in(angle) != (starts ? 1 : 2)) return {};
+        if (quads_in(corner_angle(task.region.points, loop, i)) != (starts ? 1 : 2)) return {};
         if (starts) sides.push_back(task.segment_of(loop[i]));
     }
     return sides;

@@ -28,7 +28,7 @@ bool may_be_tried(const CountTask& task, const StraightOptions& options)
 /// The loops of a region with headings in a straight grid.
 struct HeadedLoops {
     std::vector<PatternLoop> loops;
-    double angle = 0;
+    LoopFrame frame;
     TurnStyle style = TurnStyle::soft;
     int fitting = 1;    ///< rows that suit the soft turns
     bool turns = false; ///< whether there are soft turns
@@ -37,10 +37,9 @@ struct HeadedLoops {
 /// @return nothing where a loop does not turn once about.
 std::optional<HeadedLoops> head_loops(const PlanarRegion& region, TurnStyle style)
 {
-    HeadedLoops headed{{}, main_angle(region), style};
+    HeadedLoops headed{{}, straight_frame(region), style};
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
-        auto loop = head_loop(region.points, region.loops[l], {false, Vec2::Zero(), headed.angle},
-                              kStraightWeight, 1, style);
+        auto loop = head_loop(region.points, region.loops[l], headed.frame, style);
         if (!loop || loop->turns != (l == 0 ? 4 : -4)) return std::nullopt;
         headed.fitting = std::max(headed.fitting, fitting_rows(*loop));
         headed.turns = headed.turns || std::ranges::find(loop->movable, 1) != loop->movable.end();
@@ -71,27 +70,19 @@ std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const Co
                                   const HeadedLoops& as, int rows)
 {
     const std::vector<Index>& loop = task.region.loops[l];
-    const auto at = [&](std::size_t i) -> const Vec2& {
-        return task.region.points[static_cast<std::size_t>(loop[i % loop.size()])];
-    };
+    const std::vector<Vec2>& points = task.region.points;
     LoopGrid made;
     double length = 0;
     for (std::size_t from = 0, to = 0; from < loop.size(); from = to) {
         const std::size_t own = task.segment_of(loop[from]);
         while (to < loop.size() && task.segment_of(loop[to]) == own) ++to;
-        const int sides = sides_of(counted, own);
-        for (int k = 0; k < sides; ++k) {
-            const double place = static_cast<double>(k) / sides * static_cast<double>(to - from);
-            const auto whole = static_cast<std::size_t>(place);
-            const double part = place - static_cast<double>(whole);
-            made.points.push_back((1 - part) * at(from + whole) + part * at(from + whole + 1));
-        }
-        for (std::size_t i = from; i < to; ++i) length += (at(i + 1) - at(i)).norm();
+        add_divided(points, loop, from, to, sides_of(counted, own), made.points);
+        for (std::size_t i = from; i < to; ++i)
+            length += (point_of(points, loop, i + 1) - point_of(points, loop, i)).norm();
     }
     std::vector<Index> nodes(made.points.size());
     std::iota(nodes.begin(), nodes.end(), 0);
-    auto headed = head_loop(made.points, nodes, {false, Vec2::Zero(), as.angle}, kStraightWeight, 1,
-                            as.style);
+    auto headed = head_loop(made.points, nodes, as.frame, as.style);
     if (headed) set_soft_rows(*headed, rows);
     const double mean = length / static_cast<double>(nodes.size());
     std::vector<Quad> quads;
@@ -112,7 +103,7 @@ bool have_place(const std::vector<LoopGrid>& grids)
         if (loops.size() == 1) continue;
         Vec2 by = Vec2::Zero();
         for (std::size_t i = 0; i < own.grid.nodes.size(); ++i) {
-            const Vec2& p = own.points[static_cast<std::size_t>(own.grid.nodes[i])];
+            const Vec2& p = own.points[index(own.grid.nodes[i])];
             const GridPosition& at = own.grid.positions[i];
             by += (mean_value_position(grids[0].points, grids[0].grid, p) - Vec2(at[0], at[1])) /
                   static_cast<double>(own.grid.nodes.size());
@@ -149,7 +140,7 @@ void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const 
                                                 centre_of(task.region.points, task.region.loops[l]));
         for (int k = 0; k < 2; ++k) {
             const double off = std::abs(middle[k] - std::round(middle[k]));
-            int across = loops[l].added[static_cast<std::size_t>(k)];
+            int across = loops[l].added[index(k)];
             for (const CountedRun& run : loops[l].runs) across += run.quarter == k ? run.count : 0;
             if ((off > 0.25) != (across % 2 != 0)) change_both(task, loops[l], k);
         }
@@ -278,7 +269,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
     // A score of quads as they should be, and grids made at most: for the time. Choices.
     constexpr double kGood = 3.1;
     constexpr std::size_t kMost = 4;
-    std::stable_sort(all.begin(), all.end(), is_cheaper);
+    std::ranges::stable_sort(all, is_cheaper);
     const auto alike = [](const Counts& a, const Counts& b) { return a.sides == b.sides; };
     all.erase(std::unique(all.begin(), all.end(), alike), all.end());
     if (all.size() < 2) return std::nullopt;
@@ -306,7 +297,7 @@ std::optional<Counts> straight_counts(const CountTask& task, const StraightOptio
     if (may_be_tried(task, options) && has_doubtful_turns(task.region)) add(TurnStyle::few_soft);
     for (Counts& counts : all) counts.cost /= kSoft;
     if (has_half_ends(task.region)) add(TurnStyle::hard_ends);
-    const auto least = std::min_element(all.begin(), all.end(), is_cheaper);
+    const auto least = std::ranges::min_element(all, is_cheaper);
     if (least == all.end()) return std::nullopt;
     Counts best = *least;
     if (may_be_tried(task, options)) {

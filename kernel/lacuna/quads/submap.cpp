@@ -30,9 +30,8 @@ std::size_t corner_count(const GridLoop& loop)
 
 int grid_quads(double angle)
 {
-    using paving::kRightAngle;
     constexpr double kOff = kRightAngle * 4 / 9; // 40°: it leaves a sine of 0.77 at a corner; a choice
-    const int quads = paving::quads_in(angle);
+    const int quads = quads_in(angle);
     // Any angle that is nearest to a straight one is a side: outlines of few nodes bend by up to 45° at each.
     if (quads == 2) return 2;
     return quads <= 4 && std::abs(angle - quads * kRightAngle) <= kOff ? quads : 0;
@@ -50,8 +49,7 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     for (std::size_t l = 1; l < loops.size(); ++l) {
         std::vector<Vec2> goal;
         for (const Index p : loops[l].nodes) {
-            goal.push_back(
-                mean_value_position(region.points, loops[0], region.points[static_cast<std::size_t>(p)]));
+            goal.push_back(mean_value_position(region.points, loops[0], region.points[index(p)]));
         }
         place_hole(goal, loops[l]);
     }
@@ -59,16 +57,13 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     if (!grid.enclose(loops)) return std::nullopt;
     const bool four_sided = loops.size() == 1 && corner_count(loops.front()) == 4;
     PlanarQuads mesh{region.points, {}, four_sided ? "mapped" : "submapped"};
-    const auto first = static_cast<Index>(fixed);
-    mesh.points.resize(fixed + static_cast<std::size_t>(grid.number_inner(first)), Vec2::Zero());
-    grid.place_inner(mesh.points, first);
-    mesh.quads = grid.quads();
+    grid.add_cells(mesh);
     const auto size = paving::sizes_with_boundary(region).usual;
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
     // Poor quads are repaired one by one where they are few: a grid that is poor all over stays so.
     constexpr double kFewPoor = 0.1; // of the quads; a choice, not a measurement
     const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
-    const auto poor = std::count_if(mesh.quads.begin(), mesh.quads.end(), [&](const Quad& quad) {
+    const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {
         return scaled_jacobian(mesh.points, quad) < repairs.good_enough;
     });
     if (static_cast<double>(poor) <= kFewPoor * static_cast<double>(mesh.quads.size()))

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/submap_grid.h>
 
-#include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/submap.h>
 
 #include <algorithm>
@@ -13,22 +12,10 @@
 namespace lacuna::quads {
 namespace {
 
-using paving::cross;
-using paving::turn_between;
-
-constexpr std::array<GridPosition, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-
 GridPosition rotated(GridPosition position, int quarters)
 {
     for (; quarters > 0; --quarters) position = {-position[1], position[0]};
     return position;
-}
-
-double angle_at(const std::vector<Vec2>& points, const std::vector<Index>& loop, std::size_t i)
-{
-    const std::size_t n = loop.size();
-    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(loop[k % n])]; };
-    return turn_between(at(i + 1) - at(i), at(i + n - 1) - at(i));
 }
 
 } // namespace
@@ -40,14 +27,13 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
     GridPosition position{0, 0};
     int heading = 0, sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const int quads = grid_quads(angle_at(points, loop, i));
+        const int quads = grid_quads(corner_angle(points, loop, i));
         if (quads == 0) return std::nullopt;
         sum += 2 - quads;
         // The first side runs along the first axis, whatever the angle at its start.
-        if (i > 0) heading = (heading + 2 - quads + 8) % 4;
+        if (i > 0) heading += 2 - quads;
         grid.positions.push_back(position);
-        const GridPosition& step = kSteps[static_cast<std::size_t>(heading)];
-        position = {position[0] + step[0], position[1] + step[1]};
+        advance(position, heading);
     }
     if (sum != turns || position != GridPosition{0, 0}) return std::nullopt;
     return grid;
@@ -56,9 +42,7 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
 Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p)
 {
     const std::size_t n = outer.nodes.size();
-    const auto to = [&](std::size_t i) -> Vec2 {
-        return points[static_cast<std::size_t>(outer.nodes[i % n])] - p;
-    };
+    const auto to = [&](std::size_t i) -> Vec2 { return point_of(points, outer.nodes, i) - p; };
     const auto half_tangent = [](const Vec2& a, const Vec2& b) {
         return std::tan(std::atan2(cross(a, b), a.dot(b)) / 2);
     };
@@ -229,13 +213,14 @@ Index SubmapGrid::number_inner(Index first)
     return first - start;
 }
 
-std::vector<Quad> SubmapGrid::quads() const
+void SubmapGrid::add_cells(PlanarQuads& mesh)
 {
-    std::vector<Quad> result;
-    for (std::size_t c = 0; c < in_.size(); ++c) {
-        if (in_[c]) result.push_back(corner_[c]);
-    }
-    return result;
+    const auto first = static_cast<Index>(mesh.points.size());
+    const Index inner = number_inner(first);
+    mesh.points.resize(static_cast<std::size_t>(first + inner), Vec2::Zero());
+    place_inner(mesh.points, first);
+    for (std::size_t c = 0; c < in_.size(); ++c)
+        if (in_[c]) mesh.quads.push_back(corner_[c]);
 }
 
 Index SubmapGrid::node_at(int x, int y, const Sides& corners) const

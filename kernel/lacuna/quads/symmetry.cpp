@@ -8,7 +8,6 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::quads {
 namespace {
@@ -31,7 +30,7 @@ public:
                 return found; // no mesh of the region
             rim_[start] = static_cast<Index>(side);
         }
-        if (std::find(rim_.begin(), rim_.end(), -1) != rim_.end()) return found;
+        if (std::ranges::find(rim_, -1) != rim_.end()) return found;
         find_row_ends();
         for (Symmetry& symmetry : outline) {
             symmetry.to.resize(mesh_.points.size(), -1);
@@ -52,7 +51,7 @@ private:
     [[nodiscard]] bool is_product(Symmetry& symmetry, const std::vector<Symmetry>& found) const
     {
         const auto& loop = region_.loops[0];
-        const auto product = std::find_if(found.begin(), found.end(), [&](const Symmetry& other) {
+        const auto product = std::ranges::find_if(found, [&](const Symmetry& other) {
             return std::all_of(loop.begin(), loop.begin() + 2, [&](Index p) { // one side tells all
                 return found[0].to[index(other.to[index(p)])] == symmetry.to[index(p)];
             });
@@ -81,9 +80,8 @@ private:
             const Index own = symmetry.map.mirrors ? beyond(side, 1) : side;
             return rim_[index(symmetry.to[index(mesh_.quads[index(own) / 4][index(own) % 4])])];
         };
-        return std::all_of(rim_.begin(), rim_.end(), [&](Index side) {
-            return image(row_end_[index(side)]) == row_end_[index(image(side))];
-        });
+        return std::ranges::all_of(
+            rim_, [&](Index side) { return image(row_end_[index(side)]) == row_end_[index(image(side))]; });
     }
 
     /// Follow the quads from the boundary inward. @return false where one has no image
@@ -157,7 +155,7 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
     for (std::size_t p = fixed; p < made.points.size(); ++p) {
         Vec2 sum = mesh.points[p];
         for (const Symmetry& symmetry : symmetries)
-            sum += symmetry.map.back(mesh.points[static_cast<std::size_t>(symmetry.to[p])]);
+            sum += symmetry.map.back(mesh.points[index(symmetry.to[p])]);
         made.points[p] = share * sum;
     }
     // Means of nodes that smoothing left nearly where their images are do not make quads worse, but may
@@ -171,14 +169,12 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
 
 std::vector<std::size_t> segments_alike(const PlanarRegion& region, std::span<const int> segment)
 {
-    std::size_t count = 0;
-    for (const int s : segment) count = std::max(count, static_cast<std::size_t>(s) + 1);
-    geometry::UnionFind sets(count);
+    std::vector<std::size_t> least(segment_count(segment));
+    geometry::UnionFind sets(least.size());
     for (const SegmentSymmetry& symmetry : segment_symmetries(region, segment)) {
-        for (std::size_t s = 0; s < count; ++s) sets.unite_least(s, symmetry.onto[s]);
+        for (std::size_t s = 0; s < least.size(); ++s) sets.unite_least(s, symmetry.onto[s]);
     }
-    std::vector<std::size_t> least(count);
-    for (std::size_t s = 0; s < count; ++s) least[s] = sets.find(s);
+    for (std::size_t s = 0; s < least.size(); ++s) least[s] = sets.find(s);
     return least;
 }
 

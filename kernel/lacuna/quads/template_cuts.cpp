@@ -139,8 +139,7 @@ public:
         const double length = across.norm(), fitting = length / spacing_;
         edges.low = std::max(edges.low, static_cast<int>(fitting * kFewestEdges));
         edges.high = std::min(edges.high, static_cast<int>(fitting * kMostEdges) + 1);
-        if ((to + loop_.size() - from + static_cast<std::size_t>(edges.low)) % 2 != 0)
-            ++edges.low; // parts have even outlines
+        if ((to + loop_.size() - from + index(edges.low)) % 2 != 0) ++edges.low; // parts have even outlines
         if (edges.low > edges.high || !(length > 0)) return;
         // How far from square the cut meets the sides, 0 to 1.
         const auto slant_at = [&](std::size_t i) {
@@ -194,9 +193,8 @@ std::vector<TemplateCut> find_odd_cuts(std::span<const Vec2> loop, std::span<con
                 first.side[between] = b;
                 second.side[0] = counts.side[other] - b;
                 second.side[n - between] = a;
-                ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
-                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(),
-                           {1, static_cast<int>(loop.size())},
+                ranker.add((corners[side] + index(a)) % loop.size(),
+                           (corners[other] + index(b)) % loop.size(), {1, static_cast<int>(loop.size())},
                            [&](int edges) {
                                first.side[between + 1] = second.side[n - between + 1] = edges;
                                return needs_one_pair(four) && spoke_feet(odd, true, feet);
@@ -280,9 +278,8 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
             for (int b = 1; b < counts.side[other]; ++b) {
                 const EdgeRange edges = tightest.at(b);
                 if (edges.low > edges.high) continue;
-                ranker.add((corners[side] + static_cast<std::size_t>(a)) % loop.size(),
-                           (corners[other] + static_cast<std::size_t>(b)) % loop.size(), edges,
-                           [](int) { return true; }, found);
+                ranker.add((corners[side] + index(a)) % loop.size(),
+                           (corners[other] + index(b)) % loop.size(), edges, [](int) { return true; }, found);
             }
         }
     }

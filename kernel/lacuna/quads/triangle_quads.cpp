@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/region_loops.h>
 #include <lacuna/quads/detail/split_cells.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -21,19 +22,12 @@ namespace {
 /// Triangles over a region, as a mixed mesh: the loops' nodes first, loop after loop.
 MixedMesh triangles_over(const PlanarRegion& region, double by_size)
 {
+    const PlanarRegion own = region_within(region.points, region.loops).region;
     MixedMesh mesh;
-    std::vector<std::vector<Index>> local;
-    for (const std::vector<Index>& loop : region.loops) {
-        local.emplace_back();
-        for (const Index p : loop) {
-            local.back().push_back(static_cast<Index>(mesh.points.size()));
-            mesh.points.push_back(region.points[index(p)]);
-        }
-    }
-    mesh.fixed = mesh.points.size();
+    mesh.fixed = own.points.size();
     geometry::TriangulateOptions options;
     if (region.size) options.size = [&](const Vec2& p) { return by_size * region.size(p); };
-    geometry::Triangulation triangles = geometry::triangulate(mesh.points, local, options);
+    geometry::Triangulation triangles = geometry::triangulate(own.points, own.loops, options);
     mesh.points = std::move(triangles.points);
     for (const Triangle& t : triangles.triangles) mesh.cells.push_back({t[0], t[1], t[2], t[2]});
     return mesh;
@@ -55,7 +49,7 @@ public:
                 const double quality = scaled_jacobian(mesh.points, merged(static_cast<Index>(c), other / 4));
                 if (quality > kLeast) neighbours_[c].emplace_back(quality, other / 4);
             }
-            std::sort(neighbours_[c].begin(), neighbours_[c].end(), std::greater<>());
+            std::ranges::sort(neighbours_[c], std::greater<>());
         }
     }
 
@@ -68,7 +62,7 @@ public:
                 if (static_cast<Index>(c) < other) pairs.emplace_back(-quality, static_cast<Index>(c), other);
             }
         }
-        std::sort(pairs.begin(), pairs.end());
+        std::ranges::sort(pairs);
         for (const auto& [quality, a, b] : pairs) {
             if (mate(a) >= 0 || mate(b) >= 0) continue;
             mate(a) = b;
@@ -116,7 +110,7 @@ private:
         const std::size_t i = leads_to(0) ? 0 : leads_to(1) ? 1 : 2;
         const Index from = one[i], to = one[(i + 1) % 3];
         const Quad& two = mesh_.cells[index(b)];
-        const auto far = std::find_if(two.begin(), two.end(), [&](Index p) { return p != from && p != to; });
+        const auto far = std::ranges::find_if(two, [&](Index p) { return p != from && p != to; });
         return {from, *far, to, one[(i + 2) % 3]};
     }
 
@@ -175,16 +169,9 @@ PlanarQuads quads_of_triangles(const PlanarRegion& region)
     mesh.cells = matching.cells();
     mesh = split_cells(mesh);
 
-    PlanarQuads result{region.points, std::move(mesh.cells)};
-    std::vector<Index> number; // of the mesh's points in the result
-    for (const std::vector<Index>& loop : region.loops) number.insert(number.end(), loop.begin(), loop.end());
-    for (std::size_t p = mesh.fixed; p < mesh.points.size(); ++p) {
-        number.push_back(static_cast<Index>(result.points.size()));
-        result.points.push_back(mesh.points[p]);
-    }
-    for (Quad& quad : result.quads) {
-        for (Index& p : quad) p = number[index(p)];
-    }
+    PlanarQuads result{region.points, {}};
+    add_filling(result, region_within(region.points, region.loops).own,
+                {std::move(mesh.points), std::move(mesh.cells)});
     return result;
 }
 

@@ -43,14 +43,13 @@ struct FoldedPart {
 };
 
 /// Least determinant of the corners of a quad that can change; those of three fixed points are left out.
-double least_movable(std::span<const Vec2> points, const Quad& quad, const std::vector<char>& fixed)
+double least_movable(std::span<const Vec2> points, const Quad& quad, std::size_t fixed)
 {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto here = static_cast<std::size_t>(quad[k]),
-                   next = static_cast<std::size_t>(quad[(k + 1) % 4]),
-                   before = static_cast<std::size_t>(quad[(k + 3) % 4]);
-        if (fixed[here] != 0 && fixed[next] != 0 && fixed[before] != 0) continue;
+        const std::size_t here = index(quad[k]), next = index(quad[(k + 1) % 4]),
+                          before = index(quad[(k + 3) % 4]);
+        if (std::max({here, next, before}) < fixed) continue;
         const Vec2 a = points[next] - points[here], b = points[before] - points[here];
         least = std::min(least, cross(a, b));
     }
@@ -58,14 +57,11 @@ double least_movable(std::span<const Vec2> points, const Quad& quad, const std::
 }
 
 /// The quads that are folded and `rings` rings around them.
-FoldedPart part_around_folds(std::span<const Vec2> points, std::span<const Quad> quads,
-                             const std::vector<char>& fixed, const std::vector<double>& size, int rings)
+FoldedPart part_around_folds(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed,
+                             int rings)
 {
     std::vector<char> touched(points.size(), 0), taken(quads.size(), 0);
-    for (std::size_t q = 0; q < quads.size(); ++q) {
-        if (least_movable(points, quads[q], fixed) > 0) continue;
-        taken[q] = 1;
-    }
+    for (std::size_t q = 0; q < quads.size(); ++q) taken[q] = !(least_movable(points, quads[q], fixed) > 0);
     for (int ring = 0; ring < rings; ++ring) {
         for (std::size_t q = 0; q < quads.size(); ++q) {
             if (taken[q] == 0) continue;
@@ -75,7 +71,8 @@ FoldedPart part_around_folds(std::span<const Vec2> points, std::span<const Quad>
             for (const Index p : quads[q]) taken[q] |= touched[index(p)];
         }
     }
-    std::vector<char> stays = fixed;
+    std::vector<char> stays(points.size(), 0);
+    std::fill(stays.begin(), stays.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
     for (std::size_t q = 0; q < quads.size(); ++q) {
         if (taken[q] != 0) continue;
         for (const Index p : quads[q]) stays[index(p)] = 1;
@@ -86,9 +83,9 @@ FoldedPart part_around_folds(std::span<const Vec2> points, std::span<const Quad>
         if (taken[q] == 0) continue;
         double length = 0;
         for (std::size_t k = 0; k < 4; ++k) {
-            const auto a = static_cast<std::size_t>(quads[q][k]);
-            const auto b = static_cast<std::size_t>(quads[q][(k + 1) % 4]);
-            length += (size.empty() ? (points[b] - points[a]).norm() : size[a]) / 4;
+            const auto a = index(quads[q][k]);
+            const auto b = index(quads[q][(k + 1) % 4]);
+            length += (points[b] - points[a]).norm() / 4;
             if (stays[a] != 0 || part.variable[a] >= 0) continue;
             part.variable[a] = static_cast<Index>(part.moving.size());
             part.moving.push_back(quads[q][k]);
@@ -198,11 +195,10 @@ private:
 
 } // namespace
 
-bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, const std::vector<char>& fixed,
-                    const std::vector<double>& size)
+bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed)
 {
     for (const int rings : kRings) {
-        const FoldedPart part = part_around_folds(points, quads, fixed, size, rings);
+        const FoldedPart part = part_around_folds(points, quads, fixed, rings);
         if (part.cells.empty()) return true;
         if (part.moving.empty()) continue;
         Eigen::VectorXd x(2 * static_cast<Eigen::Index>(part.moving.size()));

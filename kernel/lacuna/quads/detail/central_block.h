@@ -28,7 +28,7 @@ struct CentralBlock {
 ///                    others.
 /// @return nothing where the centre is in a hole or fewer than four axes run through it.
 std::optional<CentralBlock> central_block(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                          const std::function<double(const Vec2&)>& size, int choice);
+                                          const SizeField& size, int choice);
 
 /// The whole region's quads from those about the block, whose nodes come first in both.
 PlanarQuads with_block(const CentralBlock& block, PlanarQuads around);

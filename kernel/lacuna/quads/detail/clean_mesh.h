@@ -28,8 +28,6 @@ public:
 
     /// Whether every point has its quads in one fan, and only the fixed points lie on the boundary.
     [[nodiscard]] bool is_sound() const;
-    /// Interior points without four quads.
-    [[nodiscard]] std::size_t irregular() const;
     /// The points and quads that are left, the fixed points first.
     [[nodiscard]] PlanarQuads result() const;
 
@@ -49,8 +47,8 @@ public:
         return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;
     }
 
-    /// Remove doublets: merge the two quads at every interior point that has no more. @return how many
-    std::size_t remove_doublets();
+    /// Remove doublets: merge the two quads at every interior point that has no more.
+    void remove_doublets();
     Index add_point(const Vec2& position);
     void move(Index p, const Vec2& position);
     /// Replace quads by others with the same outline.

@@ -6,11 +6,17 @@
 #include <lacuna/geometry/shared/plane.h>
 
 #include <algorithm>
+#include <numbers>
 
 namespace lacuna::quads {
 
 using geometry::cross;
 using geometry::turn_between;
+
+inline constexpr double kRightAngle = std::numbers::pi / 2;
+
+/// How many quads suit an angle, at least one.
+inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
 /// Sine of a corner; 0 where one of its sides has no length.
 /// @param area     cross product of the two sides

@@ -25,10 +25,7 @@ struct CountTask {
     const RunContext& context;
     std::vector<int> own; ///< sides that each segment has in the region
 
-    [[nodiscard]] std::size_t segment_of(Index p) const
-    {
-        return static_cast<std::size_t>(segment[static_cast<std::size_t>(p)]);
-    }
+    [[nodiscard]] std::size_t segment_of(Index p) const { return index(segment[index(p)]); }
 };
 
 /// The mean of the sizes asked along the boundary [model length].

@@ -9,13 +9,11 @@ namespace lacuna::quads::paving {
 
 /// Give every boundary node at least as many quads as its angle needs, so that none of its corners must be
 /// straight or more: an edge nearby is swapped towards it, or its widest quad is pillowed.
-/// @return how many changes were made.
-int open_corners(PlanarQuads& mesh, const PlanarRegion& region);
+void open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
 /// Pillow each quad whose least sine is at most `least`: a smaller quad inside it and four around that, so
 /// that it has nodes that can move.
-/// @return how many quads were pillowed.
-int pillow_folds(PlanarQuads& mesh, double least);
+void pillow_folds(PlanarQuads& mesh, double least);
 
 /// Remove the points no quad uses, except the first `fixed` ones. Points are renumbered by their first use.
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed);

@@ -4,10 +4,9 @@
 /// Turns and mirrorings that map the boundary nodes of a region onto each other, and the part of a region
 /// between its mirror axes. Only sources of this folder include it.
 
-#include <lacuna/quads/region.h>
+#include <lacuna/quads/detail/region_loops.h>
 
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -60,6 +59,16 @@ struct MirrorPart {
     std::vector<double> wanted; ///< sides that the size asks for on each piece of an axis
     /// The images, in order about the centre: the first is the part itself, every other one is mirrored.
     std::vector<Symmetry> images;
+
+    /// Add a node to the last loop.
+    void add(const Vec2& p, Index of_whole, int on_axis, char on_ray)
+    {
+        region.loops.back().push_back(static_cast<Index>(region.points.size()));
+        region.points.push_back(p);
+        whole.push_back(of_whole);
+        axis.push_back(on_axis);
+        ray.push_back(on_ray);
+    }
 };
 
 /// Cut a region along mirror axes that go through boundary nodes, cross no side and halve no corner.
@@ -73,11 +82,10 @@ struct MirrorPart {
 /// @param choice      which of these, from 0 on.
 /// @return nothing where there is no such axis, nor so many choices.
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
-                                      const std::function<double(const Vec2&)>& size, std::size_t choice = 0);
+                                      const SizeField& size, std::size_t choice);
 
 /// Give the pieces of the axes other numbers of sides, >= 1.
-void divide_axes(MirrorPart& part, const std::vector<int>& sides,
-                 const std::function<double(const Vec2&)>& size);
+void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeField& size);
 
 /// The whole region's quads from quads of its part: images of each, joined along the axes.
 PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const PlanarRegion& region);

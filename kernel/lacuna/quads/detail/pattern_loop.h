@@ -7,7 +7,6 @@
 #include <lacuna/quads/region.h>
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +19,9 @@ struct LoopFrame {
     Vec2 centre = Vec2::Zero();
     double angle = 0; ///< [radians]
 };
+
+/// That of a region's main direction.
+LoopFrame straight_frame(const PlanarRegion& region);
 
 /// Centre of the area within a loop.
 Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop);
@@ -70,12 +72,10 @@ bool has_half_ends(const PlanarRegion& region);
 ///
 /// The headings are those of least cost, found by dynamic programming: every side costs the square of its
 /// deviation from its heading, every node that of its angle from its turn.
-/// @param side_weight  of a side's deviation against that of a node's angle [-].
-/// @param rows  to be laid where a turn is soft.
+/// A row is laid where a turn is soft.
 /// @return nothing where corners are so sharp that no headings suit them.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
-                                     const LoopFrame& frame, double side_weight, int rows,
-                                     TurnStyle style = TurnStyle::soft);
+                                     const LoopFrame& frame, TurnStyle style = TurnStyle::soft);
 
 /// Whether `TurnStyle::few_soft` gives some loop other headings in a straight grid than `TurnStyle::soft`.
 bool has_doubtful_turns(const PlanarRegion& region);
@@ -92,10 +92,6 @@ std::vector<int> rows_to_try(int fitting);
 /// @pre  `loop` is as `head_loop()` made it.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Weights of a side's deviation. Where the grid goes round a hole the angles decide, for a slot's sides run
-/// across any circle: `kRoundWeight` is for all sides in sum. Choices, not measurements.
-inline constexpr double kStraightWeight = 1, kRoundWeight = 2;
-
 /// Whether a grid may go round along a loop: it has no soft turns, and does not run straight on where the
 /// boundary has an end, a corner that one quad would suit and two would have to share.
 /// @pre  `loop` is as `head_loop()` made it in a polar frame.
@@ -108,7 +104,7 @@ bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 /// round the whole loop and one quad has that corner.
 /// @return false where rows would use a side twice.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                      const std::function<double(const Vec2&)>& height);
+                      const SizeField& height);
 
 /// How far a loop is from closing, of its sides along headings 0 and 1 over those back; 0 where it closes.
 inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }

@@ -6,8 +6,6 @@
 
 #include <lacuna/quads/detail/pattern_loop.h>
 
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,6 +45,6 @@ bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 /// @param by  sides more (> 0) or fewer, an even number.
 /// @return false where the corners would meet.
 bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& points, std::vector<Quad>& quads,
-                  const std::function<double(const Vec2&)>& height);
+                  const SizeField& height);
 
 } // namespace lacuna::quads

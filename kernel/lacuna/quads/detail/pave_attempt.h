@@ -10,7 +10,6 @@ namespace lacuna::quads::paving {
 /// How a region is filled: the rows along its boundary, or none.
 enum class RowStyle {
     by_shape,  ///< as many rows as each loop is worth
-    mapped,    ///< no rows: the region is one patch
     no_rows,   ///< the region is cut as it is
     thin,      ///< rows also where loops are near each other
     buffer,    ///< one row with at least two quads at every node, so that all other nodes are free to move
@@ -32,9 +31,8 @@ void judge(Attempt& attempt);
 /// What is the same for all attempts at a region.
 struct AttemptSetting {
     const PlanarRegion& region;
-    const PaveOptions& options;
-    std::function<double(const Vec2&)> size; ///< of the region, with its boundary's
-    double flat = 0;                         ///< quads with a smaller sine count as folded
+    SizeField size;  ///< of the region, with its boundary's
+    double flat = 0; ///< quads with a smaller sine count as folded
 };
 
 /// Fill a region in one way, by rows, cuts and patches or by triangles; nothing is improved yet.

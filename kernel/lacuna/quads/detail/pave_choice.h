@@ -22,6 +22,9 @@ namespace lacuna::quads::paving {
 /// kFewNodes their share is taken of that many. The weights are choices.
 double score_of(const PlaneQuality& quality);
 
+/// A place for a message: "(0.5, 1.25)".
+std::string position_text(const Vec2& p);
+
 /// Paves a region in several ways and keeps the best attempt by measure.
 class AttemptChooser {
 public:
@@ -92,7 +95,7 @@ private:
 
     const PlanarRegion& region_;
     PlanarRegion judged_; ///< the region with the size that its given sides allow
-    PaveOptions options_;
+    bool grids_;          ///< the region may be filled by one grid
     const RunContext& context_;
     bool cut_;
     int least_irregular_; ///< that topology allows

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/quads/detail/region_loops.h>
 #include <lacuna/quads/shared/pave.h>
 
-#include <functional>
 #include <optional>
 
 namespace lacuna::quads::paving {
@@ -13,7 +13,7 @@ namespace lacuna::quads::paving {
 /// @param size  of the region, with its boundary's.
 /// @return nothing where there is no coarse region, or it cannot be filled.
 /// @throw Cancelled
-std::optional<Paved> pave_in_four(const PlanarRegion& region, const PaveOptions& options,
-                                  const std::function<double(const Vec2&)>& size, const RunContext& context);
+std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& size,
+                                  const RunContext& context);
 
 } // namespace lacuna::quads::paving

@@ -20,7 +20,4 @@ struct PatchFit {
 /// they lie best: such a loop has rows around it, so that quads at its nodes need not be flat.
 PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles);
 
-/// The inner angles at all nodes of a loop [radians].
-std::vector<double> angles_of(const PartialMesh& partial, const Cycle& cycle);
-
 } // namespace lacuna::quads::paving

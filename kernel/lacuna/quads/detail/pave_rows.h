@@ -29,6 +29,6 @@ bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 /// @param height  of the row over a boundary point [length].
 /// @return how many rows were laid.
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
-             const std::function<double(const Vec2&)>& height, RowKind kind = RowKind::tall);
+             const SizeField& height, RowKind kind);
 
 } // namespace lacuna::quads::paving

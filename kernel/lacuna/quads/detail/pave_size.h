@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/quads/region.h>
-
-#include <functional>
+#include <lacuna/quads/detail/region_loops.h>
 
 namespace lacuna::quads::paving {
 
@@ -15,11 +13,11 @@ namespace lacuna::quads::paving {
 /// changes nothing and the region's own size is handed back. A region without a size has its mean boundary
 /// side.
 struct BoundarySizes {
-    std::function<double(const Vec2&)> usual;
+    SizeField usual;
     /// The same where sides differ by a little more from what is asked. Those of a ring may be 1 / 0.6 times
     /// as long, or as short, and rows still of the size asked: what rings are laid out with and all meshes
     /// judged by.
-    std::function<double(const Vec2&)> ring;
+    SizeField ring;
 };
 BoundarySizes sizes_with_boundary(const PlanarRegion& region);
 
@@ -27,6 +25,6 @@ BoundarySizes sizes_with_boundary(const PlanarRegion& region);
 double quads_within(const PlanarRegion& region);
 
 /// Whether a mesh has as many quads as asked for, a quarter more or less: what is promised.
-bool has_quads_asked(const PlanarQuads& mesh, const std::function<double(const Vec2&)>& size);
+bool has_quads_asked(const PlanarQuads& mesh, const SizeField& size);
 
 } // namespace lacuna::quads::paving

@@ -50,6 +50,25 @@ private:
     std::vector<Spoke> spokes_;
 };
 
+/// The number of quads at each point.
+inline std::vector<Index> valences(std::span<const Quad> quads, std::size_t points)
+{
+    std::vector<Index> valence(points, 0);
+    for (const Quad& quad : quads)
+        for (const Index p : quad) ++valence[index(p)];
+    return valence;
+}
+
+/// The least sine of the quads at a point, were it at `x`; at most 1.
+inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
+{
+    double worst = 1;
+    for (const Spoke& spoke : star)
+        worst = std::min(worst, least_sine(x, points[index(spoke.next)], points[index(spoke.across)],
+                                           points[index(spoke.before)]));
+    return worst;
+}
+
 /// The shortest side at a point, were it at `x`.
 inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
@@ -75,24 +94,9 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
     return least;
 }
 
-/// Least sine of the corners that change when a point moves to `x`, at most 1.
-inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
-{
-    double least = 1;
-    for (const Spoke& spoke : star) {
-        const Vec2 &n = points[index(spoke.next)], &o = points[index(spoke.across)],
-                   &r = points[index(spoke.before)];
-        const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
-        const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
-        least = std::min({least, corner_sine(cross(a, b), std::sqrt(aa * bb)),
-                          corner_sine(cross(a, c), std::sqrt(aa * cc)),
-                          corner_sine(cross(d, b), std::sqrt(dd * bb))});
-    }
-    return least;
-}
-
-/// The same where it is more than `floor`, which is found out by the first corner that is not: in most trials
-/// it is the one of the trial before. Else some number up to `floor`.
+/// Least sine of the corners that change when a point moves to `x`, at most 1, where that is more than
+/// `floor`, which is found out by the first corner that is not: in most trials it is the one of the trial
+/// before. Else some number up to `floor`.
 /// @param first  place in the star to begin with, and the one that was not above the floor
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
@@ -119,6 +123,13 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         return std::min(least, floor);
     }
     return least;
+}
+
+/// The same whatever it is.
+inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
+{
+    std::size_t first = 0;
+    return least_sine_above(points, star, x, -std::numeric_limits<double>::infinity(), first);
 }
 
 } // namespace lacuna::quads

@@ -24,12 +24,12 @@ public:
     [[nodiscard]] bool is_live(Index q) const { return quad(q)[0] >= 0; }
     [[nodiscard]] Index from(Index side) const
     {
-        const auto i = static_cast<std::size_t>(side);
+        const auto i = index(side);
         return quads_[i / 4][i % 4];
     }
     [[nodiscard]] Index to(Index side) const
     {
-        const auto i = static_cast<std::size_t>(side);
+        const auto i = index(side);
         return quads_[i / 4][(i + 1) % 4];
     }
     /// The same side in the neighbour, or -1.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/quads/region.h>
-
-#include <functional>
+#include <lacuna/quads/detail/region_loops.h>
 
 namespace lacuna::quads::paving {
 
@@ -12,7 +10,6 @@ namespace lacuna::quads::paving {
 ///
 /// Only the inner neighbour of a boundary node with two quads is moved, and only where the worst quad around
 /// it stays good or gets no worse; only the latter where the row is as high as is promised.
-void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region,
-                         const std::function<double(const Vec2&)>& height);
+void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& height);
 
 } // namespace lacuna::quads::paving

@@ -18,6 +18,9 @@ struct SegmentSymmetry {
     std::vector<std::size_t> onto; ///< of each segment its image
 };
 
+/// One more than the highest number of a segment.
+std::size_t segment_count(std::span<const int> segment);
+
 /// Those of the symmetries of a region's boundary nodes. None maps the end of a segment onto the inside of
 /// another.
 /// @param segment  of the side from each node to the next, 0, 1, …

@@ -3,7 +3,7 @@
 
 /// The grid with which submapping fills a region. Only sources of this folder include it.
 
-#include <lacuna/quads/region.h>
+#include <lacuna/quads/detail/region_loops.h>
 
 #include <array>
 #include <cstddef>
@@ -14,6 +14,22 @@ namespace lacuna::quads {
 
 /// Whole coordinates in the grid.
 using GridPosition = std::array<int, 2>;
+
+/// A heading as a number of right angles from 0 to 3.
+constexpr int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
+
+/// From a grid point to the next along a heading.
+constexpr GridPosition grid_step(int heading)
+{
+    const int quarter = quarter_of(heading), by = quarter < 2 ? 1 : -1;
+    return quarter % 2 == 0 ? GridPosition{by, 0} : GridPosition{0, by};
+}
+
+/// Go so many steps along a heading.
+constexpr void advance(GridPosition& position, int heading, int steps = 1)
+{
+    for (std::size_t k = 0; k < 2; ++k) position[k] += steps * grid_step(heading)[k];
+}
 
 /// A loop with grid coordinates.
 struct GridLoop {
@@ -44,12 +60,9 @@ public:
 
     /// @return false where the loops overlap in the grid, or do not go from line to line.
     bool enclose(const std::vector<GridLoop>& loops);
-    /// Number the inner grid points from `first` on. @return how many there are.
-    Index number_inner(Index first);
-    [[nodiscard]] std::vector<Quad> quads() const;
-    /// Place each inner node between the boundary nodes of its row and of its column; the nearer pair counts
-    /// more.
-    void place_inner(std::vector<Vec2>& points, Index fixed) const;
+    /// Add the cells within the loops as quads, and their inner nodes: each between the boundary nodes of its
+    /// row and of its column; the nearer pair counts more.
+    void add_cells(PlanarQuads& mesh);
 
 private:
     using Corners = std::array<Index, 4>;
@@ -65,6 +78,9 @@ private:
         return index(s[0] - low_[0], s[1] - low_[1]);
     }
 
+    /// Number the inner grid points from `first` on. @return how many there are.
+    Index number_inner(Index first);
+    void place_inner(std::vector<Vec2>& points, Index fixed) const;
     /// Whether each node of the loops is a grid line from the next.
     [[nodiscard]] bool is_walk(const std::vector<GridLoop>& loops) const;
 

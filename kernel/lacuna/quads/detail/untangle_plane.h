@@ -13,11 +13,9 @@ namespace lacuna::quads {
 ///
 /// The folded quads and a few rings around them are minimised by L-BFGS, ε falling as the least determinant
 /// rises.
-/// @param fixed  for every point, whether it must stay.
-/// @param size   for every point, the edge length asked for; empty: the lengths the quads have.
+/// @param fixed  the first points, which stay.
 /// @return true when every corner is positive except those of three fixed points. Where it fails the points
 ///         are as they were.
-bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, const std::vector<char>& fixed,
-                    const std::vector<double>& size);
+bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed);
 
 } // namespace lacuna::quads

@@ -19,13 +19,6 @@ struct CleanOptions {
     double effort = 3;       ///< quads in fillings tried: so many times those of the mesh, and 50,000
 };
 
-struct CleanReport {
-    std::size_t irregular_before = 0, irregular_after = 0; ///< interior points without four quads
-    std::size_t doublets = 0; ///< interior points with two quads that were removed
-    std::size_t patches = 0;  ///< patches refilled with fewer irregular points
-    std::size_t tried = 0;    ///< patches filled on trial
-};
-
 /// Change the connections of quads so that more interior points have four quads, and boundary points as many
 /// as right angles fit in. The boundary stays as it is.
 ///
@@ -42,7 +35,7 @@ struct CleanReport {
 ///        Quads merged at doublets are not looked at.
 /// @throw Cancelled
 /// @note  Deterministic. Linear in the quads to look at, and in what is changed.
-CleanReport clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options = {},
-                        const RunContext& context = {});
+void clean_quads(PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options = {},
+                 const RunContext& context = {});
 
 } // namespace lacuna::quads

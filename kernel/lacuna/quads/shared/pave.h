@@ -10,12 +10,8 @@ namespace lacuna::quads {
 
 /// How `pave()` filled a region.
 struct PaveReport {
-    int rows = 0;      ///< rows of quads paved inward, over all loops
-    int mapped = 0;    ///< parts filled by a template, with at most a few irregular nodes
-    int cuts = 0;      ///< splitting lines drawn
-    int templates = 0; ///< loops of six nodes or fewer closed
-    int refilled = 0;  ///< places where rows and cuts folded, filled with split triangles
-    std::string used;  ///< "mapped": one patch without rows; "submapped", "paved"
+    int refilled = 0; ///< places where rows and cuts folded, filled with split triangles
+    std::string used; ///< "mapped": one patch without rows; "submapped", "paved"
 };
 
 /// Options of `pave()`.
@@ -24,9 +20,7 @@ struct PaveOptions {
     /// laid; a loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as
     /// the region's shape needs, and are free to move.
     int exact_rows = 0;
-    bool grids = true;  ///< a region may be filled by one grid
-    bool clean = true;  ///< improve irregular nodes
-    bool smooth = true; ///< move inner nodes
+    bool grids = true; ///< a region may be filled by one grid
 };
 
 /// What `pave()` built, and how.

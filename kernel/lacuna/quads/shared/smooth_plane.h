@@ -19,13 +19,6 @@ struct SmoothPlaneOptions {
     double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are improved one by one [-]
     int repairs = 20;         ///< rounds over them, >= 0
     bool untangle = true;     ///< untangle folded quads first
-    std::size_t still = 0;    ///< points before this one move only when one next to them has
-};
-
-struct SmoothedPlane {
-    double min_before = 1, min_after = 1; ///< scaled Jacobian
-    bool was_folded = false;              ///< some corner was not positive
-    bool folded = false;                  ///< some still is not
 };
 
 /// Smooth quads of the plane by moving their points, except the first `fixed` ones.
@@ -40,7 +33,7 @@ struct SmoothedPlane {
 /// @throw Cancelled
 /// @note  Deterministic, for any number of threads: 20,000 points and more are swept on all of them.
 ///        O(points) a sweep.
-SmoothedPlane smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
-                           const SmoothPlaneOptions& options = {}, const RunContext& context = {});
+void smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed,
+                  const SmoothPlaneOptions& options = {}, const RunContext& context = {});
 
 } // namespace lacuna::quads

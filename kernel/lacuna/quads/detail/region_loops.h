@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Loops of a region: places and angles along them, and regions within a mesh. Only sources of this folder
+/// include it.
+
+#include <lacuna/quads/detail/corner_sine.h>
+#include <lacuna/quads/region.h>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace lacuna::quads {
+
+/// Node numbers in walking order, the region on the left. In a cut mesh a node may occur twice.
+using Cycle = std::vector<Index>;
+
+/// A length at each place of the plane: the size asked of quads, or the height of rows.
+using SizeField = std::function<double(const Vec2&)>;
+
+/// The point at a place of a loop, counted on past its end.
+inline const Vec2& point_of(std::span<const Vec2> points, const Cycle& loop, std::size_t place)
+{
+    return points[index(loop[place % loop.size()])];
+}
+
+/// The point so many sides along a loop from a place, counted on past its end.
+Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t from, double sides);
+
+/// Add points that divide a loop evenly from one place to another, which is left out.
+void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t from, std::size_t to, int sides,
+                 std::vector<Vec2>& divided);
+
+/// The angle inside the region at a place of a loop [radians].
+double corner_angle(std::span<const Vec2> points, const Cycle& loop, std::size_t place);
+
+/// The angles at all places of a loop [radians].
+std::vector<double> corner_angles(std::span<const Vec2> points, const Cycle& loop);
+
+/// Twice the area within a loop, > 0 where it runs counter-clockwise.
+double twice_area(std::span<const Vec2> points, const Cycle& loop);
+
+/// Call `visit(from, to)` with the nodes of every side, loop after loop.
+template <class Visit>
+void for_sides_of(const std::vector<Cycle>& loops, const Visit& visit)
+{
+    for (const Cycle& loop : loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+    }
+}
+
+/// The same with the points of every side of a region's boundary.
+template <class Visit>
+void for_boundary_sides(const PlanarRegion& region, const Visit& visit)
+{
+    for_sides_of(region.loops,
+                 [&](Index from, Index to) { visit(region.points[index(from)], region.points[index(to)]); });
+}
+
+/// A point at a height over that at a place of a loop, square to the mean of the directions to and from it.
+Vec2 point_above(std::span<const Vec2> points, const Cycle& loop, std::size_t place, const SizeField& height);
+
+/// The region within loops of a mesh.
+struct RegionWithin {
+    PlanarRegion region;
+    std::vector<Index> own; ///< the mesh's number of each of its points
+};
+RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
+                           const SizeField& size = {});
+
+/// Add quads over such a region to the mesh.
+/// @param own    the mesh's numbers of the region's points.
+/// @param inner  the points after those, which are added.
+void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
+                 std::span<const Vec2> inner, std::span<const Quad> filling);
+void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);
+
+} // namespace lacuna::quads

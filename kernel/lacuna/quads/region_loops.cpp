@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/region_loops.h>
+
+#include <algorithm>
+
+namespace lacuna::quads {
+
+Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t from, double sides)
+{
+    const auto whole = static_cast<std::size_t>(sides);
+    const double part = sides - static_cast<double>(whole);
+    return (1 - part) * point_of(points, loop, from + whole) +
+           part * point_of(points, loop, from + whole + 1);
+}
+
+void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t from, std::size_t to, int sides,
+                 std::vector<Vec2>& divided)
+{
+    for (int k = 0; k < sides; ++k)
+        divided.push_back(
+            point_along(points, loop, from, static_cast<double>(k) / sides * static_cast<double>(to - from)));
+}
+
+double corner_angle(std::span<const Vec2> points, const Cycle& loop, std::size_t place)
+{
+    const Vec2& p = point_of(points, loop, place);
+    return turn_between(point_of(points, loop, place + 1) - p,
+                        point_of(points, loop, place + loop.size() - 1) - p);
+}
+
+std::vector<double> corner_angles(std::span<const Vec2> points, const Cycle& loop)
+{
+    std::vector<double> angles(loop.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) angles[i] = corner_angle(points, loop, i);
+    return angles;
+}
+
+double twice_area(std::span<const Vec2> points, const Cycle& loop)
+{
+    const Vec2& origin = points[index(loop.front())];
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        sum += cross(point_of(points, loop, i) - origin, point_of(points, loop, i + 1) - origin);
+    return sum;
+}
+
+Vec2 point_above(std::span<const Vec2> points, const Cycle& loop, std::size_t place, const SizeField& height)
+{
+    const Vec2& here = point_of(points, loop, place);
+    const Vec2 along = (point_of(points, loop, place + 1) - here).normalized() +
+                       (here - point_of(points, loop, place + loop.size() - 1)).normalized();
+    const double length = along.norm();
+    const Vec2 unit = length > 0 ? Vec2(along / length) : Vec2(1, 0);
+    return here + height(here) * Vec2(-unit.y(), unit.x());
+}
+
+RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
+                           const SizeField& size)
+{
+    RegionWithin made{{{}, {}, size}, {}};
+    for (const Cycle& loop : loops) {
+        Cycle& local = made.region.loops.emplace_back();
+        for (const Index p : loop) {
+            local.push_back(static_cast<Index>(made.own.size()));
+            made.region.points.push_back(points[index(p)]);
+            made.own.push_back(p);
+        }
+    }
+    return made;
+}
+
+void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
+                 std::span<const Vec2> inner, std::span<const Quad> filling)
+{
+    const auto rim = static_cast<Index>(own.size()), shift = static_cast<Index>(points.size()) - rim;
+    points.insert(points.end(), inner.begin(), inner.end());
+    for (Quad quad : filling) {
+        for (Index& p : quad) p = p < rim ? own[index(p)] : p + shift;
+        quads.push_back(quad);
+    }
+}
+
+void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling)
+{
+    const std::span<const Vec2> all = filling.points; // none where there is no filling
+    add_filling(mesh.points, mesh.quads, own, all.subspan(std::min(own.size(), all.size())), filling.quads);
+}
+
+} // namespace lacuna::quads
