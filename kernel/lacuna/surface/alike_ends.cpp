@@ -106,7 +106,7 @@ private:
             if (at > 1 - 1e-9) at -= 1;
             high.push_back({vertex, at});
         }
-        std::stable_sort(high.begin(), high.end(), [](const End& a, const End& b) { return a.at < b.at; });
+        std::ranges::stable_sort(high, {}, &End::at);
         if (low.size() != high.size()) return false;
         const std::size_t n = low.size();
         const auto off = [&](std::size_t i, std::size_t shift) {

@@ -25,7 +25,7 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
     const Face& face = volume.model[id];
     if (name == "walls") return volume.role[id.index()] == Role::wall;
     if (face.origin == Origin::made_void) return name == void_name(face);
-    return face.name == name || std::find(face.groups.begin(), face.groups.end(), name) != face.groups.end();
+    return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
 }
 
 /// The part of the edge's parameter range [from, to) that a segment of the rim covers.
@@ -145,7 +145,7 @@ private:
     {
         Vec3 normal = Vec3::Zero();
         for (const Triangle& t : model_[face].triangles) {
-            if (std::find(t.begin(), t.end(), point) == t.end()) continue;
+            if (std::ranges::find(t, point) == t.end()) continue;
             normal += (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
         }
         return normal.stableNormalized();
@@ -197,8 +197,7 @@ std::vector<double> row_heights(const BoundaryLayer& layer)
 
 bool has_face(const OpenVolume& volume, int tag)
 {
-    return std::any_of(volume.model.faces.begin(), volume.model.faces.end(),
-                       [&](const Face& face) { return is_tagged(face, tag); });
+    return std::ranges::any_of(volume.model.faces, [&](const Face& face) { return is_tagged(face, tag); });
 }
 
 bool has_face(const OpenVolume& volume, const std::string& name)
@@ -260,7 +259,7 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
         if (fraction >= part.from && fraction <= part.to) return &part;
     }
     // Parts meet up to rounding: take the nearest.
-    return &*std::min_element(found->second.begin(), found->second.end(), [&](const Part& a, const Part& b) {
+    return &*std::ranges::min_element(found->second, [&](const Part& a, const Part& b) {
         const auto off = [&](const Part& p) { return std::max(p.from - fraction, fraction - p.to); };
         return off(a) < off(b);
     });
@@ -268,9 +267,8 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
 
 RimRows rim_rows(const OpenVolume& volume, std::span<const LinkingSurface> links, const LayerTables& tables)
 {
-    const bool any = std::any_of(tables.of.begin(), tables.of.end(), [&](const auto& entry) {
-        return volume.role[entry.first.index()] == Role::wall;
-    });
+    const bool any = std::ranges::any_of(
+        tables.of, [&](const auto& entry) { return volume.role[entry.first.index()] == Role::wall; });
     return any ? RimReader(volume, tables).read(links) : RimRows{};
 }
 
@@ -292,7 +290,7 @@ std::vector<double> row_places(const Model& model, EdgeId edge, bool at_end, con
         }
         below = above;
     }
-    if (at_end) std::reverse(places.begin(), places.end());
+    if (at_end) std::ranges::reverse(places);
     return places;
 }
 

@@ -180,7 +180,7 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
         for (std::size_t i = 0; i < kRingPoints; ++i)
             apart[k] += (source[i] - target[(i + k) % kRingPoints]).squaredNorm();
     }
-    const auto best = static_cast<std::size_t>(std::min_element(apart.begin(), apart.end()) - apart.begin());
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(apart) - apart.begin());
     const double low = apart[(best + kRingPoints - 1) % kRingPoints], high = apart[(best + 1) % kRingPoints];
     const double bend = low + high - 2 * apart[best];
     const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
@@ -192,8 +192,7 @@ std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& 
                                                     std::span<const LinkingSurface> links)
 {
     std::vector<std::optional<CommonTurn>> turns(links.size());
-    const bool free = std::any_of(links.begin(), links.end(),
-                                  [](const LinkingSurface& b) { return b.lines.empty(); });
+    const bool free = std::ranges::any_of(links, [](const LinkingSurface& b) { return b.lines.empty(); });
     if (!free || links.size() < 2) return turns;
     const std::optional<Eigen::Matrix3d> turn = common_turn(links);
     if (!turn) return turns;

@@ -27,7 +27,7 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     // Same rule as `alike()`, for counts instead of lengths; up to four sides any ratio is accepted.
     // Heuristic.
     constexpr int kUnlike = 3, kFew = 4;
-    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
+    return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
         return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
     });
@@ -115,7 +115,7 @@ bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
 {
     constexpr double kSteepest = 0.5; // cosine of 60°; heuristic
     const std::vector<Triangle>& facets = model[face].triangles;
-    return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
+    return std::ranges::all_of(facets, [&](const Triangle& t) {
         const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
         return area.dot(normal) >= kSteepest * area.norm();
     });

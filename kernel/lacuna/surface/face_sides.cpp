@@ -43,9 +43,9 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     for (const Triangle& t : model[face].triangles) {
         // The angle is that of the facets at this corner alone, also if the face passes the vertex twice (at
         // a seam).
-        const bool touches = std::find(t.begin(), t.end(), at) != t.end();
-        const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
-                             std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
+        const bool touches = std::ranges::find(t, at) != t.end();
+        const bool on_side = std::ranges::find(t, after[1]) != t.end() ||
+                             std::ranges::find(t, before[before.size() - 2]) != t.end();
         if (!touches || !on_side) continue;
         normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
     }
@@ -106,7 +106,7 @@ std::vector<SidePair> grid_sides(const Model& model, FaceId face)
 
 bool alike(const Model& model, const std::vector<SidePair>& pairs)
 {
-    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
+    return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
         return std::max(a, b) <= kUnlike * std::min(a, b);
     });

@@ -245,8 +245,7 @@ void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<V
         std::vector<std::size_t> around;
         for (std::size_t q = 0; q < filling.quads.size(); ++q) {
             const Quad& quad = filling.quads[q];
-            if (std::find(quad.begin(), quad.end(), static_cast<Index>(nearest)) != quad.end())
-                around.push_back(q);
+            if (std::ranges::find(quad, static_cast<Index>(nearest)) != quad.end()) around.push_back(q);
         }
         const double before = least_corner_at(filling, around);
         const Vec2 old = std::exchange(filling.points[nearest], tip);

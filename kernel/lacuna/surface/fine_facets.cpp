@@ -55,10 +55,10 @@ struct FacetSide {
 /// How a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of the sides from each corner.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
-    const auto count = std::count(halved.begin(), halved.end(), true);
+    const auto count = std::ranges::count(halved, true);
     if (count == 0) return {{0, 1, 2}};
     if (count == 3) return {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
-    const auto k = static_cast<std::size_t>(std::find(halved.begin(), halved.end(), true) - halved.begin());
+    const auto k = static_cast<std::size_t>(std::ranges::find(halved, true) - halved.begin());
     return {{k, 3 + k, (k + 2) % 3}, {3 + k, (k + 1) % 3, (k + 2) % 3}};
 }
 

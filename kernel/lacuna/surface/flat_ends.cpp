@@ -88,7 +88,7 @@ private:
         };
         for (const EdgeId edge : inner_) {
             const auto is_it = [&](const ClosedPair& pair) { return pair.target == edge; };
-            if (std::any_of(closed_.begin(), closed_.end(), is_it)) continue;
+            if (std::ranges::any_of(closed_, is_it)) continue;
             FlatEdge flat = flat_edge(base, map_, edge, true);
             flat.cuts = {{0, node_at(base[edge].from)}, {1, node_at(base[edge].to)}};
             flat_.target.push_back(std::move(flat));
@@ -105,8 +105,7 @@ private:
 
     static bool has_node(const FlatEdge& edge, std::size_t node)
     {
-        return std::any_of(edge.cuts.begin(), edge.cuts.end(),
-                           [&](const FlatEdge::Cut& cut) { return cut.node == node; });
+        return std::ranges::any_of(edge.cuts, [&](const FlatEdge::Cut& cut) { return cut.node == node; });
     }
 
     /// The edge closest to a node, among those that do not end in it.
@@ -182,10 +181,9 @@ private:
                         const auto at = crossing(a.line[i], a.line[i + 1], b.line[j], b.line[j + 1]);
                         if (!at) continue;
                         const Vec2 place = a.line[i] + (*at)[0] * (a.line[i + 1] - a.line[i]);
-                        const bool at_node = std::any_of(
-                            flat_.place.begin(), flat_.place.end(), [&](const Vec2& node) {
-                                return (node - place).norm() <= 1e-9 * base_.model.diagonal;
-                            });
+                        const bool at_node = std::ranges::any_of(flat_.place, [&](const Vec2& node) {
+                            return (node - place).norm() <= 1e-9 * base_.model.diagonal;
+                        });
                         if (at_node) continue;
                         const std::size_t node = add_node(place);
                         flat_.source[a.edge].cuts.push_back(

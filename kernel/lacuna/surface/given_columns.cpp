@@ -165,8 +165,7 @@ private:
         for (;;) {
             const auto found = beside_.find(edge_key(a, b));
             if (found == beside_.end()) break;
-            const auto next = std::find_if(found->second.begin(), found->second.end(),
-                                           [&](std::size_t q) { return q != last; });
+            const auto next = std::ranges::find_if(found->second, [&](std::size_t q) { return q != last; });
             if (next == found->second.end()) break;
             last = *next;
             WallQuad& quad = quads_[last];
@@ -193,7 +192,7 @@ private:
 
     static std::size_t position(const Quad& quad, Index point)
     {
-        return static_cast<std::size_t>(std::find(quad.begin(), quad.end(), point) - quad.begin());
+        return static_cast<std::size_t>(std::ranges::find(quad, point) - quad.begin());
     }
 
     /// The columns between strips. Neighbouring strips must agree on their common column as far as both
@@ -346,8 +345,8 @@ int common_line_rows(const Model& model, std::span<const LinkingSurface> links, 
 bool has_column(const GivenColumns& columns, const LinkingSurface& link, double source_at)
 {
     const double slack = kSamePlace * link.source.length();
-    return std::any_of(columns.source_at.begin(), columns.source_at.end(),
-                       [&](double at) { return std::abs(at - source_at) <= slack; });
+    return std::ranges::any_of(columns.source_at,
+                               [&](double at) { return std::abs(at - source_at) <= slack; });
 }
 
 /// Make a side line a column.
@@ -402,7 +401,7 @@ void meet(StubColumn& column)
 {
     if (column.low == nullptr || column.high == nullptr) return;
     const std::vector<Index>&low = column.low->points, &high = column.high->points;
-    const auto found = std::find(high.begin(), high.end(), low.back());
+    const auto found = std::ranges::find(high, low.back());
     if (found == high.end()) return;
     const auto rows = static_cast<std::size_t>(high.end() - found) - 1;
     if (rows >= low.size()) return;

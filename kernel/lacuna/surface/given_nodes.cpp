@@ -85,8 +85,8 @@ private:
 
     [[nodiscard]] bool all_kept(const Chain& chain) const
     {
-        return std::all_of(chain.uses().begin(), chain.uses().end(),
-                           [&](const EdgeUse& use) { return kept_.contains(use.edge); });
+        return std::ranges::all_of(chain.uses(),
+                                   [&](const EdgeUse& use) { return kept_.contains(use.edge); });
     }
 
     /// A ring without side lines starts at a node of the target.
@@ -125,8 +125,8 @@ private:
                                              after.source + s_length);
         const std::vector<double> t = inside(target_, link_.target, before.target + t_length,
                                              after.target + t_length);
-        const auto at = std::find_if(
-            s.begin(), s.end(), [&](double x) { return std::abs(x - s_length) <= kSamePlace * s_length; });
+        const auto at = std::ranges::find_if(
+            s, [&](double x) { return std::abs(x - s_length) <= kSamePlace * s_length; });
         if (s.size() == t.size() && at != s.end())
             return t[static_cast<std::size_t>(at - s.begin())] - t_length;
         const double share = -before.source / (after.source - before.source);
@@ -207,8 +207,7 @@ private:
             for (; i < breaks.size() && breaks[i].source < hard[h + 1] - slack; ++i)
                 between.push_back(breaks[i]);
             if (between.empty() || i >= breaks.size()) return breaks;
-            const bool has_columns = std::any_of(between.begin(), between.end(),
-                                                 [](const Break& b) { return b.given; });
+            const bool has_columns = std::ranges::any_of(between, [](const Break& b) { return b.given; });
             std::vector<Break> paired;
             if (!has_columns) paired = pairs(between.front(), breaks[i]);
             const std::vector<Break>& use = paired.empty() ? between : paired;

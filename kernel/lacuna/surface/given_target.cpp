@@ -44,10 +44,10 @@ public:
     {
         const Quad& q = quads_[index(quad)];
         if (mesh::is_triangle(q)) {
-            const Index last = *std::find_if(q.begin(), q.end(), [&](Index n) { return n != a && n != b; });
+            const Index last = *std::ranges::find_if(q, [&](Index n) { return n != a && n != b; });
             return {a, b, last, last};
         }
-        const auto at = static_cast<std::size_t>(std::find(q.begin(), q.end(), a) - q.begin());
+        const auto at = static_cast<std::size_t>(std::ranges::find(q, a) - q.begin());
         if (q[(at + 1) % 4] == b) return {a, b, q[(at + 2) % 4], q[(at + 3) % 4]};
         return {a, b, q[(at + 2) % 4], q[(at + 1) % 4]};
     }

@@ -189,8 +189,7 @@ private:
         if (common > 1) {
             for (std::int64_t& x : row) x /= common;
         }
-        return std::all_of(row.begin(), row.end(),
-                           [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
+        return std::ranges::all_of(row, [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
     }
 
     [[nodiscard]] std::vector<std::int64_t> rounded_wishes() const
@@ -312,7 +311,7 @@ private:
     [[nodiscard]] std::size_t in_rows(std::size_t v) const
     {
         return static_cast<std::size_t>(
-            std::count_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row[v] != 0; }));
+            std::ranges::count_if(rows_, [&](const Row& row) { return row[v] != 0; }));
     }
 
     /// Sums and differences of vectors that share a variable.
@@ -360,7 +359,7 @@ private:
             cost += below(v, count_[v] + times * by) - below(v, count_[v]);
             for (const auto& [t, often] : terms_of_[v]) touched_.push_back({t, often * times * by});
         }
-        std::sort(touched_.begin(), touched_.end());
+        std::ranges::sort(touched_);
         for (std::size_t i = 0; i < touched_.size();) {
             std::int64_t by = 0;
             const std::size_t t = touched_[i].first;

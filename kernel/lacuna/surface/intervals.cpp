@@ -108,8 +108,7 @@ private:
         for (const LinkingSurface& link : links_) {
             for (const LinkingLine& line : link.lines) {
                 const auto& uses = line.line.uses;
-                const auto use = std::find_if(uses.begin(), uses.end(),
-                                              [&](const EdgeUse& u) { return u.edge == edge; });
+                const auto use = std::ranges::find_if(uses, [&](const EdgeUse& u) { return u.edge == edge; });
                 if (use == uses.end()) continue;
                 if (uses.size() > 1)
                     refuse("names " + name_of(model_, edge) +
@@ -132,8 +131,7 @@ private:
     {
         for (const LinkingSurface& link : links_) {
             const std::vector<EdgeUse>& uses = link.target.uses();
-            const auto use = std::find_if(uses.begin(), uses.end(),
-                                          [&](const EdgeUse& u) { return u.edge == edge; });
+            const auto use = std::ranges::find_if(uses, [&](const EdgeUse& u) { return u.edge == edge; });
             if (use == uses.end()) continue;
             const auto number = static_cast<std::size_t>(use - uses.begin());
             add_segments(link, asked, [&](const RimSegment& segment) {
@@ -149,7 +147,7 @@ private:
 
     static void turn_round(SidesAsked& asked)
     {
-        std::reverse(asked.parts.begin(), asked.parts.end());
+        std::ranges::reverse(asked.parts);
         for (SidesAsked::Part& part : asked.parts) part.reversed = !part.reversed;
     }
 

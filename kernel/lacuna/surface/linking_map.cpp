@@ -171,8 +171,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         const double natural = link.branch
                                    ? *link.branch
                                    : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);
-        const auto end = std::find_if(high.begin(), high.end(),
-                                      [&](const ChainNode& p) { return p.point == cut.back(); });
+        const auto end = std::ranges::find_if(high,
+                                              [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
@@ -420,8 +420,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                     const auto found = facets.half.find(directed_key(points[i], points[i + 1]));
                     if (found == facets.half.end()) continue;
                     const Triangle& t = facets.triangles[found->second];
-                    const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
-                                                            t.begin());
+                    const auto c = static_cast<std::size_t>(std::ranges::find(t, points[i]) - t.begin());
                     const Vec2 a = upright(corners[found->second][c]);
                     const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
                     piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
@@ -456,11 +455,9 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         for (bool grown = true; grown;) {
             grown = false;
             for (std::size_t j = 0; j < pieces.size(); ++j) {
-                const bool meets = std::any_of(
-                    pieces[j].vertices.begin(), pieces[j].vertices.end(), [&](VertexId v) {
-                        return std::find(ring.vertices.begin(), ring.vertices.end(), v) !=
-                               ring.vertices.end();
-                    });
+                const bool meets = std::ranges::any_of(pieces[j].vertices, [&](VertexId v) {
+                    return std::ranges::find(ring.vertices, v) != ring.vertices.end();
+                });
                 if (used[j] || !meets) continue;
                 used[j] = grown = true;
                 const auto more = static_cast<double>(pieces[j].pieces.size());
@@ -474,8 +471,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         ring.height /= weight;
         rings_.push_back(std::move(ring));
     }
-    std::stable_sort(rings_.begin(), rings_.end(),
-                     [](const Ring& a, const Ring& b) { return a.height < b.height; });
+    std::ranges::stable_sort(rings_, {}, &Ring::height);
 }
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
@@ -492,7 +488,7 @@ std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double
                 {a.y() + f * (b.y() - a.y()), piece.edge, piece.from + f * (piece.to - piece.from)});
         }
     }
-    std::sort(result.begin(), result.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::ranges::sort(result, {}, &Crossing::t);
     return result;
 }
 

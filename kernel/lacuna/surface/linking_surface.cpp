@@ -170,8 +170,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
         const auto t = use_leaving(model, link.target.uses(), pair.target);
         if (s && t) places.push_back({link.source.start(*s), link.target.start(*t)});
     }
-    std::sort(places.begin(), places.end(),
-              [](const PairedPlaces& a, const PairedPlaces& b) { return a.source_at < b.source_at; });
+    std::ranges::sort(places, {}, &PairedPlaces::source_at);
     return places;
 }
 
@@ -232,8 +231,7 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
         link.lines.push_back({line, link.source.start(*use_leaving(model, source, line.source)),
                               link.target.start(*use_leaving(model, target, line.target))});
     }
-    std::sort(link.lines.begin(), link.lines.end(),
-              [](const LinkingLine& a, const LinkingLine& b) { return a.source_at < b.source_at; });
+    std::ranges::sort(link.lines, {}, &LinkingLine::source_at);
     link.lines = in_order(std::move(link.lines));
 
     const double s_end = link.source.length();

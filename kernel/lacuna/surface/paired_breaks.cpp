@@ -38,7 +38,7 @@ std::vector<std::pair<double, double>> paired(const std::vector<double>& a, cons
             result.emplace_back(-1, b[--j]);
         }
     }
-    std::reverse(result.begin(), result.end());
+    std::ranges::reverse(result);
     return result;
 }
 
@@ -78,7 +78,7 @@ void complete(std::vector<std::pair<double, double>>& breaks)
         else
             b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
     }
-    std::sort(breaks.begin(), breaks.end());
+    std::ranges::sort(breaks);
 }
 
 } // namespace lacuna::surface

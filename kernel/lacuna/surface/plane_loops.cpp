@@ -18,9 +18,8 @@ double signed_area(std::span<const Vec2> points, std::span<const Index> loop)
 
 void sort_outer_first(std::span<const Vec2> points, std::vector<std::vector<Index>>& loops)
 {
-    std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
-        return signed_area(points, a) > signed_area(points, b);
-    });
+    std::ranges::stable_sort(
+        loops, [&](const auto& a, const auto& b) { return signed_area(points, a) > signed_area(points, b); });
 }
 
 } // namespace lacuna::surface

@@ -62,8 +62,7 @@ std::map<std::size_t, std::vector<Spoke>> spokes_of(std::span<const PlaneChain> 
         spokes[chains[c].to].push_back({angle(line.back(), line[line.size() - 2]), {c, true}});
     }
     for (auto& [node, around] : spokes) {
-        std::stable_sort(around.begin(), around.end(),
-                         [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
+        std::ranges::stable_sort(around, {}, &Spoke::angle);
     }
     return spokes;
 }
@@ -123,8 +122,8 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
         std::size_t round = regions.size();
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            const bool own = std::any_of(regions[r].loops.front().begin(), regions[r].loops.front().end(),
-                                         [&](const PlaneUse& u) { return u.chain == use.chain; });
+            const bool own = std::ranges::any_of(regions[r].loops.front(),
+                                                 [&](const PlaneUse& u) { return u.chain == use.chain; });
             if (own || areas[r] >= least || !inside(outlines[r], at)) continue;
             round = r;
             least = areas[r];

@@ -65,14 +65,13 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
         }
         SeedPiece piece{from, to, segment.source_to - segment.source_from, 1};
         if (!segment.target_follows) piece.opposite = opposite_turning(target, segment);
-        if (use.reversed) std::reverse(piece.opposite.begin(), piece.opposite.end());
+        if (use.reversed) std::ranges::reverse(piece.opposite);
         piece.fixed = segment.given;
         piece.follows = segment.follows;
         seeds.pieces[use.edge].push_back(std::move(piece));
     }
     for (auto& [edge, pieces] : seeds.pieces) {
-        std::sort(pieces.begin(), pieces.end(),
-                  [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
+        std::ranges::sort(pieces, {}, &SeedPiece::from);
     }
 }
 

@@ -65,7 +65,7 @@ double quads_asked(const Model& model, const Seeds& seeds, FaceId face)
 bool is_fixed(const Seeds& seeds, EdgeId edge)
 {
     const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
-    return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
+    return std::ranges::all_of(pieces, [](const SeedPiece& piece) { return piece.fixed; });
 }
 
 bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by)

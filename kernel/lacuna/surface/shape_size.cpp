@@ -74,7 +74,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
     };
     std::vector<Index> number; // model points of the face, sorted
     for (const Triangle& t : f.triangles) number.insert(number.end(), t.begin(), t.end());
-    std::sort(number.begin(), number.end());
+    std::ranges::sort(number);
     number.erase(std::unique(number.begin(), number.end()), number.end());
     const auto place = [&](Index p) {
         return static_cast<std::size_t>(std::lower_bound(number.begin(), number.end(), p) - number.begin());

@@ -141,7 +141,7 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
             const double middle = (all[i].from + all[i].to) / 2;
             if (middle > part.from && middle < part.to) within.push_back(i);
         }
-        if (part.reversed) std::reverse(within.begin(), within.end());
+        if (part.reversed) std::ranges::reverse(within);
         for (const std::size_t i : within) {
             pieces.push_back(&all[i]);
             reversed.push_back(part.reversed);
@@ -167,7 +167,7 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
             if (reversed[p]) share = 1 - share;
             own.kept.push_back(own.from + share * (own.to - own.from));
         }
-        std::sort(own.kept.begin(), own.kept.end());
+        std::ranges::sort(own.kept);
         settle(model, askers, *pieces[p], own, who + " on " + names[p], asked);
     }
 }

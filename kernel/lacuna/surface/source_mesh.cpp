@@ -130,7 +130,7 @@ private:
                                 static_cast<Index>((i + static_cast<std::size_t>(k)) % points.size()));
             i += chain.size() - 1;
             node_of_[use_from(model_, use)] = chain.front();
-            if (use.reversed) std::reverse(chain.begin(), chain.end());
+            if (use.reversed) std::ranges::reverse(chain);
             rim_.insert(use.edge);
             result_.on_edge[use.edge] = std::move(chain);
         }
@@ -159,7 +159,7 @@ private:
     [[nodiscard]] std::vector<Index> nodes_along(EdgeUse use) const
     {
         std::vector<Index> chain = result_.on_edge.at(use.edge);
-        if (use.reversed) std::reverse(chain.begin(), chain.end());
+        if (use.reversed) std::ranges::reverse(chain);
         return chain;
     }
 
@@ -198,8 +198,8 @@ private:
                 side[s].insert(side[s].end(), chain.begin() + (side[s].empty() ? 0 : 1), chain.end());
             }
         }
-        std::reverse(side[2].begin(), side[2].end());
-        std::reverse(side[3].begin(), side[3].end());
+        std::ranges::reverse(side[2]);
+        std::ranges::reverse(side[3]);
         const std::size_t n = side[0].size() - 1, m = side[1].size() - 1;
         const auto places = [&](const std::vector<Index>& nodes) {
             std::vector<Vec3> points;
@@ -248,7 +248,7 @@ private:
                 if (angle < kRowsEnd) rows.turn[next] = quads::RowTurn::inner;
                 if (angle > kRowsBreak) rows.turn[next] = quads::RowTurn::outer;
                 std::vector<double> at = seeds_.fractions(use.edge);
-                if (use.reversed) std::reverse(at.begin(), at.end());
+                if (use.reversed) std::ranges::reverse(at);
                 for (std::size_t i = 0; i + 1 < at.size(); ++i, ++next) {
                     const RimRows::Part* part = seeds_.rows.part_at(use.edge, (at[i] + at[i + 1]) / 2);
                     if (part != nullptr) rows.table[next] = part->table;
@@ -323,7 +323,7 @@ private:
             for (const EdgeUse& use : loop.uses) {
                 const std::vector<Index> chain = nodes_along(use);
                 std::vector<double> fractions = seeds_.fractions(use.edge);
-                if (use.reversed) std::reverse(fractions.begin(), fractions.end());
+                if (use.reversed) std::ranges::reverse(fractions);
                 for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
                     cycle.push_back(static_cast<Index>(rim.size()));
                     boundary.push_back(chain[i]);
@@ -333,7 +333,7 @@ private:
             }
         }
         const quads::BoundaryRows rows = rows_along(face, rim);
-        const bool any = std::any_of(rows.table.begin(), rows.table.end(), [](int t) { return t >= 0; });
+        const bool any = std::ranges::any_of(rows.table, [](int t) { return t >= 0; });
         const FaceQuads filling = fill_face(model_, face, rim, loops, sizes_, mesher_, any ? &rows : nullptr,
                                             context_);
         if (filling.finding) refuse_rows(face, rim, *filling.finding);

@@ -82,8 +82,7 @@ public:
             const auto& [lines, rungs] = part;
             check_cancelled(context_);
             if (worst_cosine(rungs, 1) < kWorthIt) continue;
-            const bool swept = std::any_of(rungs.begin(), rungs.end(),
-                                           [&](std::size_t r) { return rungs_[r].on_rims; });
+            const bool swept = std::ranges::any_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
             if (swept && !std::exchange(above, true) && !add_sections()) return;
             settle(lines, rungs);
         }
@@ -147,7 +146,7 @@ private:
                     points.clear();
                     for (std::size_t i = 0; i <= sides; ++i)
                         points.push_back(walls[b].points[k * round + (next + i) % round]);
-                    if (use.reversed) std::reverse(points.begin(), points.end());
+                    if (use.reversed) std::ranges::reverse(points);
                 }
                 next += sides;
             }
@@ -163,8 +162,8 @@ private:
             for (std::size_t i = corners[s]; i != corners[(s + 1) % 4]; i = (i + 1) % loop.uses.size())
                 add_nodes(loop.uses[i], side[s]);
         }
-        std::reverse(side[2].begin(), side[2].end());
-        std::reverse(side[3].begin(), side[3].end());
+        std::ranges::reverse(side[2]);
+        std::ranges::reverse(side[3]);
         add_between(side[0], side[2], side[3], side[1]);
         add_between(side[3], side[1], side[0], side[2]);
     }
@@ -274,7 +273,7 @@ private:
     /// Whether the angles between lines and edges vary from section to section.
     [[nodiscard]] bool are_unlike(const std::vector<std::size_t>& rungs) const
     {
-        return std::any_of(rungs.begin(), rungs.end(), [&](std::size_t r) {
+        return std::ranges::any_of(rungs, [&](std::size_t r) {
             const std::array<Cosine, 2> below = cosines(rungs_[r], kSource);
             for (std::size_t section = 1; section < kSections; ++section) {
                 const std::array<Cosine, 2> own = cosines(rungs_[r], section);
@@ -450,8 +449,7 @@ private:
     bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                       std::size_t variables)
     {
-        const bool swept = std::all_of(rungs.begin(), rungs.end(),
-                                       [&](std::size_t r) { return rungs_[r].on_rims; });
+        const bool swept = std::ranges::all_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
         if (!swept || !are_unlike(rungs)) return false;
         const double before = worst_cosine(rungs, kSections);
         std::vector<std::vector<double>> alike;

@@ -138,7 +138,7 @@ private:
             for (std::size_t r = 0; r < level_layer_.size(); ++r) {
                 if (!net_.levels[r].plain) continue;
                 const auto& vertices = map_->rings()[*net_.levels[r].ring].vertices;
-                if (std::find(vertices.begin(), vertices.end(), v) != vertices.end())
+                if (std::ranges::find(vertices, v) != vertices.end())
                     at_layer[level_layer_[r]] = chain.start(u) / chain.length();
             }
         }
@@ -267,8 +267,7 @@ private:
             const double s = net_.stops[stop].place.x();
             anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
         }
-        std::sort(anchors.begin(), anchors.end(),
-                  [](const Anchor& a, const Anchor& b) { return a.node < b.node; });
+        std::ranges::sort(anchors, {}, &Anchor::node);
         for (std::size_t a = 0; a < anchors.size(); ++a) {
             const Anchor& from = anchors[a];
             Anchor to = anchors[(a + 1) % anchors.size()];
@@ -349,7 +348,7 @@ private:
         const std::string why = "makes layers overlap; use more layers";
         if (!net_.levels.empty()) refuse_wall_edge(model_, net_.levels.front().edge, why);
         if (!net_.columns.empty()) refuse_wall_edge(model_, net_.columns.front().edge, why);
-        const auto given = std::find(given_.side.begin(), given_.side.end(), 1) - given_.side.begin();
+        const auto given = std::ranges::find(given_.side, 1) - given_.side.begin();
         throw NotSweepable("surface.wall_rows", "the mesh that " +
                                                     name_of(model_, faces_[static_cast<std::size_t>(given)]) +
                                                     " came with " + why);

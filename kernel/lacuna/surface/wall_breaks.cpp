@@ -106,7 +106,7 @@ private:
                 that.low <= own.high)
                 return true;
         }
-        return std::any_of(link_.lines.begin(), link_.lines.end(), [&](const LinkingLine& line) {
+        return std::ranges::any_of(link_.lines, [&](const LinkingLine& line) {
             return std::abs(line.source_at - at) <= kRounding * link_.source.length();
         });
     }
@@ -196,7 +196,7 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
     for (LinkingSurface& link : links) {
         layers = std::max(layers, layers_between_rings(volume.model, link));
         if (!has_net(volume.model, link)) continue;
-        const bool has_given = std::any_of(link.walls.begin(), link.walls.end(), [&](FaceId wall) {
+        const bool has_given = std::ranges::any_of(link.walls, [&](FaceId wall) {
             return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);
         });
         try {

@@ -160,8 +160,7 @@ private:
         for (const auto& [vertex, place] : places) {
             if (level.plain || !on_line_.contains(vertex)) continue;
             const std::size_t stop = stop_at(vertex, place);
-            if (std::find(level.stops.begin(), level.stops.end(), stop) == level.stops.end())
-                level.stops.push_back(stop);
+            if (std::ranges::find(level.stops, stop) == level.stops.end()) level.stops.push_back(stop);
         }
         for (const std::size_t stop : level.stops) net_.stops[stop].level = static_cast<int>(r);
         level_stops_.insert(level.stops.begin(), level.stops.end());
@@ -247,7 +246,7 @@ private:
             if (edge.low == stop || edge.high == stop) return edge.upright->edge;
         }
         for (const WallNet::Level& level : net_.levels) {
-            if (std::find(level.stops.begin(), level.stops.end(), stop) == level.stops.end()) continue;
+            if (std::ranges::find(level.stops, stop) == level.stops.end()) continue;
             for (const LinkingMap::Piece& piece : map_.rings()[*level.ring].pieces) {
                 const Edge& edge = model_[piece.edge];
                 if (edge.from == net_.stops[stop].vertex || edge.to == net_.stops[stop].vertex)
@@ -279,8 +278,7 @@ private:
         for (std::size_t i = 0; i < net_.stops.size(); ++i) members[groups.of(i)].push_back(i);
         std::vector<std::pair<WallNet::Column, std::vector<std::size_t>>> made;
         for (const auto& [root, stops] : members) made.emplace_back(column_of(stops), stops);
-        std::stable_sort(made.begin(), made.end(),
-                         [](const auto& a, const auto& b) { return a.first.at < b.first.at; });
+        std::ranges::stable_sort(made, [](const auto& a, const auto& b) { return a.first.at < b.first.at; });
         for (auto& [column, stops] : made) {
             for (const std::size_t stop : stops) net_.stops[stop].column = net_.columns.size();
             net_.columns.push_back(column);
@@ -341,7 +339,7 @@ private:
     {
         std::vector<std::size_t> order(net_.levels.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
             return net_.levels[a].height < net_.levels[b].height;
         });
         std::vector<WallNet::Level> sorted;
@@ -371,8 +369,7 @@ private:
 bool WallNet::over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const
 {
     for (const std::size_t line : levels[a].lines) {
-        if (std::find(levels[b].lines.begin(), levels[b].lines.end(), line) != levels[b].lines.end())
-            return true;
+        if (std::ranges::find(levels[b].lines, line) != levels[b].lines.end()) return true;
     }
     for (const std::size_t i : levels[a].stops) {
         for (const std::size_t j : levels[b].stops) {

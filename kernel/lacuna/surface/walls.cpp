@@ -49,7 +49,7 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
                 for (const EdgeUse& use : loop.uses) {
                     if (borders.contains(use.edge)) continue;
                     for (const FaceUse& other : uses[use.edge.index()]) {
-                        const bool known = std::find(faces.begin(), faces.end(), other.face) != faces.end();
+                        const bool known = std::ranges::find(faces, other.face) != faces.end();
                         if (!known && walls.contains(other.face)) faces.push_back(other.face);
                     }
                 }
@@ -110,8 +110,7 @@ private:
         if (begun_.given.has_all(0, count_)) return std::move(mesh_);
         const auto panels = panel_faces(model_, link_);
         const bool simple = !panels.empty() &&
-                            std::all_of(panels.begin(), panels.end(),
-                                        [&](const auto& faces) { return is_simple(faces); });
+                            std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
