@@ -80,17 +80,14 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
             }
         }
         if (longest == nullptr) continue;
+        const std::string found = "the rim of " + name_of(task.model, face) + " came with " +
+                                  std::to_string(sides_of(task.model, seeds, face)) + " sides, an odd number";
         if (task.wedges) {
-            seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
-                                  std::to_string(sides_of(task.model, seeds, face)) +
-                                  " sides, an odd number: one cell of the face is a triangle");
+            seeds.notes.push_back(found + ": one cell of the face is a triangle");
             triangles.insert(face);
             continue;
         }
-        seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
-                              std::to_string(sides_of(task.model, seeds, face)) +
-                              " sides, an odd number, which quads cannot fill: a side on " +
-                              name_of(task.model, at) +
+        seeds.notes.push_back(found + ", which quads cannot fill: a side on " + name_of(task.model, at) +
                               " and the wall column above it are split in two; wedges = true keeps them");
         longest->kept.push_back((longest->from + longest->to) / 2);
         longest->count = 2;
@@ -134,9 +131,8 @@ void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<
     for (const auto& [edge, faces] : task.users) {
         if (settled.contains(edge) || !std::ranges::all_of(faces, is_many)) continue;
         for (SeedPiece& piece : seeds.pieces.at(edge)) {
-            if (piece.fixed || !piece.low.empty() || !piece.high.empty() || piece.sides < quads::kFewestEven)
-                continue;
-            piece.count = quads::even_sides(piece.sides, piece.least);
+            if (!piece.fixed && piece.rows() == 0 && piece.sides >= quads::kFewestEven)
+                piece.count = quads::even_sides(piece.sides, piece.least);
         }
     }
 }

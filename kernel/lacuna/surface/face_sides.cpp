@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <lacuna/quads/shared/submap.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
         const bool on_side = std::ranges::find(t, after[1]) != t.end() ||
                              std::ranges::find(t, before[before.size() - 2]) != t.end();
         if (!touches || !on_side) continue;
-        normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        normal += facet_area_vector(model, t);
     }
     const Vec3 out = model.at(after[1]) - model.at(at);
     const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/flat_ends.h>
 
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/imprint.h>
 
 #include <algorithm>
 #include <map>
@@ -46,16 +47,12 @@ private:
         for (const RimPair& pair : pairs_) partner[pair.target] = pair.source;
         const auto uses = edge_uses(base);
         std::set<VertexId> on_rim;
-        std::vector<EdgeId> source_inner;
         for (std::size_t e = 0; e < uses.size(); ++e) {
             if (uses[e].size() != 2) continue;
             const Role a = base_.role[uses[e][0].face.index()], b = base_.role[uses[e][1].face.index()];
-            const bool seam = uses[e][0].face == uses[e][1].face;
-            if (a == Role::source && b == Role::source && !seam) source_inner.emplace_back(e);
-            if ((a == Role::source) != (b == Role::source)) {
-                on_rim.insert({base.edges[e].from, base.edges[e].to});
-                if (a == Role::source || b == Role::source) flat_.rim.emplace_back(e);
-            }
+            if ((a == Role::source) == (b == Role::source)) continue;
+            on_rim.insert({base.edges[e].from, base.edges[e].to});
+            flat_.rim.emplace_back(e);
         }
         const auto source_node = [&](VertexId vertex) {
             const auto [found, fresh] = node_of_.try_emplace(vertex, flat_.place.size());
@@ -70,7 +67,7 @@ private:
             source_node(base[edge].from);
             source_node(base[edge].to);
         }
-        for (const EdgeId edge : source_inner) {
+        for (const EdgeId edge : inner_edges(base_, Role::source)) {
             FlatEdge flat = flat_edge(base, map_, edge, false);
             flat.cuts = {{0, source_node(base[edge].from)}, {1, source_node(base[edge].to)}};
             flat_.source.push_back(std::move(flat));

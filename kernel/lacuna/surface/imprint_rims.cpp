@@ -48,16 +48,16 @@ EdgeId inner_at(const Model& model, std::span<const EdgeId> inner, VertexId vert
     return inner.front();
 }
 
-VertexId split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
+} // namespace
+
+EdgeSplit split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
 {
     try {
-        return split_edge(model, edge, fraction).vertex;
+        return split_edge(model, edge, fraction);
     } catch (const InvalidInput& error) {
         refuse_imprint(model, because, error.what());
     }
 }
-
-} // namespace
 
 std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> links,
                                std::span<const EdgeId> inner, const SizeField& size)
@@ -105,7 +105,7 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
         double end = 1; // the part of the original edge that is left
         for (const Split& split : list) {
             pairs.push_back(
-                {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)),
+                {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)).vertex,
                  split.target});
             end = split.fraction;
         }

@@ -155,7 +155,9 @@ private:
             }
             if (best == n) break; // the remaining rows have no variables
             std::swap(rows_[done], rows_[best_row]);
-            if (rows_[done][best] < 0) negate(rows_[done]);
+            if (rows_[done][best] < 0) {
+                for (std::int64_t& x : rows_[done]) x = -x;
+            }
             for (std::size_t r = 0; r < rows_.size(); ++r) {
                 if (r != done && rows_[r][best] != 0 && !eliminate(rows_[r], rows_[done], best)) return false;
             }
@@ -171,11 +173,6 @@ private:
             if (is_pivot[v] == 0) free_.push_back(v);
         }
         return true;
-    }
-
-    static void negate(Row& row)
-    {
-        for (std::int64_t& x : row) x = -x;
     }
 
     static bool eliminate(Row& row, const Row& by, std::size_t pivot)
@@ -454,27 +451,20 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
     for (std::size_t v = 0; v < n; ++v) {
         if (!program.variables[v].fixed) parts[sets.find(v)].variables.push_back(v);
     }
-    const auto set_of = [&](const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
-        for (const auto* side : {&one, &other}) {
-            for (const std::size_t v : *side) {
-                if (!program.variables[v].fixed) return sets.find(v);
-            }
+
+    const auto sort = [&](std::vector<std::size_t> Parts::*list, std::size_t count, const auto& first) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t variable = first(i);
+            if (variable != kNone) (parts[sets.find(variable)].*list).push_back(i);
         }
-        return kNone;
     };
-    for (std::size_t e = 0; e < program.equations.size(); ++e) {
-        const IntervalEquation& equation = program.equations[e];
-        const std::size_t set = set_of(equation.one, equation.other);
-        if (set != kNone) parts[set].equations.push_back(e);
-    }
-    for (std::size_t w = 0; w < program.wishes.size(); ++w) {
-        const std::size_t set = set_of(program.wishes[w].variables, {});
-        if (set != kNone) parts[set].wishes.push_back(w);
-    }
-    for (std::size_t f = 0; f < program.floors.size(); ++f) {
-        const std::size_t set = set_of(program.floors[f].variables, {});
-        if (set != kNone) parts[set].floors.push_back(f);
-    }
+    sort(&Parts::equations, program.equations.size(), [&](std::size_t e) {
+        return first_of(program.equations[e].other, first_of(program.equations[e].one, kNone));
+    });
+    sort(&Parts::wishes, program.wishes.size(),
+         [&](std::size_t w) { return first_of(program.wishes[w].variables, kNone); });
+    sort(&Parts::floors, program.floors.size(),
+         [&](std::size_t f) { return first_of(program.floors[f].variables, kNone); });
 
     std::vector<int> counts(n);
     for (std::size_t v = 0; v < n; ++v) counts[v] = program.variables[v].given;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/mapped_face.h>
 
-#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_regions.h>
 
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/surface/detail/plane_loops.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,27 +24,6 @@ std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Walk& loop
             points.push_back(use.reversed ? line[line.size() - 1 - i] : line[i]);
     }
     return points;
-}
-
-double area_of(const std::vector<Vec2>& points)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec2 &a = points[i], &b = points[(i + 1) % points.size()];
-        sum += a.x() * b.y() - a.y() * b.x();
-    }
-    return sum / 2;
-}
-
-bool inside(const std::vector<Vec2>& polygon, const Vec2& p)
-{
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Vec2 &a = polygon[i], &b = polygon[j];
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
-    }
-    return in;
 }
 
 /// An outgoing half-edge of a node.
@@ -106,7 +88,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
     std::vector<Walk> holes;
     for (Walk& loop : traced_loops(chains)) {
         std::vector<Vec2> outline = points_of(chains, loop);
-        const double area = area_of(outline);
+        const double area = signed_area(outline);
         if (!(area > 0)) {
             holes.push_back(std::move(loop));
             continue;
@@ -124,7 +106,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
         for (std::size_t r = 0; r < regions.size(); ++r) {
             const bool own = std::ranges::any_of(regions[r].loops.front(),
                                                  [&](const PlaneUse& u) { return u.chain == use.chain; });
-            if (own || areas[r] >= least || !inside(outlines[r], at)) continue;
+            if (own || areas[r] >= least || !geometry::lies_inside(outlines[r], at)) continue;
             round = r;
             least = areas[r];
         }

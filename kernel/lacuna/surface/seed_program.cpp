@@ -49,11 +49,11 @@ struct Program {
 
 void add_piece(SeedPiece& piece, Program& program)
 {
-    const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
-    const double wanted = rows > 0 ? piece.count : piece.sides;
+    const double wanted = piece.rows() > 0 ? piece.count : piece.sides;
     const std::size_t variable = program.intervals.variables.size();
     program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), 1});
-    program.intervals.variables.push_back({std::max(piece.least, rows + 1), piece.count, piece.fixed});
+    program.intervals.variables.push_back(
+        {std::max(piece.least, piece.rows() + 1), piece.count, piece.fixed});
     program.pieces.push_back(&piece);
     program.piece_variable.push_back(variable);
 }

@@ -2,17 +2,19 @@
 #include <lacuna/surface/shared/source_mesh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/raise_quads.h>
 #include <lacuna/surface/shared/fill_face.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::surface {
 
@@ -87,22 +89,15 @@ private:
 
     void put_triangles_last()
     {
-        mesh::QuadMesh& cells = result_.quads;
-        std::vector<Quad> triangles;
-        std::vector<Index> face;
-        std::size_t quads = 0;
-        for (std::size_t q = 0; q < cells.quads.size(); ++q) {
-            if (mesh::is_triangle(cells.quads[q])) {
-                triangles.push_back(cells.quads[q]);
-                face.push_back(cells.face[q]);
-                continue;
+        const std::vector<Quad> cells = std::exchange(result_.quads.quads, {});
+        const std::vector<Index> face = std::exchange(result_.quads.face, {});
+        for (const bool triangles : {false, true}) {
+            for (std::size_t q = 0; q < cells.size(); ++q) {
+                if (mesh::is_triangle(cells[q]) != triangles) continue;
+                result_.quads.quads.push_back(cells[q]);
+                result_.quads.face.push_back(face[q]);
             }
-            cells.quads[quads] = cells.quads[q];
-            cells.face[quads++] = cells.face[q];
         }
-        std::copy(triangles.begin(), triangles.end(),
-                  cells.quads.begin() + static_cast<std::ptrdiff_t>(quads));
-        std::copy(face.begin(), face.end(), cells.face.begin() + static_cast<std::ptrdiff_t>(quads));
     }
 
     Index add_node(const Vec3& p)
@@ -167,11 +162,9 @@ private:
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
-        for (const Loop& loop : model_[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
-                for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
-            }
+        for (const EdgeUse& use : all_uses(model_[face])) {
+            const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
+            for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
         }
         std::vector<Quad> cells = model_[face].given_quads;
         for (const Triangle& t : loose_triangles(model_[face])) cells.push_back({t[0], t[1], t[2], t[2]});
@@ -263,11 +256,7 @@ private:
                                   const quads::RowsFinding& finding) const
     {
         using Why = quads::RowsFinding::Why;
-        const auto number = [](double x) {
-            char words[32];
-            std::snprintf(words, sizeof words, "%.4g", x);
-            return std::string(words);
-        };
+        const std::string asked = with_digits(finding.asked, 4), found = with_digits(finding.found, 4);
         const RimNode& node = rim[static_cast<std::size_t>(finding.node)];
         std::string wall = "a wall";
         for (const auto& [edge, parts] : seeds_.rows.parts) {
@@ -278,26 +267,22 @@ private:
         }
         const std::string who = "the boundary layers of " + wall + " along " + name_of(model_, node.edge) +
                                 " of " + name_of(model_, face);
-        const std::string where = " near (" + number(node.point.x()) + ", " + number(node.point.y()) + ", " +
-                                  number(node.point.z()) + ")";
+        const std::string where = " near " + place_with_digits(node.point, 4);
         switch (finding.why) {
         case Why::no_room:
-            throw NotSweepable("surface.layers_room", who + " are " + number(finding.asked) +
-                                                          " high in all, and " + number(finding.found) +
+            throw NotSweepable("surface.layers_room", who + " are " + asked + " high in all, and " + found +
                                                           where +
                                                           " is the room to the opposite side, including its "
                                                           "rows; use fewer or thinner rows");
         case Why::sharp_bend:
-            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " +
-                                                          number(finding.asked) + "; there is room for " +
-                                                          number(finding.found) +
+            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " + asked +
+                                                          "; there is room for " + found +
                                                           " there; use fewer or thinner rows, or a "
                                                           "smaller size");
         case Why::off_height:
             throw NotSweepable("surface.layers_ends",
-                               who + " end" + where + " on nodes at height " + number(finding.found) +
-                                   " instead of " + number(finding.asked) +
-                                   "; these are given nodes, or the edge is too short for the rows");
+                               who + " end" + where + " on nodes at height " + found + " instead of " +
+                                   asked + "; these are given nodes, or the edge is too short for the rows");
         case Why::unlike:
             break;
         }
