@@ -67,22 +67,19 @@ void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
     for (std::vector<EdgeId>& set : alike_edges(model, face)) {
         double sum = 0;
         bool same = true;
+        int most = 1, least = 1;
         for (const EdgeId edge : set) {
             const SeedPiece& piece = seeds.pieces.at(edge).front();
-            same = same && seeds.pieces.at(edge).size() == 1 && !piece.fixed && piece.low.empty() &&
-                   piece.high.empty();
+            same = same && seeds.pieces.at(edge).size() == 1 && !piece.fixed && piece.rows() == 0;
             sum += piece.sides;
+            most = std::max(most, piece.count);
+            least = std::max(least, piece.least);
         }
         const double mean = sum / static_cast<double>(set.size());
         for (const EdgeId edge : set)
             same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kSame * mean;
         if (!same) continue;
         // Counts that differ by rounding alone must round to the same integer.
-        int most = 1, least = 1;
-        for (const EdgeId edge : set) {
-            most = std::max(most, seeds.pieces.at(edge).front().count);
-            least = std::max(least, seeds.pieces.at(edge).front().least);
-        }
         for (const EdgeId edge : set) {
             SeedPiece& piece = seeds.pieces.at(edge).front();
             piece.sides = mean;

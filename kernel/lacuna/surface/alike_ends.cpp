@@ -5,6 +5,7 @@
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/shared/imprint.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,21 +50,16 @@ public:
     std::optional<AlikeEnds> run()
     {
         const std::size_t sources = volume_.faces(Role::source).size();
-        if (sources != volume_.faces(Role::target).size()) return std::nullopt;
-        for (const LinkingSurface& link : links_) {
-            if (!pair(link)) return std::nullopt;
-        }
-        if (!walk_faces(Role::source) || !walk_faces(Role::target)) return std::nullopt;
-        for (const RimPair& pair : result_.pairs) {
-            if (!match_at(pair)) return std::nullopt;
-        }
-        for (const LinkingSurface& link : links_) {
-            if (!match_rims(link)) return std::nullopt;
-        }
+        if (sources != volume_.faces(Role::target).size() ||
+            !std::ranges::all_of(links_, [&](const LinkingSurface& link) { return pair(link); }) ||
+            !walk_faces(Role::source) || !walk_faces(Role::target) ||
+            !std::ranges::all_of(result_.pairs, [&](const RimPair& pair) { return match_at(pair); }) ||
+            !std::ranges::all_of(links_, [&](const LinkingSurface& link) { return match_rims(link); }))
+            return std::nullopt;
         for (bool grown = true; grown;) {
             for (; next_ < front_.size(); ++next_) {
                 const auto [low, high] = front_[next_];
-                if (!match_across(low, high)) return std::nullopt;
+                if (!match(at_use_.at(low), at_use_.at(high))) return std::nullopt;
             }
             const std::optional<bool> more = match_inside();
             if (!more) return std::nullopt;
@@ -82,13 +78,11 @@ private:
     };
 
     /// Number of side lines before a position on the source's rim.
-    static std::size_t lines_before(const LinkingSurface& link, double at)
+    static std::ptrdiff_t lines_before(const LinkingSurface& link, double at)
     {
-        std::size_t count = 0;
-        for (const LinkingLine& line : link.lines) {
-            if (line.source_at <= (at + 1e-9) * link.source.length()) ++count;
-        }
-        return count;
+        return std::ranges::count_if(link.lines, [&](const LinkingLine& line) {
+            return line.source_at <= (at + 1e-9) * link.source.length();
+        });
     }
 
     /// Pair the end vertices of the inner edges on both rims, in order.
@@ -106,7 +100,7 @@ private:
             if (at > 1 - 1e-9) at -= 1;
             high.push_back({vertex, at});
         }
-        std::stable_sort(high.begin(), high.end(), [](const End& a, const End& b) { return a.at < b.at; });
+        std::ranges::stable_sort(high, {}, &End::at);
         if (low.size() != high.size()) return false;
         const std::size_t n = low.size();
         const auto off = [&](std::size_t i, std::size_t shift) {
@@ -135,9 +129,7 @@ private:
     {
         for (const FaceId face : volume_.faces(role)) {
             std::map<EdgeId, int> times;
-            for (const Loop& loop : model_[face].loops) {
-                for (const EdgeUse& use : loop.uses) ++times[use.edge];
-            }
+            for (const EdgeUse& use : all_uses(model_[face])) ++times[use.edge];
             for (const Loop& loop : model_[face].loops) {
                 Walk walk;
                 for (const EdgeUse& use : loop.uses) {
@@ -184,11 +176,6 @@ private:
             }
         }
         return true;
-    }
-
-    bool match_across(const EdgeUse& low, const EdgeUse& high)
-    {
-        return match(at_use_.at(low), at_use_.at(high));
     }
 
     /// Rims without inner edges match the faces on either side of them.
@@ -260,8 +247,8 @@ private:
             for (const RimSegment& segment : link.segments) {
                 for (const double f : {0.0, 0.25, 0.5, 0.75}) {
                     from.push_back(segment.source_from + f * (segment.source_to - segment.source_from));
-                    to.push_back(segment.target_from + f * (segment.target_to - segment.target_from));
-                    if (to.back() >= link.target.length()) to.back() -= link.target.length();
+                    to.push_back(link.target.wrapped(segment.target_from +
+                                                     f * (segment.target_to - segment.target_from)));
                 }
             }
             const std::vector<Vec3> a = link.source.points(from), b = link.target.points(to);
@@ -293,8 +280,6 @@ private:
         }
         return true;
     }
-
-    static EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
     const OpenVolume& volume_;
     const Model& model_;

@@ -2,10 +2,12 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,24 +27,7 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
     const Face& face = volume.model[id];
     if (name == "walls") return volume.role[id.index()] == Role::wall;
     if (face.origin == Origin::made_void) return name == void_name(face);
-    return face.name == name || std::find(face.groups.begin(), face.groups.end(), name) != face.groups.end();
-}
-
-/// The part of the edge's parameter range [from, to) that a segment of the rim covers.
-RimRows::Part part_of(const LinkingSurface& link, const RimSegment& segment)
-{
-    const EdgeUse use = link.source.uses()[segment.use];
-    const double start = link.source.start(segment.use);
-    const double length = link.source.start(segment.use + 1) - start;
-    RimRows::Part part;
-    part.from = (segment.source_from - start) / length;
-    part.to = (segment.source_to - start) / length;
-    if (use.reversed) {
-        std::swap(part.from, part.to);
-        part.from = 1 - part.from;
-        part.to = 1 - part.to;
-    }
-    return part;
+    return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
 }
 
 class RimReader {
@@ -58,18 +43,13 @@ public:
         std::set<FaceId> reached;
         for (const LinkingSurface& link : links) {
             for (const RimSegment& segment : link.segments) {
-                const double middle = (segment.target_from + segment.target_to) / 2;
-                const double whole = link.target.length();
-                const EdgeUse low = link.source.uses()[segment.use];
-                const EdgeUse high =
-                    link.target.uses()[link.target.position(middle >= whole ? middle - whole : middle).use];
-                RimRows::Part part = part_of(link, segment);
-                part.wall = wall_on(low.edge);
-                if (tables_.at(part.wall) < 0 && tables_.at(wall_on(high.edge)) >= 0)
-                    part.wall = wall_on(high.edge);
-                part.table = tables_.at(part.wall);
-                reached.insert({wall_on(low.edge), wall_on(high.edge)});
-                rows_.parts[low.edge].push_back(part);
+                const EdgeId edge = link.source.uses()[segment.use].edge;
+                const FaceId low = wall_on(volume_, uses_, edge),
+                             high = wall_on(volume_, uses_, target_use(link, segment).edge);
+                const FaceId wall = tables_.at(low) < 0 && tables_.at(high) >= 0 ? high : low;
+                const auto [from, to] = edge_part(link, segment);
+                rows_.parts[edge].push_back({from, to, tables_.at(wall), wall});
+                reached.insert({low, high});
             }
         }
         // If all walls share one table, stacked walls take their rows from the wall below.
@@ -89,20 +69,6 @@ public:
     }
 
 private:
-    [[nodiscard]] FaceId wall_on(EdgeId edge) const
-    {
-        for (const FaceUse& use : uses_[edge.index()]) {
-            if (volume_.role[use.face.index()] == Role::wall) return use.face;
-        }
-        return {};
-    }
-
-    /// The part that touches the start or the end of an edge use.
-    [[nodiscard]] const RimRows::Part* part_at(EdgeUse use, bool last) const
-    {
-        return rows_.part_at(use.edge, (use.reversed ? !last : last) ? 1.0 : 0.0);
-    }
-
     void find_ends(FaceId face)
     {
         for (const Loop& loop : border_loops(model_, face)) {
@@ -120,7 +86,7 @@ private:
     /// Record that the rows along `with` end on `on`, which follows it (`behind`) or precedes it.
     void add_end(FaceId face, EdgeUse with, EdgeUse on, bool behind)
     {
-        const RimRows::Part* part = part_at(with, behind);
+        const RimRows::Part* part = rows_.part_at(with.edge, with.reversed != behind ? 1.0 : 0.0);
         if (part == nullptr || part->table < 0) return;
         const std::vector<Index> points = use_points(model_, with);
         const Vec3 along = behind ? model_.at(points.back()) - model_.at(points[points.size() - 2])
@@ -145,8 +111,8 @@ private:
     {
         Vec3 normal = Vec3::Zero();
         for (const Triangle& t : model_[face].triangles) {
-            if (std::find(t.begin(), t.end(), point) == t.end()) continue;
-            normal += (model_.at(t[1]) - model_.at(t[0])).cross(model_.at(t[2]) - model_.at(t[0]));
+            if (std::ranges::find(t, point) == t.end()) continue;
+            normal += facet_area_vector(model_, t);
         }
         return normal.stableNormalized();
     }
@@ -197,35 +163,39 @@ std::vector<double> row_heights(const BoundaryLayer& layer)
 
 bool has_face(const OpenVolume& volume, int tag)
 {
-    return std::any_of(volume.model.faces.begin(), volume.model.faces.end(),
-                       [&](const Face& face) { return is_tagged(face, tag); });
+    return std::ranges::any_of(volume.model.faces, [&](const Face& face) { return is_tagged(face, tag); });
+}
+
+FaceId wall_on(const OpenVolume& volume, std::span<const std::vector<FaceUse>> uses, EdgeId edge)
+{
+    for (const FaceUse& use : uses[edge.index()]) {
+        if (volume.role[use.face.index()] == Role::wall) return use.face;
+    }
+    return {};
 }
 
 bool has_face(const OpenVolume& volume, const std::string& name)
 {
-    for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-        if (is_named(volume, FaceId(f), name)) return true;
-    }
-    return false;
+    return std::ranges::any_of(all_faces(volume.model),
+                               [&](FaceId face) { return is_named(volume, face, name); });
 }
 
 std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names, const std::string& option)
 {
+    const std::vector<FaceId> all = all_faces(volume.model);
     std::set<FaceId> found;
     const auto add = [&](const std::string& what, const auto& is_it) {
         bool any = false;
-        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-            if (!is_it(FaceId(f))) continue;
-            found.insert(FaceId(f));
+        for (const FaceId face : all) {
+            if (!is_it(face)) continue;
+            found.insert(face);
             any = true;
         }
         if (any) return;
-        std::string known;
-        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-            const Face& face = volume.model.faces[f];
-            known += (f > 0 ? ", " : "") +
-                     (face.origin == Origin::made_void ? void_name(face) : name_of(volume.model, FaceId(f)));
-        }
+        const std::string known = full_list(all, [&](FaceId id) {
+            const Face& face = volume.model[id];
+            return face.origin == Origin::made_void ? void_name(face) : name_of(volume.model, id);
+        });
         throw InvalidInput("surface.no_such_face",
                            "sweep: option '" + option + "' names " + what + ", and the volume has " + known);
     };
@@ -256,21 +226,16 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
 {
     const auto found = parts.find(edge);
     if (found == parts.end()) return nullptr;
-    for (const Part& part : found->second) {
-        if (fraction >= part.from && fraction <= part.to) return &part;
-    }
     // Parts meet up to rounding: take the nearest.
-    return &*std::min_element(found->second.begin(), found->second.end(), [&](const Part& a, const Part& b) {
-        const auto off = [&](const Part& p) { return std::max(p.from - fraction, fraction - p.to); };
-        return off(a) < off(b);
+    return &*std::ranges::min_element(found->second, {}, [&](const Part& part) {
+        return std::max(part.from - fraction, fraction - part.to);
     });
 }
 
 RimRows rim_rows(const OpenVolume& volume, std::span<const LinkingSurface> links, const LayerTables& tables)
 {
-    const bool any = std::any_of(tables.of.begin(), tables.of.end(), [&](const auto& entry) {
-        return volume.role[entry.first.index()] == Role::wall;
-    });
+    const bool any = std::ranges::any_of(
+        tables.of, [&](const auto& entry) { return volume.role[entry.first.index()] == Role::wall; });
     return any ? RimReader(volume, tables).read(links) : RimRows{};
 }
 
@@ -292,7 +257,7 @@ std::vector<double> row_places(const Model& model, EdgeId edge, bool at_end, con
         }
         below = above;
     }
-    if (at_end) std::reverse(places.begin(), places.end());
+    if (at_end) std::ranges::reverse(places);
     return places;
 }
 

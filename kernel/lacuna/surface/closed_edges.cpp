@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/closed_edges.h>
 
+#include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/flat_ends.h>
 
@@ -48,7 +49,7 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
         Circle circle{id, Vec2::Zero(), 0, flat.line, flat.at};
         for (std::size_t i = 0; i + 1 < flat.line.size(); ++i) {
             const Vec2 &a = flat.line[i], &b = flat.line[i + 1];
-            const double turn = (a.x() * b.y() - a.y() * b.x()) / 2;
+            const double turn = geometry::cross(a, b) / 2;
             circle.area += turn;
             circle.centre += turn * (a + b) / 3;
         }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lacuna::surface {
@@ -31,8 +32,7 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
             continue;
         }
         for (const RimSegment& segment : link.segments) {
-            const double s[] = {segment.source_from};
-            const double t[] = {std::fmod(segment.target_from, link.target.length())};
+            const std::array s{segment.source_from}, t{std::fmod(segment.target_from, link.target.length())};
             pairs.push_back({link.source.points(s).front(), link.target.points(t).front(),
                              segment.source_to - segment.source_from});
         }
@@ -70,21 +70,6 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
-}
-
-std::optional<Eigen::Matrix3d> common_turn(std::span<const LinkingSurface> links)
-{
-    Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
-    for (const LinkingSurface& link : links) {
-        source_area += geometry::newell_vector(round_points(link.source));
-        target_area += geometry::newell_vector(round_points(link.target));
-    }
-    return fitted_turn(pairs_of(links), source_area, target_area);
-}
-
-double best_start(const LinkingSurface& link, const Eigen::Matrix3d& turn)
-{
-    return best_shift(round_points(link.source), round_points(link.target), turn) * link.target.length();
 }
 
 /// Integrates the common rotation along the walls, row by row.
@@ -128,8 +113,7 @@ private:
         for (std::size_t i = 0; i < kRingPoints; ++i) {
             const WallPosition place = map.locate(static_cast<double>(i) / kRingPoints,
                                                   map.from_even(height));
-            const FacetPosition at[] = {place.at};
-            points.push_back(points_at(model, place.face, at).front());
+            points.push_back(points_at(model, place.face, std::array{place.at}).front());
         }
         return points;
     }
@@ -180,7 +164,7 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
         for (std::size_t i = 0; i < kRingPoints; ++i)
             apart[k] += (source[i] - target[(i + k) % kRingPoints]).squaredNorm();
     }
-    const auto best = static_cast<std::size_t>(std::min_element(apart.begin(), apart.end()) - apart.begin());
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(apart) - apart.begin());
     const double low = apart[(best + kRingPoints - 1) % kRingPoints], high = apart[(best + 1) % kRingPoints];
     const double bend = low + high - 2 * apart[best];
     const double between = bend > 0 ? (low - high) / (2 * bend) : 0;
@@ -192,14 +176,21 @@ std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& 
                                                     std::span<const LinkingSurface> links)
 {
     std::vector<std::optional<CommonTurn>> turns(links.size());
-    const bool free = std::any_of(links.begin(), links.end(),
-                                  [](const LinkingSurface& b) { return b.lines.empty(); });
+    const bool free = std::ranges::any_of(links, [](const LinkingSurface& b) { return b.lines.empty(); });
     if (!free || links.size() < 2) return turns;
-    const std::optional<Eigen::Matrix3d> turn = common_turn(links);
+    Vec3 source_area = Vec3::Zero(), target_area = Vec3::Zero();
+    for (const LinkingSurface& link : links) {
+        source_area += geometry::newell_vector(round_points(link.source));
+        target_area += geometry::newell_vector(round_points(link.target));
+    }
+    const std::optional<Eigen::Matrix3d> turn = fitted_turn(pairs_of(links), source_area, target_area);
     if (!turn) return turns;
     const std::vector<double> branches = TurnTracker(volume, links).branches();
     for (std::size_t b = 0; b < links.size(); ++b) {
-        if (links[b].lines.empty()) turns[b] = CommonTurn{best_start(links[b], *turn), branches[b]};
+        const Chain &low = links[b].source, &high = links[b].target;
+        if (!links[b].lines.empty()) continue;
+        const double shift = best_shift(round_points(low), round_points(high), *turn);
+        turns[b] = CommonTurn{shift * high.length(), branches[b]};
     }
     return turns;
 }

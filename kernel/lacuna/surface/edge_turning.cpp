@@ -48,7 +48,7 @@ EdgeTurning::EdgeTurning(const Model& model, const std::vector<EdgeUse>& uses)
 void EdgeTurning::append(const Model& model, EdgeUse use)
 {
     std::vector<Vec3> line = line_of(model, use.edge);
-    if (use.reversed) std::reverse(line.begin(), line.end());
+    if (use.reversed) std::ranges::reverse(line);
     const std::vector<double> arc = geometry::arc_lengths(line);
     // Running lengths refer to the model's polyline; the exact curve is slightly longer.
     const double scale = arc.back() > 0 ? edge_length(model, use.edge) / arc.back() : 1;

@@ -36,7 +36,7 @@ std::vector<EdgeId> opposite_to(const FaceGrids& grids, FaceId face, EdgeId edge
 {
     for (const SidePair& sides : grids.opposite.at(face)) {
         for (std::size_t k = 0; k < 2; ++k) {
-            if (std::find(sides[k].begin(), sides[k].end(), edge) != sides[k].end()) return sides[1 - k];
+            if (std::ranges::find(sides[k], edge) != sides[k].end()) return sides[1 - k];
         }
     }
     return {};
@@ -80,17 +80,14 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
             }
         }
         if (longest == nullptr) continue;
+        const std::string found = "the rim of " + name_of(task.model, face) + " came with " +
+                                  std::to_string(sides_of(task.model, seeds, face)) + " sides, an odd number";
         if (task.wedges) {
-            seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
-                                  std::to_string(sides_of(task.model, seeds, face)) +
-                                  " sides, an odd number: one cell of the face is a triangle");
+            seeds.notes.push_back(found + ": one cell of the face is a triangle");
             triangles.insert(face);
             continue;
         }
-        seeds.notes.push_back("the rim of " + name_of(task.model, face) + " came with " +
-                              std::to_string(sides_of(task.model, seeds, face)) +
-                              " sides, an odd number, which quads cannot fill: a side on " +
-                              name_of(task.model, at) +
+        seeds.notes.push_back(found + ", which quads cannot fill: a side on " + name_of(task.model, at) +
                               " and the wall column above it are split in two; wedges = true keeps them");
         longest->kept.push_back((longest->from + longest->to) / 2);
         longest->count = 2;
@@ -107,8 +104,7 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
         std::string counts;
         for (const EdgeId edge : edges_of(task.model, face)) {
             const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
-            if (std::none_of(pieces.begin(), pieces.end(), [](const SeedPiece& p) { return p.asked; }))
-                continue;
+            if (std::ranges::none_of(pieces, [](const SeedPiece& p) { return p.asked; })) continue;
             counts += (counts.empty() ? "" : ", ") + name_of(task.model, edge) + " " +
                       std::to_string(seeds.count(edge));
         }
@@ -133,11 +129,10 @@ void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<
         return is_free(grids, seeds, face) && quads_asked(task.model, seeds, face) > quads::kManyQuads;
     };
     for (const auto& [edge, faces] : task.users) {
-        if (settled.contains(edge) || !std::all_of(faces.begin(), faces.end(), is_many)) continue;
+        if (settled.contains(edge) || !std::ranges::all_of(faces, is_many)) continue;
         for (SeedPiece& piece : seeds.pieces.at(edge)) {
-            if (piece.fixed || !piece.low.empty() || !piece.high.empty() || piece.sides < quads::kFewestEven)
-                continue;
-            piece.count = quads::even_sides(piece.sides, piece.least);
+            if (!piece.fixed && piece.rows() == 0 && piece.sides >= quads::kFewestEven)
+                piece.count = quads::even_sides(piece.sides, piece.least);
         }
     }
 }
@@ -154,9 +149,8 @@ void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& a
         }
     };
     std::vector<EdgeId> rim(task.rim.begin(), task.rim.end());
-    std::stable_sort(rim.begin(), rim.end(), [&](EdgeId a, EdgeId b) {
-        return edge_length(task.model, a) > edge_length(task.model, b);
-    });
+    std::ranges::stable_sort(
+        rim, [&](EdgeId a, EdgeId b) { return edge_length(task.model, a) > edge_length(task.model, b); });
     for (const EdgeId edge : rim) push(edge, {}, {});
     std::map<FaceId, std::vector<EdgeId>> way_out;
     std::vector<FaceId> order;

@@ -2,6 +2,8 @@
 #include <lacuna/surface/detail/face_grids.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +29,7 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     // Same rule as `alike()`, for counts instead of lengths; up to four sides any ratio is accepted.
     // Heuristic.
     constexpr int kUnlike = 3, kFew = 4;
-    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
+    return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
         return std::max(a, b) <= std::max(kUnlike * std::min(a, b), kFew);
     });
@@ -87,10 +89,8 @@ std::string unlike_counts(const Model& model, const Seeds& seeds, const std::vec
         if (total(seeds, sides[0]) == total(seeds, sides[1])) continue;
         for (std::size_t k = 0; k < 2; ++k) {
             words += words.empty() ? "" : " and ";
-            words += std::to_string(total(seeds, sides[k])) + " (";
-            for (std::size_t i = 0; i < sides[k].size(); ++i)
-                words += (i > 0 ? ", " : "") + name_of(model, sides[k][i]);
-            words += ")";
+            words += std::to_string(total(seeds, sides[k])) + " (" +
+                     full_list(sides[k], [&](EdgeId edge) { return name_of(model, edge); }) + ")";
         }
         break;
     }
@@ -115,8 +115,8 @@ bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
 {
     constexpr double kSteepest = 0.5; // cosine of 60°; heuristic
     const std::vector<Triangle>& facets = model[face].triangles;
-    return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
-        const Vec3 area = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+    return std::ranges::all_of(facets, [&](const Triangle& t) {
+        const Vec3 area = facet_area_vector(model, t);
         return area.dot(normal) >= kSteepest * area.norm();
     });
 }

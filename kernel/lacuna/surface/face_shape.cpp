@@ -3,6 +3,7 @@
 
 #include <lacuna/surface/detail/fine_facets.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <utility>
@@ -17,19 +18,17 @@ namespace {
 double sag_of_edges(const Model& model, FaceId face)
 {
     double most = 0;
-    for (const Loop& loop : model[face].loops) {
-        for (const EdgeUse& use : loop.uses) {
-            const Edge& edge = model[use.edge];
-            if (edge.curve == nullptr) continue;
-            std::vector<double> params;
-            for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
-                params.push_back((edge.params[i] + edge.params[i + 1]) / 2);
-            std::vector<Vec3> middle(params.size());
-            edge.curve->evaluate(params, middle);
-            for (std::size_t i = 0; i < middle.size(); ++i) {
-                const Vec3 chord = (model.at(edge.points[i]) + model.at(edge.points[i + 1])) / 2;
-                most = std::max(most, (middle[i] - chord).norm());
-            }
+    for (const EdgeUse& use : all_uses(model[face])) {
+        const Edge& edge = model[use.edge];
+        if (edge.curve == nullptr) continue;
+        std::vector<double> params;
+        for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
+            params.push_back((edge.params[i] + edge.params[i + 1]) / 2);
+        std::vector<Vec3> middle(params.size());
+        edge.curve->evaluate(params, middle);
+        for (std::size_t i = 0; i < middle.size(); ++i) {
+            const Vec3 chord = (model.at(edge.points[i]) + model.at(edge.points[i + 1])) / 2;
+            most = std::max(most, (middle[i] - chord).norm());
         }
     }
     return most;

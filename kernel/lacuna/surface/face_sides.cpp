@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 
 #include <lacuna/quads/shared/submap.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +44,11 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     for (const Triangle& t : model[face].triangles) {
         // The angle is that of the facets at this corner alone, also if the face passes the vertex twice (at
         // a seam).
-        const bool touches = std::find(t.begin(), t.end(), at) != t.end();
-        const bool on_side = std::find(t.begin(), t.end(), after[1]) != t.end() ||
-                             std::find(t.begin(), t.end(), before[before.size() - 2]) != t.end();
+        const bool touches = std::ranges::find(t, at) != t.end();
+        const bool on_side = std::ranges::find(t, after[1]) != t.end() ||
+                             std::ranges::find(t, before[before.size() - 2]) != t.end();
         if (!touches || !on_side) continue;
-        normal += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        normal += facet_area_vector(model, t);
     }
     const Vec3 out = model.at(after[1]) - model.at(at);
     const Vec3 back = model.at(before[before.size() - 2]) - model.at(at);
@@ -106,7 +107,7 @@ std::vector<SidePair> grid_sides(const Model& model, FaceId face)
 
 bool alike(const Model& model, const std::vector<SidePair>& pairs)
 {
-    return std::all_of(pairs.begin(), pairs.end(), [&](const SidePair& sides) {
+    return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const double a = length_of(model, sides[0]), b = length_of(model, sides[1]);
         return std::max(a, b) <= kUnlike * std::min(a, b);
     });

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/fine_facets.h>
 
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,14 +31,12 @@ FineFacets copy_of(const Model& model, FaceId face)
     const auto own = [&](Index p) { return local.at(p); };
     for (const Triangle& t : model[face].triangles)
         fine.triangles.push_back({own(t[0]), own(t[1]), own(t[2])});
-    for (const Loop& loop : model[face].loops) {
-        for (const EdgeUse& use : loop.uses) {
-            auto [found, fresh] = fine.edges.try_emplace(use.edge);
-            if (!fresh) continue;
-            const std::vector<Index>& chain = model[use.edge].points;
-            for (std::size_t i = 0; i < chain.size(); ++i)
-                found->second.push_back({static_cast<double>(i), own(chain[i])});
-        }
+    for (const EdgeUse& use : all_uses(model[face])) {
+        auto [found, fresh] = fine.edges.try_emplace(use.edge);
+        if (!fresh) continue;
+        const std::vector<Index>& chain = model[use.edge].points;
+        for (std::size_t i = 0; i < chain.size(); ++i)
+            found->second.push_back({static_cast<double>(i), own(chain[i])});
     }
     return fine;
 }
@@ -55,10 +54,10 @@ struct FacetSide {
 /// How a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of the sides from each corner.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
-    const auto count = std::count(halved.begin(), halved.end(), true);
+    const auto count = std::ranges::count(halved, true);
     if (count == 0) return {{0, 1, 2}};
     if (count == 3) return {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
-    const auto k = static_cast<std::size_t>(std::find(halved.begin(), halved.end(), true) - halved.begin());
+    const auto k = static_cast<std::size_t>(std::ranges::find(halved, true) - halved.begin());
     return {{k, 3 + k, (k + 2) % 3}, {3 + k, (k + 1) % 3, (k + 2) % 3}};
 }
 
@@ -77,7 +76,7 @@ public:
         find_middles();
         bool any = false;
         for (FacetSide& side : sides_) {
-            if (is_settled(side)) continue;
+            if (settled_.contains(edge_key(side.a, side.b))) continue;
             const Vec3 chord = (fine_.points[index(side.a)] + fine_.points[index(side.b)]) / 2;
             side.halved = (side.middle - chord).norm() > off_ * size_(side.middle);
             any = any || side.halved;
@@ -158,25 +157,15 @@ private:
             else if (!sides_[s].on_edge)
                 inside.push_back(s);
         }
-        project(inside);
-    }
-
-    [[nodiscard]] bool is_settled(const FacetSide& side) const
-    {
-        return settled_.contains(edge_key(side.a, side.b));
-    }
-
-    void project(const std::vector<std::size_t>& which)
-    {
-        if (which.empty()) return;
+        if (inside.empty()) return;
         std::vector<Vec3> points;
         std::vector<Vec2> uv;
-        for (const std::size_t s : which) {
+        for (const std::size_t s : inside) {
             points.push_back(sides_[s].middle);
             uv.push_back(sides_[s].uv);
         }
         fine_.surface->project(points, uv);
-        for (std::size_t i = 0; i < which.size(); ++i) sides_[which[i]].middle = points[i];
+        for (std::size_t i = 0; i < inside.size(); ++i) sides_[inside[i]].middle = points[i];
     }
 
     static double parameter(const Edge& edge, double where)

@@ -19,9 +19,8 @@ namespace {
 std::vector<FaceId> most_loops_first(const SeedTask& task)
 {
     std::vector<FaceId> faces = task.faces;
-    std::stable_sort(faces.begin(), faces.end(), [&](FaceId a, FaceId b) {
-        return task.model[a].loops.size() > task.model[b].loops.size();
-    });
+    std::ranges::stable_sort(
+        faces, [&](FaceId a, FaceId b) { return task.model[a].loops.size() > task.model[b].loops.size(); });
     return faces;
 }
 
@@ -29,8 +28,8 @@ std::vector<FaceId> most_loops_first(const SeedTask& task)
 bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled, EdgeId edge)
 {
     const std::set<FaceId>& users = task.users.at(edge);
-    return settled.contains(edge) || std::any_of(users.begin(), users.end(),
-                                                 [&](FaceId user) { return grids.opposite.contains(user); });
+    return settled.contains(edge) ||
+           std::ranges::any_of(users, [&](FaceId user) { return grids.opposite.contains(user); });
 }
 
 /// Assign numbers of sides to one face and mark its edges as settled.

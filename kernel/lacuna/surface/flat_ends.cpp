@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/flat_ends.h>
 
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/imprint.h>
 
 #include <algorithm>
 #include <map>
@@ -46,16 +47,12 @@ private:
         for (const RimPair& pair : pairs_) partner[pair.target] = pair.source;
         const auto uses = edge_uses(base);
         std::set<VertexId> on_rim;
-        std::vector<EdgeId> source_inner;
         for (std::size_t e = 0; e < uses.size(); ++e) {
             if (uses[e].size() != 2) continue;
             const Role a = base_.role[uses[e][0].face.index()], b = base_.role[uses[e][1].face.index()];
-            const bool seam = uses[e][0].face == uses[e][1].face;
-            if (a == Role::source && b == Role::source && !seam) source_inner.emplace_back(e);
-            if ((a == Role::source) != (b == Role::source)) {
-                on_rim.insert({base.edges[e].from, base.edges[e].to});
-                if (a == Role::source || b == Role::source) flat_.rim.emplace_back(e);
-            }
+            if ((a == Role::source) == (b == Role::source)) continue;
+            on_rim.insert({base.edges[e].from, base.edges[e].to});
+            flat_.rim.emplace_back(e);
         }
         const auto source_node = [&](VertexId vertex) {
             const auto [found, fresh] = node_of_.try_emplace(vertex, flat_.place.size());
@@ -70,7 +67,7 @@ private:
             source_node(base[edge].from);
             source_node(base[edge].to);
         }
-        for (const EdgeId edge : source_inner) {
+        for (const EdgeId edge : inner_edges(base_, Role::source)) {
             FlatEdge flat = flat_edge(base, map_, edge, false);
             flat.cuts = {{0, source_node(base[edge].from)}, {1, source_node(base[edge].to)}};
             flat_.source.push_back(std::move(flat));
@@ -88,7 +85,7 @@ private:
         };
         for (const EdgeId edge : inner_) {
             const auto is_it = [&](const ClosedPair& pair) { return pair.target == edge; };
-            if (std::any_of(closed_.begin(), closed_.end(), is_it)) continue;
+            if (std::ranges::any_of(closed_, is_it)) continue;
             FlatEdge flat = flat_edge(base, map_, edge, true);
             flat.cuts = {{0, node_at(base[edge].from)}, {1, node_at(base[edge].to)}};
             flat_.target.push_back(std::move(flat));
@@ -105,8 +102,7 @@ private:
 
     static bool has_node(const FlatEdge& edge, std::size_t node)
     {
-        return std::any_of(edge.cuts.begin(), edge.cuts.end(),
-                           [&](const FlatEdge::Cut& cut) { return cut.node == node; });
+        return std::ranges::any_of(edge.cuts, [&](const FlatEdge::Cut& cut) { return cut.node == node; });
     }
 
     /// The edge closest to a node, among those that do not end in it.
@@ -182,10 +178,9 @@ private:
                         const auto at = crossing(a.line[i], a.line[i + 1], b.line[j], b.line[j + 1]);
                         if (!at) continue;
                         const Vec2 place = a.line[i] + (*at)[0] * (a.line[i + 1] - a.line[i]);
-                        const bool at_node = std::any_of(
-                            flat_.place.begin(), flat_.place.end(), [&](const Vec2& node) {
-                                return (node - place).norm() <= 1e-9 * base_.model.diagonal;
-                            });
+                        const bool at_node = std::ranges::any_of(flat_.place, [&](const Vec2& node) {
+                            return (node - place).norm() <= 1e-9 * base_.model.diagonal;
+                        });
                         if (at_node) continue;
                         const std::size_t node = add_node(place);
                         flat_.source[a.edge].cuts.push_back(

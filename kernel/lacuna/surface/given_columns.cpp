@@ -2,6 +2,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/shared/given_nodes.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -11,11 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 namespace lacuna::surface {
@@ -23,13 +24,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-std::string place_of(const Model& model, const Quad& quad)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Index n : quad) sum += model.at(n);
-    return place_with_digits(sum / 4, 6);
-}
 
 [[noreturn]] void refuse_rows(const std::string& wall, int rows, const std::string& other, int other_rows)
 {
@@ -39,17 +33,6 @@ std::string place_of(const Model& model, const Quad& quad)
                            std::to_string(other_rows) +
                            "; all walls of a sweep need the same number of rows: remesh one, or load with "
                            "keep_mesh = false");
-}
-
-[[noreturn]] void refuse_stub_rows(const std::string& stub, std::size_t rows, const std::string& whole,
-                                   std::size_t whole_rows)
-{
-    throw NotSweepable("surface.wall_rows",
-                       stub + " came with " + std::to_string(rows) +
-                           " rows of quads that end before the opposite end, and " + whole + " with " +
-                           std::to_string(whole_rows) +
-                           " from source to target, which leaves no row for the gap; remesh one of them, "
-                           "or load with keep_mesh = false");
 }
 
 /// The quads of a linking surface's walls, traversed from rim to rim.
@@ -74,13 +57,10 @@ public:
         const std::vector<ChainNode> source = chain_nodes(model_, link_.source);
         const std::vector<ChainNode> target = chain_nodes(model_, link_.target);
         for (const ChainNode& node : target) target_at_.emplace(node.point, node.at);
-        find_sides(source, target);
-
-        std::vector<Strip> whole, stubs = strips_from(source);
-        const auto first_stub = std::stable_partition(stubs.begin(), stubs.end(),
-                                                      [](const Strip& strip) { return strip.whole; });
-        std::move(stubs.begin(), first_stub, std::back_inserter(whole));
-        stubs.erase(stubs.begin(), first_stub);
+        find_sides();
+        std::vector<Strip> strips = strips_from(source);
+        const std::span<const Strip> stubs = std::ranges::stable_partition(strips, &Strip::whole),
+                                     whole(strips.data(), strips.size() - stubs.size());
         check_rows(whole);
         const Ring columns_at = joined(whole, source.size());
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
@@ -91,15 +71,15 @@ public:
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         check_stubs(hanging, {}, target.size());
         const Ring high = joined(hanging, target.size());
-        check_all_walked();
+        for (const WallQuad& quad : quads_) {
+            if (!quad.walked) refuse_no_rows(quad);
+        }
 
         columns.rows = rows_;
         columns.quads = rows_ > 0;
         for (const auto& [i, column] : columns_at) {
-            columns.source_at.push_back(source[i].at);
-            columns.target_at.push_back(target_at_.at(column.points.back()));
-            columns.points.push_back(column.points);
-            columns.faces.push_back(column.faces);
+            columns.whole.push_back(
+                {source[i].at, target_at_.at(column.points.back()), column.points, column.faces});
         }
         for (const auto& [i, column] : low)
             columns.stubs.push_back({false, source[i].at, column.wall, column.points, column.faces});
@@ -128,19 +108,16 @@ private:
     };
     using Ring = std::map<std::size_t, Column>; ///< by number of the rim's node
 
-    void find_sides(const std::vector<ChainNode>& source, const std::vector<ChainNode>& target)
+    void find_sides()
     {
-        for (std::size_t i = 0; i < target.size(); ++i)
-            target_sides_.insert(edge_key(target[i].point, target[(i + 1) % target.size()].point));
-        for (std::size_t i = 0; i < source.size(); ++i)
-            no_end_.insert(edge_key(source[i].point, source[(i + 1) % source.size()].point));
-        for (const LinkingLine& line : link_.lines) {
-            for (const EdgeUse& use : line.line.uses) {
-                const std::vector<Index>& points = model_[use.edge].points;
-                for (std::size_t i = 0; i + 1 < points.size(); ++i)
-                    no_end_.insert(edge_key(points[i], points[i + 1]));
-            }
-        }
+        const auto add_to = [&](std::set<std::uint64_t>& sides, const std::vector<EdgeUse>& uses) {
+            const std::vector<Index> points = use_points(model_, uses);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i)
+                sides.insert(edge_key(points[i], points[i + 1]));
+        };
+        add_to(target_sides_, link_.target.uses());
+        add_to(no_end_, link_.source.uses());
+        for (const LinkingLine& line : link_.lines) add_to(no_end_, line.line.uses);
     }
 
     /// The strips of quads that start on a side of a rim and are not walked yet.
@@ -165,8 +142,7 @@ private:
         for (;;) {
             const auto found = beside_.find(edge_key(a, b));
             if (found == beside_.end()) break;
-            const auto next = std::find_if(found->second.begin(), found->second.end(),
-                                           [&](std::size_t q) { return q != last; });
+            const auto next = std::ranges::find_if(found->second, [&](std::size_t q) { return q != last; });
             if (next == found->second.end()) break;
             last = *next;
             WallQuad& quad = quads_[last];
@@ -175,7 +151,8 @@ private:
                 break;
             }
             quad.walked = true;
-            const std::size_t at = position(quad.corners, a);
+            const auto at = static_cast<std::size_t>(std::ranges::find(quad.corners, a) -
+                                                     quad.corners.begin());
             const bool onwards = quad.corners[(at + 1) % 4] == b;
             a = quad.corners[(at + (onwards ? 3 : 1)) % 4];
             b = quad.corners[(at + 2) % 4];
@@ -191,14 +168,9 @@ private:
         return strip;
     }
 
-    static std::size_t position(const Quad& quad, Index point)
-    {
-        return static_cast<std::size_t>(std::find(quad.begin(), quad.end(), point) - quad.begin());
-    }
-
     /// The columns between strips. Neighbouring strips must agree on their common column as far as both
     /// reach.
-    Ring joined(const std::vector<Strip>& strips, std::size_t rim) const
+    Ring joined(std::span<const Strip> strips, std::size_t rim) const
     {
         Ring ring;
         for (const Strip& strip : strips) {
@@ -217,16 +189,15 @@ private:
         std::vector<Index>& there = ring[i].points;
         const std::size_t both = std::min(there.size(), points.size());
         if (!std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(both), there.begin())) {
-            throw NotSweepable("surface.wall_not_rows", "the quads that " + walls() +
-                                                            " came with are not in rows: at the node at " +
-                                                            place(points.front()) + " two columns diverge");
+            refuse_not_rows(walls(), ": at the node at " + place_with_digits(model_.at(points.front()), 6) +
+                                         " two columns diverge");
         }
         if (points.size() > there.size()) there = points;
     }
 
     /// All strips must have the same number of rows. Different numbers within a wall mean that its quads are
     /// not in rows; different numbers between walls mean that they were meshed separately.
-    void check_rows(const std::vector<Strip>& strips)
+    void check_rows(std::span<const Strip> strips)
     {
         std::map<FaceId, std::size_t> rows_of;
         for (const Strip& strip : strips) {
@@ -234,13 +205,12 @@ private:
             const FaceId wall = strip.faces.front();
             const std::size_t first = rows_of.try_emplace(wall, rows).first->second;
             if (first == rows) continue;
-            throw NotSweepable("surface.wall_not_rows",
-                               "the quads that " + name_of(model_, wall) +
-                                   " came with are not in rows: " + std::to_string(first) +
-                                   " of them lead from the source's rim to the target's in one column, but " +
-                                   std::to_string(rows) + " in the column that starts with the quad at " +
-                                   place_of(model_, quads_[strip.quads.front()].corners) +
-                                   "; mesh the wall in rows, or load with keep_mesh = false");
+            refuse_not_rows(name_of(model_, wall),
+                            ": " + std::to_string(first) +
+                                " of them lead from the source's rim to the target's in one column, but " +
+                                std::to_string(rows) + " in the column that starts with the quad at " +
+                                place_of(quads_[strip.quads.front()]) +
+                                "; mesh the wall in rows, or load with keep_mesh = false");
         }
         for (const auto& [wall, rows] : rows_of) {
             const auto& [first_wall, first_rows] = *rows_of.begin();
@@ -253,11 +223,11 @@ private:
 
     /// A stub must end inside the walls, below the opposite rim, and share its nodes with the columns beside
     /// it.
-    void check_stubs(const std::vector<Strip>& stubs, const Ring& columns, std::size_t rim) const
+    void check_stubs(std::span<const Strip> stubs, const Ring& columns, std::size_t rim) const
     {
         for (const Strip& stub : stubs) {
-            if (no_end_.contains(edge_key(stub.left.back(), stub.right.back())) ||
-                target_sides_.contains(edge_key(stub.left.back(), stub.right.back())))
+            const std::uint64_t end = edge_key(stub.left.back(), stub.right.back());
+            if (no_end_.contains(end) || target_sides_.contains(end))
                 refuse_no_rows(quads_[stub.quads.back()]);
             for (const auto& [i, points] :
                  {std::pair{stub.first, &stub.left}, {(stub.first + 1) % rim, &stub.right}}) {
@@ -269,21 +239,17 @@ private:
         }
     }
 
-    void check_all_walked() const
-    {
-        for (const WallQuad& quad : quads_) {
-            if (!quad.walked) refuse_no_rows(quad);
-        }
-    }
-
     [[noreturn]] void refuse_no_rows(const WallQuad& quad) const
     {
+        refuse_not_rows(name_of(model_, quad.wall),
+                        " from source to target: the first quad outside all rows is at " + place_of(quad) +
+                            "; mesh the wall in rows, or load with keep_mesh = false");
+    }
+
+    [[noreturn]] static void refuse_not_rows(const std::string& walls, const std::string& why)
+    {
         throw NotSweepable("surface.wall_not_rows",
-                           "the quads that " + name_of(model_, quad.wall) +
-                               " came with are not in rows from source to target: the first quad outside "
-                               "all rows is at " +
-                               place_of(model_, quad.corners) +
-                               "; mesh the wall in rows, or load with keep_mesh = false");
+                           "the quads that " + walls + " came with are not in rows" + why);
     }
 
     [[nodiscard]] std::string walls() const
@@ -293,9 +259,11 @@ private:
         return names_of(model_, faces);
     }
 
-    [[nodiscard]] std::string place(Index point) const
+    [[nodiscard]] std::string place_of(const WallQuad& quad) const
     {
-        return place_of(model_, {point, point, point, point});
+        Vec3 sum = Vec3::Zero();
+        for (const Index n : quad.corners) sum += model_.at(n);
+        return place_with_digits(sum / 4, 6);
     }
 
     const Model& model_;
@@ -311,8 +279,8 @@ private:
 
 FaceId first_wall(const GivenColumns& columns)
 {
-    for (const std::vector<FaceId>& faces : columns.faces) {
-        if (!faces.empty()) return faces.front();
+    for (const GivenColumn& column : columns.whole) {
+        if (!column.faces.empty()) return column.faces.front();
     }
     return {};
 }
@@ -346,21 +314,17 @@ int common_line_rows(const Model& model, std::span<const LinkingSurface> links, 
 bool has_column(const GivenColumns& columns, const LinkingSurface& link, double source_at)
 {
     const double slack = kSamePlace * link.source.length();
-    return std::any_of(columns.source_at.begin(), columns.source_at.end(),
-                       [&](double at) { return std::abs(at - source_at) <= slack; });
+    return std::ranges::any_of(columns.whole, [&](const GivenColumn& column) {
+        return std::abs(column.source_at - source_at) <= slack;
+    });
 }
 
 /// Make a side line a column.
 void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
 {
-    const std::vector<Index> points = use_points(model, line.line.uses);
-    const auto after = std::upper_bound(columns.source_at.begin(), columns.source_at.end(), line.source_at);
-    const auto at = after - columns.source_at.begin();
+    const auto after = std::ranges::upper_bound(columns.whole, line.source_at, {}, &GivenColumn::source_at);
     columns.rows = rows;
-    columns.source_at.insert(after, line.source_at);
-    columns.target_at.insert(columns.target_at.begin() + at, line.target_at);
-    columns.points.insert(columns.points.begin() + at, std::move(points));
-    columns.faces.insert(columns.faces.begin() + at, std::vector<FaceId>{});
+    columns.whole.insert(after, {line.source_at, line.target_at, use_points(model, line.line.uses), {}});
 }
 
 /// The stub that starts at a running length of its chain, if any.
@@ -402,7 +366,7 @@ void meet(StubColumn& column)
 {
     if (column.low == nullptr || column.high == nullptr) return;
     const std::vector<Index>&low = column.low->points, &high = column.high->points;
-    const auto found = std::find(high.begin(), high.end(), low.back());
+    const auto found = std::ranges::find(high, low.back());
     if (found == high.end()) return;
     const auto rows = static_cast<std::size_t>(high.end() - found) - 1;
     if (rows >= low.size()) return;
@@ -442,8 +406,8 @@ std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& l
         const Chain& other = stub.from_target ? link.source : link.target;
         const GivenStub* facing = stub_at(columns, !stub.from_target, above, other.length());
         if (stub.from_target && facing != nullptr) continue; // counted with the stub from the source
-        const std::array<double, 1> place{above};
-        const Vec3 end = facing != nullptr ? model.at(facing->points.back()) : other.points(place).front();
+        const Vec3 end = facing != nullptr ? model.at(facing->points.back())
+                                           : other.points(std::array{above}).front();
         StubColumn column{&stub, facing, model.at(stub.points.back()), end};
         if (stub.from_target) {
             std::swap(column.low, column.high);
@@ -458,19 +422,17 @@ std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& l
 /// Relative heights of a column's nodes.
 std::vector<double> heights_of(const Model& model, const StubColumn& column, std::size_t layers)
 {
-    const auto step = [&](const GivenStub& stub, std::size_t k) {
-        return (model.at(stub.points[k]) - model.at(stub.points[k - 1])).norm();
-    };
     std::vector<double> heights{0};
-    for (std::size_t k = 1; column.low != nullptr && k < column.low->points.size(); ++k)
-        heights.push_back(heights.back() + step(*column.low, k));
+    if (column.low != nullptr) heights = geometry::arc_lengths(places_at(model, column.low->points));
     const std::size_t open = layers - column.rows();
     for (std::size_t k = 0; k < open; ++k) {
         const double rest = (column.open_to - column.open_from).norm();
         heights.push_back(heights.back() + rest / static_cast<double>(open));
     }
-    for (std::size_t k = column.high != nullptr ? column.high->points.size() - column.shared : 1; k-- > 1;)
-        heights.push_back(heights.back() + step(*column.high, k));
+    for (std::size_t k = column.high != nullptr ? column.high->points.size() - column.shared : 1; k-- > 1;) {
+        const std::vector<Index>& points = column.high->points;
+        heights.push_back(heights.back() + (model.at(points[k]) - model.at(points[k - 1])).norm());
+    }
     for (double& height : heights) height /= heights.back();
     return heights;
 }
@@ -510,9 +472,14 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
     for (const GivenColumns& own : columns) {
         for (const GivenStub& stub : own.stubs) {
             if (first == nullptr || stub.faces.size() < static_cast<std::size_t>(first->rows)) continue;
-            refuse_stub_rows(name_of(volume.model, stub.faces.front()), stub.faces.size(),
-                             name_of(volume.model, first_wall(*first)),
-                             static_cast<std::size_t>(first->rows));
+            throw NotSweepable(
+                "surface.wall_rows",
+                name_of(volume.model, stub.faces.front()) + " came with " +
+                    std::to_string(stub.faces.size()) +
+                    " rows of quads that end before the opposite end, and " +
+                    name_of(volume.model, first_wall(*first)) + " with " + std::to_string(first->rows) +
+                    " from source to target, which leaves no row for the gap; remesh one of them, "
+                    "or load with keep_mesh = false");
         }
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
@@ -538,10 +505,8 @@ std::vector<double> given_heights(const Model& model, std::span<const GivenColum
 {
     std::vector<double> sum;
     for (const GivenColumns& own : columns) {
-        for (const std::vector<Index>& points : own.points) {
-            std::vector<double> arc{0};
-            for (std::size_t i = 1; i < points.size(); ++i)
-                arc.push_back(arc.back() + (model.at(points[i]) - model.at(points[i - 1])).norm());
+        for (const GivenColumn& column : own.whole) {
+            const std::vector<double> arc = geometry::arc_lengths(places_at(model, column.points));
             sum.resize(arc.size(), 0);
             for (std::size_t i = 0; i < arc.size(); ++i) sum[i] += arc[i] / arc.back();
         }

@@ -4,6 +4,7 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 #include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +36,7 @@ public:
             const Face& face = model_.faces[f];
             const bool end = volume.role[f] != Role::wall;
             if (!face.keeps_nodes || !has_cells_to_keep(face, wedges && end)) continue;
-            for (const Loop& loop : face.loops) {
-                for (const EdgeUse& use : loop.uses) of_quads_.insert(use.edge);
-            }
+            for (const EdgeUse& use : all_uses(face)) of_quads_.insert(use.edge);
         }
         const auto is_kept = [&](EdgeId edge) { return kept_.contains(edge); };
         source_ = chain_nodes(model_, link.source, is_kept);
@@ -48,7 +47,9 @@ public:
     {
         if (source_.empty() && target_.empty()) return;
         const double s_end = link_.source.length(), t_end = link_.target.length();
-        std::vector<Break> breaks = old_breaks();
+        std::vector<Break> breaks;
+        for (const RimSegment& segment : link_.segments)
+            breaks.push_back({segment.source_from, segment.target_from, false});
         if (link_.lines.empty()) align_start(breaks);
         breaks.push_back({s_end, breaks.front().target + t_end, false});
         breaks = with_columns(breaks);
@@ -75,20 +76,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<Break> old_breaks() const
-    {
-        std::vector<Break> breaks;
-        for (const RimSegment& segment : link_.segments)
-            breaks.push_back({segment.source_from, segment.target_from, false});
-        return breaks;
-    }
-
-    [[nodiscard]] bool all_kept(const Chain& chain) const
-    {
-        return std::all_of(chain.uses().begin(), chain.uses().end(),
-                           [&](const EdgeUse& use) { return kept_.contains(use.edge); });
-    }
-
     /// A ring without side lines starts at a node of the target.
     void align_start(std::vector<Break>& breaks) const
     {
@@ -97,7 +84,8 @@ private:
         double move = 0;
         if (columns_.rows > 0) {
             move = start_between_columns() - start;
-        } else if (all_kept(link_.target)) {
+        } else if (std::ranges::all_of(link_.target.uses(),
+                                       [&](const EdgeUse& use) { return kept_.contains(use.edge); })) {
             double least = length;
             for (const ChainNode& node : target_) {
                 const double off = std::remainder(node.at - start, length);
@@ -117,16 +105,17 @@ private:
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
-        const Break after{columns_.source_at.front(), columns_.target_at.front(), false};
+        const GivenColumn &first = columns_.whole.front(), &last = columns_.whole.back();
+        const Break after{first.source_at, first.target_at, false};
         if (after.source <= kSamePlace * s_length) return after.target;
-        Break before{columns_.source_at.back() - s_length, columns_.target_at.back(), false};
+        Break before{last.source_at - s_length, last.target_at, false};
         while (before.target > after.target - kSamePlace * t_length) before.target -= t_length;
         const std::vector<double> s = inside(source_, link_.source, before.source + s_length,
                                              after.source + s_length);
         const std::vector<double> t = inside(target_, link_.target, before.target + t_length,
                                              after.target + t_length);
-        const auto at = std::find_if(
-            s.begin(), s.end(), [&](double x) { return std::abs(x - s_length) <= kSamePlace * s_length; });
+        const auto at = std::ranges::find_if(
+            s, [&](double x) { return std::abs(x - s_length) <= kSamePlace * s_length; });
         if (s.size() == t.size() && at != s.end())
             return t[static_cast<std::size_t>(at - s.begin())] - t_length;
         const double share = -before.source / (after.source - before.source);
@@ -149,18 +138,18 @@ private:
         std::vector<Break> merged;
         std::size_t next = 0;
         double target = breaks.front().target;
-        for (std::size_t c = 0; c <= columns_.source_at.size(); ++c) {
-            const double limit = c < columns_.source_at.size() ? columns_.source_at[c]
-                                                               : link_.source.length();
-            const bool inside = c > 0 && !columns_.faces[c - 1].empty();
+        const std::vector<GivenColumn>& columns = columns_.whole;
+        for (std::size_t c = 0; c <= columns.size(); ++c) {
+            const double limit = c < columns.size() ? columns[c].source_at : link_.source.length();
+            const bool inside = c > 0 && !columns[c - 1].faces.empty();
             for (; next < breaks.size() && breaks[next].source < limit - slack; ++next) {
                 if (!inside && (merged.empty() || breaks[next].source > merged.back().source + slack))
                     merged.push_back(breaks[next]);
             }
             while (next < breaks.size() && breaks[next].source <= limit + slack) ++next;
-            if (c == columns_.source_at.size()) break;
-            target = past(columns_.target_at[c], merged.empty() ? target : merged.back().target);
-            merged.push_back({columns_.source_at[c], target, !columns_.faces[c].empty()});
+            if (c == columns.size()) break;
+            target = past(columns[c].target_at, merged.empty() ? target : merged.back().target);
+            merged.push_back({columns[c].source_at, target, !columns[c].faces.empty()});
         }
         merged.push_back(breaks.back());
         return merged;
@@ -173,12 +162,9 @@ private:
             const GivenStub& stub = columns_.stubs[i];
             if (stub.faces.empty()) continue;
             // The next stub on the same rim is the other end of the side.
-            std::size_t next = i + 1;
-            while (next < columns_.stubs.size() && columns_.stubs[next].from_target != stub.from_target)
-                ++next;
-            if (next == columns_.stubs.size()) {
-                for (next = 0; columns_.stubs[next].from_target != stub.from_target;) ++next;
-            }
+            std::size_t next = (i + 1) % columns_.stubs.size();
+            while (columns_.stubs[next].from_target != stub.from_target)
+                next = (next + 1) % columns_.stubs.size();
             const double length = stub.from_target ? link_.target.length() : link_.source.length();
             const double slack = kSamePlace * length, place = stub.from_target ? at.target : at.source;
             const auto along = [&](double to) {
@@ -207,8 +193,7 @@ private:
             for (; i < breaks.size() && breaks[i].source < hard[h + 1] - slack; ++i)
                 between.push_back(breaks[i]);
             if (between.empty() || i >= breaks.size()) return breaks;
-            const bool has_columns = std::any_of(between.begin(), between.end(),
-                                                 [](const Break& b) { return b.given; });
+            const bool has_columns = std::ranges::any_of(between, [](const Break& b) { return b.given; });
             std::vector<Break> paired;
             if (!has_columns) paired = pairs(between.front(), breaks[i]);
             const std::vector<Break>& use = paired.empty() ? between : paired;
@@ -234,19 +219,16 @@ private:
     /// Whether a chain consists of kept edges only between two running lengths.
     [[nodiscard]] bool covered(const Chain& chain, double from, double to) const
     {
-        std::set<EdgeId> others;
-        for (const EdgeUse& use : chain.uses()) {
-            if (!kept_.contains(use.edge)) others.insert(use.edge);
-        }
-        return others.empty() || !meets(chain, from, to, others);
+        return !meets(chain, from, to, [&](EdgeId edge) { return !kept_.contains(edge); });
     }
 
-    /// Whether a chain contains any of some edges between two running lengths.
-    [[nodiscard]] static bool meets(const Chain& chain, double from, double to, const std::set<EdgeId>& edges)
+    /// Whether a chain contains an edge for which `wanted` holds between two running lengths.
+    template <class Wanted>
+    [[nodiscard]] static bool meets(const Chain& chain, double from, double to, const Wanted& wanted)
     {
         const double length = chain.length(), slack = kSamePlace * length;
         for (std::size_t u = 0; u < chain.uses().size(); ++u) {
-            if (!edges.contains(chain.uses()[u].edge)) continue;
+            if (!wanted(chain.uses()[u].edge)) continue;
             for (int turn = 0; turn < 2; ++turn) {
                 if (chain.start(u) + turn * length < to - slack &&
                     chain.start(u + 1) + turn * length > from + slack)
@@ -292,8 +274,9 @@ private:
         if (s.empty() && t.empty()) return;
         // Kept quads allow no additional node on their rim; kept triangles do.
         std::vector<double>* left_out = nullptr;
-        if (source_kept && meets(link_.source, from.source, to.source, of_quads_)) left_out = &t;
-        if (left_out == nullptr && target_kept && meets(link_.target, from.target, to.target, of_quads_))
+        const auto of_quads = [&](EdgeId edge) { return of_quads_.contains(edge); };
+        if (source_kept && meets(link_.source, from.source, to.source, of_quads)) left_out = &t;
+        if (left_out == nullptr && target_kept && meets(link_.target, from.target, to.target, of_quads))
             left_out = &s;
         if (left_out == nullptr && s.size() * t.size() > kMostPairs) left_out = &t;
         if (left_out != nullptr && !left_out->empty()) {
@@ -306,7 +289,7 @@ private:
         }
         for (double& x : s) x = (x - from.source) / (to.source - from.source);
         for (double& x : t) x = (x - from.target) / (to.target - from.target);
-        std::vector<std::pair<double, double>> shares = paired_breaks(s, t);
+        BreakPairs shares = paired_breaks(s, t);
         complete(shares);
         for (const auto& [a, b] : shares) {
             result.push_back({from.source + a * (to.source - from.source),
@@ -316,8 +299,7 @@ private:
 
     static EdgeId edge_at(const Chain& chain, double at)
     {
-        const double wrapped = at >= chain.length() ? at - chain.length() : at;
-        return chain.uses()[chain.position(wrapped + kSamePlace * chain.length()).use].edge;
+        return chain.uses()[chain.position(chain.wrapped(at) + kSamePlace * chain.length()).use].edge;
     }
 
     const Model& model_;

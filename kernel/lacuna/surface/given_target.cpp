@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <unordered_map>
 
 namespace lacuna::surface {
@@ -44,13 +43,14 @@ public:
     {
         const Quad& q = quads_[index(quad)];
         if (mesh::is_triangle(q)) {
-            const Index last = *std::find_if(q.begin(), q.end(), [&](Index n) { return n != a && n != b; });
+            const Index last = *std::ranges::find_if(q, [&](Index n) { return n != a && n != b; });
             return {a, b, last, last};
         }
-        const auto at = static_cast<std::size_t>(std::find(q.begin(), q.end(), a) - q.begin());
+        const auto at = static_cast<std::size_t>(std::ranges::find(q, a) - q.begin());
         if (q[(at + 1) % 4] == b) return {a, b, q[(at + 2) % 4], q[(at + 3) % 4]};
         return {a, b, q[(at + 2) % 4], q[(at + 1) % 4]};
     }
+
     [[nodiscard]] bool is_triangle(Index quad) const { return mesh::is_triangle(quads_[index(quad)]); }
 
 private:
@@ -83,28 +83,6 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
     why = without + " has cells other than quads";
     return std::nullopt;
 }
-
-/// Model point of the target at a running length of its chain; -1 if there is none.
-class TargetPoints {
-public:
-    TargetPoints(const Model& model, const Chain& chain)
-        : points_(chain_nodes(model, chain)), slack_(kSamePlace * chain.length()), length_(chain.length())
-    {
-    }
-
-    [[nodiscard]] std::size_t count() const { return points_.size(); }
-    [[nodiscard]] Index at(double place) const
-    {
-        if (place >= length_ - slack_) place -= length_;
-        const auto next = std::lower_bound(points_.begin(), points_.end(), place - slack_,
-                                           [](const ChainNode& node, double at) { return node.at < at; });
-        return next != points_.end() && next->at <= place + slack_ ? next->point : -1;
-    }
-
-private:
-    std::vector<ChainNode> points_;
-    double slack_, length_;
-};
 
 /// Match the quads of two meshes as graphs, by traversal from some sides.
 /// @param image  of nodes of `from`: on input of those on the sides, on output of all.
@@ -153,22 +131,11 @@ std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, s
 std::pair<Index, Index> first_pair(const Model& model, const LinkingSurface& link,
                                    const GivenColumns& columns)
 {
-    double source_at = 0, target_at = 0;
-    if (columns.rows > 0) {
-        source_at = columns.source_at.front();
-        target_at = columns.target_at.front();
-    } else {
-        source_at = link.lines.front().source_at;
-        target_at = link.lines.front().target_at;
-    }
-    const auto number = [&](const Chain& chain, double at) {
-        const std::vector<ChainNode> nodes = chain_nodes(model, chain);
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            if (std::abs(nodes[i].at - at) <= kSamePlace * chain.length()) return static_cast<Index>(i);
-        }
-        return Index(-1);
-    };
-    const Index low = number(link.source, source_at), high = number(link.target, target_at);
+    const bool has_columns = columns.rows > 0;
+    const Index low = node_at(chain_nodes(model, link.source), link.source,
+                              has_columns ? columns.whole.front().source_at : link.lines.front().source_at);
+    const Index high = node_at(chain_nodes(model, link.target), link.target,
+                               has_columns ? columns.whole.front().target_at : link.lines.front().target_at);
     return high < 0 ? std::pair{high, high} : std::pair{low, high};
 }
 
@@ -189,15 +156,15 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
     std::vector<Index> image(source.quads.nodes.size(), -1);
     std::vector<Segment> sides;
     for (std::size_t b = 0; b < links.size(); ++b) {
-        const TargetPoints points(model, links[b].target);
+        const std::vector<ChainNode> nodes = chain_nodes(model, links[b].target);
         const std::vector<double>& at = source.links[b].target_at;
         for (std::size_t i = 0; i < at.size(); ++i) {
-            Index& point = image[index(source.first[b]) + i];
-            point = points.at(at[i]);
-            if (point < 0 || points.count() != at.size()) {
+            const Index node = node_at(nodes, links[b].target, at[i]);
+            if (node < 0 || nodes.size() != at.size()) {
                 why = "its rim nodes do not match the source's";
                 return std::nullopt;
             }
+            image[index(source.first[b]) + i] = nodes[index(node)].point;
         }
         const auto n = static_cast<Index>(at.size());
         for (Index i = 0; i < n; ++i) sides.push_back({source.first[b] + i, source.first[b] + (i + 1) % n});

@@ -25,27 +25,13 @@ public:
                        std::vector<char>(count_ * layers_, 0)};
     }
 
-    BegunWall run(const GivenColumns& columns)
-    {
-        take_columns(columns);
-        return std::move(made_);
-    }
-
-private:
-    /// Given nodes that start at one node of the rim and lead away from it.
-    struct GivenWay {
-        std::size_t node;
-        const std::vector<Index>* points;
-        const std::vector<FaceId>* faces;
-    };
-
     /// Take over the nodes of columns and stubs unchanged.
-    void take_columns(const GivenColumns& columns)
+    BegunWall run(const GivenColumns& columns)
     {
         std::vector<GivenWay> up, from_source, from_target;
         if (columns.rows == static_cast<int>(layers_)) {
-            for (std::size_t c = 0; c < columns.source_at.size(); ++c)
-                add_way(columns.source_at[c], false, columns.points[c], columns.faces[c], up);
+            for (const GivenColumn& column : columns.whole)
+                add_way(column.source_at, false, column.points, column.faces, up);
         }
         for (const GivenStub& stub : columns.stubs) {
             std::vector<GivenWay>& ways = stub.from_target ? from_target : from_source;
@@ -59,7 +45,16 @@ private:
         take_ways(up, false);
         take_ways(from_source, false);
         take_ways(from_target, true);
+        return std::move(made_);
     }
+
+private:
+    /// Given nodes that start at one node of the rim and lead away from it.
+    struct GivenWay {
+        std::size_t node;
+        const std::vector<Index>* points;
+        const std::vector<FaceId>* faces;
+    };
 
     /// @return  false if the rim has no node there.
     bool add_way(double at, bool from_target, const std::vector<Index>& points,

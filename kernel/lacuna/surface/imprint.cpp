@@ -16,8 +16,10 @@
 #include <lacuna/surface/detail/plane_regions.h>
 #include <lacuna/surface/detail/surface_curve.h>
 #include <lacuna/topology/shared/split_edge.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -154,16 +156,12 @@ private:
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
             // The edge still runs from its start to the end of this piece.
-            try {
-                const EdgeSplit made = split_edge(model(), edge, piece.from_at / piece.to_at);
-                part[k] = made.behind;
-                flat_.vertex[piece.from] = made.vertex;
-                const Index point = model()[made.vertex].point;
-                if (index(point) < base_.model.points.size()) flat_.place[piece.from] = place_[index(point)];
-                set_place(point, flat_.place[piece.from]);
-            } catch (const InvalidInput& error) {
-                refuse_imprint(model(), inner_.front(), error.what());
-            }
+            const EdgeSplit made = split_at(model(), edge, piece.from_at / piece.to_at, inner_.front());
+            part[k] = made.behind;
+            flat_.vertex[piece.from] = made.vertex;
+            const Index point = model()[made.vertex].point;
+            if (index(point) < base_.model.points.size()) flat_.place[piece.from] = place_[index(point)];
+            set_place(point, flat_.place[piece.from]);
         }
         for (std::size_t k = 0; k < low.size(); ++k) {
             borders_.push_back({part[k], {}});
@@ -217,15 +215,16 @@ private:
 
     Index add_point(FaceId face, const Vec2& place)
     {
-        const FacetPosition at[] = {map_->on_face(face, place).at};
-        model().points.push_back(points_at(base_.model, face, at).front());
-        set_place(static_cast<Index>(model().points.size()) - 1, place);
-        return static_cast<Index>(model().points.size()) - 1;
+        const auto point = static_cast<Index>(model().points.size());
+        model().points.push_back(
+            points_at(base_.model, face, std::array{map_->on_face(face, place)}).front());
+        set_place(point, place);
+        return point;
     }
 
     Vec2 parameters(FaceId face, const Vec2& place) const
     {
-        const FacetPosition at = map_->on_face(face, place).at;
+        const FacetPosition at = map_->on_face(face, place);
         const std::array<Vec2, 3>& uv = base_.model[face].uv[static_cast<std::size_t>(at.triangle)];
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
@@ -248,18 +247,13 @@ private:
         const Face& f = base_.model[face];
         std::set<EdgeId> once;
         bool seam = false;
-        for (const Loop& loop : f.loops) {
-            for (const EdgeUse& use : loop.uses) seam = !once.insert(use.edge).second || seam;
-        }
+        for (const EdgeUse& use : all_uses(f)) seam = !once.insert(use.edge).second || seam;
         if (!seam) return found->second;
-        Vec2 low = f.uv.front()[0], high = low;
+        Eigen::AlignedBox2d box;
         for (const auto& corners : f.uv) {
-            for (const Vec2& c : corners) {
-                low = low.cwiseMin(c);
-                high = high.cwiseMax(c);
-            }
+            for (const Vec2& c : corners) box.extend(c);
         }
-        return found->second = high - low;
+        return found->second = box.sizes();
     }
 
     /// A typical facet length of a face, in the plane.
@@ -304,32 +298,33 @@ private:
         return edge;
     }
 
+    /// The face of a role to the left of each edge use.
+    std::map<EdgeUse, FaceId> faces_on_left(Role role)
+    {
+        std::map<EdgeUse, FaceId> left;
+        for (const FaceId face : result_.volume->faces(role)) {
+            for (const EdgeUse& use : all_uses(model()[face])) left[use] = face;
+        }
+        return left;
+    }
+
     /// Chains of the plane: the inner edges, and the rim, which bounds the plane.
     void set_borders()
     {
-        std::map<EdgeUse, FaceId> left;
-        for (const FaceId face : result_.volume->faces(Role::source)) {
-            for (const Loop& loop : model()[face].loops) {
-                for (const EdgeUse& use : loop.uses) left[use] = face;
-            }
-        }
+        source_left_ = faces_on_left(Role::source);
+        target_left_ = faces_on_left(Role::target);
         for (const EdgeId edge : flat_.rim) borders_.push_back({edge, {}});
         for (const Border& border : borders_) {
             const Edge& edge = model()[border.source];
             PlaneChain chain{{}, edge.from.index(), edge.to.index()};
             for (const Index p : edge.points) chain.line.push_back(place_[index(p)]);
             if (!new_on_.contains(border.source)) {
-                chain.left = left.contains({border.source, false});
-                chain.right = left.contains({border.source, true});
+                chain.left = source_left_.contains({border.source, false});
+                chain.right = source_left_.contains({border.source, true});
             }
             chains_.push_back(std::move(chain));
         }
-        source_left_ = std::move(left);
-        for (const FaceId face : result_.volume->faces(Role::target)) {
-            for (const Loop& loop : model()[face].loops) {
-                for (const EdgeUse& use : loop.uses) target_left_[use] = face;
-            }
-        }
+
         for (const LinkingSurface& link : result_.links) {
             for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
                 const double middle = (link.source.start(u) + link.source.start(u + 1)) / 2;
@@ -347,10 +342,9 @@ private:
         for (const RimSegment& segment : link.segments) {
             if (source_at > segment.source_to) continue;
             const double f = (source_at - segment.source_from) / (segment.source_to - segment.source_from);
-            double at = segment.target_from + f * (segment.target_to - segment.target_from);
-            if (at >= link.target.length()) at -= link.target.length();
-            const EdgeUse use = link.target.uses()[link.target.position(at).use];
-            return target_left_.at({use.edge, !use.reversed});
+            const double at = segment.target_from + f * (segment.target_to - segment.target_from);
+            return target_left_.at(
+                opposite(link.target.uses()[link.target.position(link.target.wrapped(at)).use]));
         }
         return {};
     }

@@ -2,8 +2,10 @@
 #include <lacuna/surface/detail/imprint_map.h>
 
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/linking_map.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,44 +13,6 @@
 namespace lacuna::surface {
 
 using namespace topology;
-
-namespace {
-
-double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
-{
-    return ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / 2;
-}
-
-std::vector<double> running_lengths(const Model& model, const std::vector<Index>& chain)
-{
-    std::vector<Vec3> line;
-    for (const Index p : chain) line.push_back(model.at(p));
-    return geometry::arc_lengths(line);
-}
-
-/// Points of a closed chain (the first not repeated) and their running lengths, followed by the total length.
-struct Rim {
-    std::vector<Index> points;
-    std::vector<double> at;
-};
-
-Rim rim_of(const Model& model, const Chain& chain)
-{
-    Rim rim;
-    double at = 0;
-    for (const EdgeUse& use : chain.uses()) {
-        const std::vector<Index> points = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            rim.points.push_back(points[i]);
-            rim.at.push_back(at);
-            at += (model.at(points[i + 1]) - model.at(points[i])).norm();
-        }
-    }
-    rim.at.push_back(at);
-    return rim;
-}
-
-} // namespace
 
 EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links,
                  std::span<const ClosedPair> closed, std::span<const KnownLine> known)
@@ -61,15 +25,8 @@ EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links
 void EndsMap::lay_source()
 {
     const Model& model = volume_.model;
-    std::vector<Triangle> triangles;
-    for (const FaceId face : volume_.faces(Role::source)) {
-        for (std::size_t t = 0; t < model[face].triangles.size(); ++t) {
-            triangles.push_back(model[face].triangles[t]);
-            face_of_.push_back(face);
-            number_.push_back(static_cast<Index>(t));
-        }
-    }
-    const geometry::Flattened flat = geometry::flatten(model.points, triangles);
+    source_facets_ = facets_of(model, volume_.faces(Role::source));
+    const geometry::Flattened flat = geometry::flatten(model.points, source_facets_.triangles);
     one_to_one_ = !flat.folded;
     source_.assign(model.points.size(), Vec2::Zero());
     for (std::size_t i = 0; i < flat.used.size(); ++i)
@@ -84,43 +41,41 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
 {
     const Model& model = volume_.model;
     geometry::HarmonicProblem problem;
-    std::vector<Triangle> triangles;
-    for (const FaceId face : volume_.faces(Role::target))
-        triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
+    const std::vector<Triangle> triangles = facets_of(model, volume_.faces(Role::target)).triangles;
     std::map<Index, Vec2> fixed;
+    const auto arc_of = [&](const std::vector<Index>& line) {
+        return geometry::arc_lengths(places_at(model, line));
+    };
+    // The place of a share of a line of the source.
+    const auto place_on = [&](const std::vector<Index>& line, const std::vector<double>& arc, double share) {
+        const geometry::PolylinePlace at = geometry::place_at(arc, share * arc.back());
+        return Vec2((1 - at.fraction) * source(line[at.segment]) +
+                    at.fraction * source(line[at.segment + 1]));
+    };
     for (const LinkingSurface& link : links) {
-        const Rim low = rim_of(model, link.source), high = rim_of(model, link.target);
-        for (std::size_t i = 0; i < high.points.size(); ++i) {
-            const double s = target_coordinate(link, high.at[i]) * low.at.back();
-            const geometry::PolylinePlace at = geometry::place_at(low.at, s);
-            const Vec2& a = source(low.points[at.segment]);
-            const Vec2& b = source(low.points[(at.segment + 1) % low.points.size()]);
-            fixed[high.points[i]] = (1 - at.fraction) * a + at.fraction * b;
-        }
+        const std::vector<Index> low = use_points(model, link.source.uses()),
+                                 high = use_points(model, link.target.uses());
+        const std::vector<double> low_at = arc_of(low), high_at = arc_of(high);
+        for (std::size_t i = 0; i + 1 < high.size(); ++i) // the last point is the first
+            fixed[high[i]] = place_on(low, low_at, target_coordinate(link, high_at[i]));
     }
     for (const ClosedPair& pair : closed) {
         const std::vector<Index>&low = model[pair.source].points, &high = model[pair.target].points;
-        const std::vector<double> low_at = geometry::arc_lengths(edge_line(model, pair.source));
-        const std::vector<double> high_at = geometry::arc_lengths(edge_line(model, pair.target));
+        const std::vector<double> low_at = arc_of(low), high_at = arc_of(high);
         for (std::size_t i = 0; i < high.size(); ++i) {
             double share = (high_at[i] / high_at.back() - pair.from) / (pair.to - pair.from);
             share -= std::floor(share);
-            const geometry::PolylinePlace at = geometry::place_at(low_at, share * low_at.back());
-            fixed[high[i]] = (1 - at.fraction) * source(low[at.segment]) +
-                             at.fraction * source(low[at.segment + 1]);
+            fixed[high[i]] = place_on(low, low_at, share);
         }
     }
     for (const KnownLine& line : known) {
-        const std::vector<double> low = running_lengths(model, line.source),
-                                  high = running_lengths(model, line.target);
+        const std::vector<double> low = arc_of(line.source), high = arc_of(line.target);
         for (std::size_t i = 0; i < line.target.size(); ++i) {
             const double share = (high[i] / high.back() - line.target_from) /
                                  (line.target_to - line.target_from);
             if (!(share >= 0 && share <= 1)) continue;
             const double at = line.source_from + share * (line.source_to - line.source_from);
-            const geometry::PolylinePlace place = geometry::place_at(low, at * low.back());
-            fixed.emplace(line.target[i], (1 - place.fraction) * source(line.source[place.segment]) +
-                                              place.fraction * source(line.source[place.segment + 1]));
+            fixed.emplace(line.target[i], place_on(line.source, low, at));
         }
     }
     problem.points = model.points;
@@ -139,28 +94,23 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
         extent = std::max(extent, (place - fixed.begin()->second).squaredNorm());
     constexpr double kNoArea = 1e-12; ///< of the squared extent: rounding
     for (const Triangle& t : triangles) {
-        if (signed_area(target(t[0]), target(t[1]), target(t[2])) > kNoArea * extent) one_to_one_ = false;
+        const double area = geometry::cross(target(t[1]) - target(t[0]), target(t[2]) - target(t[0])) / 2;
+        if (area > kNoArea * extent) one_to_one_ = false;
     }
 }
 
 SourcePlace EndsMap::on_source(const Vec2& place) const
 {
     const auto found = locator_.locate(place);
-    const auto facet = static_cast<std::size_t>(found.triangle);
-    const FaceId face = face_of_[facet];
-    const Triangle& t = volume_.model[face].triangles[static_cast<std::size_t>(number_[facet])];
-    const Vec3& w = found.barycentric;
-    const auto at = [&](std::size_t k) { return volume_.model.at(t[k]); };
-    return {face, {number_[facet], w}, w[0] * at(0) + w[1] * at(1) + w[2] * at(2)};
+    const FaceId face = source_facets_.face[index(found.triangle)];
+    const Index number = source_facets_.number[index(found.triangle)];
+    return {face, point_on_facets(volume_.model, face, {number, found.barycentric})};
 }
 
-SourcePlace EndsMap::on_face(FaceId face, const Vec2& place) const
+FacetPosition EndsMap::on_face(FaceId face, const Vec2& place) const
 {
     const auto found = face_locator_.at(face).locate(place);
-    const Triangle& t = volume_.model[face].triangles[static_cast<std::size_t>(found.triangle)];
-    const Vec3& w = found.barycentric;
-    const auto at = [&](std::size_t k) { return volume_.model.at(t[k]); };
-    return {face, {found.triangle, w}, w[0] * at(0) + w[1] * at(1) + w[2] * at(2)};
+    return {found.triangle, found.barycentric};
 }
 
 } // namespace lacuna::surface

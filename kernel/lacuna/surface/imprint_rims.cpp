@@ -48,16 +48,16 @@ EdgeId inner_at(const Model& model, std::span<const EdgeId> inner, VertexId vert
     return inner.front();
 }
 
-VertexId split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
+} // namespace
+
+EdgeSplit split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
 {
     try {
-        return split_edge(model, edge, fraction).vertex;
+        return split_edge(model, edge, fraction);
     } catch (const InvalidInput& error) {
         refuse_imprint(model, because, error.what());
     }
 }
-
-} // namespace
 
 std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> links,
                                std::span<const EdgeId> inner, const SizeField& size)
@@ -101,12 +101,11 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
         }
     }
     for (auto& [edge, list] : splits) {
-        std::sort(list.begin(), list.end(),
-                  [](const Split& a, const Split& b) { return a.fraction > b.fraction; });
+        std::ranges::sort(list, std::ranges::greater{}, &Split::fraction);
         double end = 1; // the part of the original edge that is left
         for (const Split& split : list) {
             pairs.push_back(
-                {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)),
+                {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)).vertex,
                  split.target});
             end = split.fraction;
         }
@@ -122,8 +121,8 @@ std::vector<LinkingSurface> link_anew(const OpenVolume& volume, std::span<const 
         LinkingSurface& link = links[b];
         const LinkingSurface& given = given_links[b];
         if (link.source.uses() != given.source.uses() || link.target.uses() != given.target.uses()) continue;
-        const bool paired = std::any_of(pairs.begin(), pairs.end(), [&](const RimPair& pair) {
-            return std::any_of(link.source.uses().begin(), link.source.uses().end(), [&](const EdgeUse& use) {
+        const bool paired = std::ranges::any_of(pairs, [&](const RimPair& pair) {
+            return std::ranges::any_of(link.source.uses(), [&](const EdgeUse& use) {
                 return use_from(volume.model, use) == pair.source;
             });
         });

@@ -155,7 +155,9 @@ private:
             }
             if (best == n) break; // the remaining rows have no variables
             std::swap(rows_[done], rows_[best_row]);
-            if (rows_[done][best] < 0) negate(rows_[done]);
+            if (rows_[done][best] < 0) {
+                for (std::int64_t& x : rows_[done]) x = -x;
+            }
             for (std::size_t r = 0; r < rows_.size(); ++r) {
                 if (r != done && rows_[r][best] != 0 && !eliminate(rows_[r], rows_[done], best)) return false;
             }
@@ -173,11 +175,6 @@ private:
         return true;
     }
 
-    static void negate(Row& row)
-    {
-        for (std::int64_t& x : row) x = -x;
-    }
-
     static bool eliminate(Row& row, const Row& by, std::size_t pivot)
     {
         const std::int64_t a = row[pivot], b = by[pivot], g = std::gcd(a, b);
@@ -189,8 +186,7 @@ private:
         if (common > 1) {
             for (std::int64_t& x : row) x /= common;
         }
-        return std::all_of(row.begin(), row.end(),
-                           [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
+        return std::ranges::all_of(row, [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
     }
 
     [[nodiscard]] std::vector<std::int64_t> rounded_wishes() const
@@ -312,7 +308,7 @@ private:
     [[nodiscard]] std::size_t in_rows(std::size_t v) const
     {
         return static_cast<std::size_t>(
-            std::count_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row[v] != 0; }));
+            std::ranges::count_if(rows_, [&](const Row& row) { return row[v] != 0; }));
     }
 
     /// Sums and differences of vectors that share a variable.
@@ -360,7 +356,7 @@ private:
             cost += below(v, count_[v] + times * by) - below(v, count_[v]);
             for (const auto& [t, often] : terms_of_[v]) touched_.push_back({t, often * times * by});
         }
-        std::sort(touched_.begin(), touched_.end());
+        std::ranges::sort(touched_);
         for (std::size_t i = 0; i < touched_.size();) {
             std::int64_t by = 0;
             const std::size_t t = touched_[i].first;
@@ -455,27 +451,20 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
     for (std::size_t v = 0; v < n; ++v) {
         if (!program.variables[v].fixed) parts[sets.find(v)].variables.push_back(v);
     }
-    const auto set_of = [&](const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
-        for (const auto* side : {&one, &other}) {
-            for (const std::size_t v : *side) {
-                if (!program.variables[v].fixed) return sets.find(v);
-            }
+
+    const auto sort = [&](std::vector<std::size_t> Parts::*list, std::size_t count, const auto& first) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t variable = first(i);
+            if (variable != kNone) (parts[sets.find(variable)].*list).push_back(i);
         }
-        return kNone;
     };
-    for (std::size_t e = 0; e < program.equations.size(); ++e) {
-        const IntervalEquation& equation = program.equations[e];
-        const std::size_t set = set_of(equation.one, equation.other);
-        if (set != kNone) parts[set].equations.push_back(e);
-    }
-    for (std::size_t w = 0; w < program.wishes.size(); ++w) {
-        const std::size_t set = set_of(program.wishes[w].variables, {});
-        if (set != kNone) parts[set].wishes.push_back(w);
-    }
-    for (std::size_t f = 0; f < program.floors.size(); ++f) {
-        const std::size_t set = set_of(program.floors[f].variables, {});
-        if (set != kNone) parts[set].floors.push_back(f);
-    }
+    sort(&Parts::equations, program.equations.size(), [&](std::size_t e) {
+        return first_of(program.equations[e].other, first_of(program.equations[e].one, kNone));
+    });
+    sort(&Parts::wishes, program.wishes.size(),
+         [&](std::size_t w) { return first_of(program.wishes[w].variables, kNone); });
+    sort(&Parts::floors, program.floors.size(),
+         [&](std::size_t f) { return first_of(program.floors[f].variables, kNone); });
 
     std::vector<int> counts(n);
     for (std::size_t v = 0; v < n; ++v) counts[v] = program.variables[v].given;

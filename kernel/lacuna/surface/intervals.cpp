@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/intervals.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -95,10 +96,7 @@ private:
 
     void on_edge(EdgeId edge, const Interval& interval, bool reversed)
     {
-        SidesAsked asked;
-        asked.count = interval.count;
-        asked.bias = reversed ? 1 / interval.bias : interval.bias;
-        asked.name = words(interval);
+        SidesAsked asked{{}, interval.count, reversed ? 1 / interval.bias : interval.bias, words(interval)};
         for (const FaceUse& use : uses_[edge.index()]) {
             if (volume_.role[use.face.index()] != Role::source) continue;
             asked.parts.push_back({edge, 0, 1, false});
@@ -108,8 +106,7 @@ private:
         for (const LinkingSurface& link : links_) {
             for (const LinkingLine& line : link.lines) {
                 const auto& uses = line.line.uses;
-                const auto use = std::find_if(uses.begin(), uses.end(),
-                                              [&](const EdgeUse& u) { return u.edge == edge; });
+                const auto use = std::ranges::find_if(uses, [&](const EdgeUse& u) { return u.edge == edge; });
                 if (use == uses.end()) continue;
                 if (uses.size() > 1)
                     refuse("names " + name_of(model_, edge) +
@@ -132,15 +129,11 @@ private:
     {
         for (const LinkingSurface& link : links_) {
             const std::vector<EdgeUse>& uses = link.target.uses();
-            const auto use = std::find_if(uses.begin(), uses.end(),
-                                          [&](const EdgeUse& u) { return u.edge == edge; });
+            const auto use = std::ranges::find_if(uses, [&](const EdgeUse& u) { return u.edge == edge; });
             if (use == uses.end()) continue;
-            const auto number = static_cast<std::size_t>(use - uses.begin());
-            add_segments(link, asked, [&](const RimSegment& segment) {
-                const double middle = (segment.target_from + segment.target_to) / 2,
-                             whole = link.target.length();
-                return link.target.position(middle >= whole ? middle - whole : middle).use == number;
-            });
+
+            add_segments(link, asked,
+                         [&](const RimSegment& segment) { return target_use(link, segment) == *use; });
             if (use->reversed) turn_round(asked);
             return !asked.parts.empty();
         }
@@ -149,7 +142,7 @@ private:
 
     static void turn_round(SidesAsked& asked)
     {
-        std::reverse(asked.parts.begin(), asked.parts.end());
+        std::ranges::reverse(asked.parts);
         for (SidesAsked::Part& part : asked.parts) part.reversed = !part.reversed;
     }
 
@@ -166,47 +159,27 @@ private:
             const RimSegment& segment = link.segments[(start + k) % n];
             if (!is_meant(segment)) continue;
             const EdgeUse use = link.source.uses()[segment.use];
-            const double from = link.source.start(segment.use);
-            const double length = link.source.start(segment.use + 1) - from;
-            SidesAsked::Part part{use.edge, (segment.source_from - from) / length,
-                                  (segment.source_to - from) / length, use.reversed};
-            if (use.reversed) {
-                std::swap(part.from, part.to);
-                part.from = 1 - part.from;
-                part.to = 1 - part.to;
-            }
-            asked.parts.push_back(part);
+            const auto [from, to] = edge_part(link, segment);
+            asked.parts.push_back({use.edge, from, to, use.reversed});
         }
-    }
-
-    [[nodiscard]] FaceId wall_on(EdgeId edge) const
-    {
-        for (const FaceUse& use : uses_[edge.index()]) {
-            if (volume_.role[use.face.index()] == Role::wall) return use.face;
-        }
-        return {};
     }
 
     void on_walls(const Interval& interval)
     {
         const std::vector<FaceId> named = faces_named(volume_, interval.walls, "intervals");
         const std::set<FaceId> walls(named.begin(), named.end());
-        SidesAsked asked;
-        asked.count = interval.count;
-        asked.bias = 1;
+        SidesAsked asked{
+            {}, interval.count, 1, full_list(named, [&](FaceId wall) { return name_of(model_, wall); })};
         for (const FaceId wall : named) {
-            asked.name += (asked.name.empty() ? "" : ", ") + name_of(model_, wall);
             if (volume_.role[wall.index()] != Role::wall)
                 refuse("names " + name_of(model_, wall) +
                        ", which is not a wall; for source and target name their edges");
         }
         for (const LinkingSurface& link : links_) {
             add_segments(link, asked, [&](const RimSegment& segment) {
-                const double middle = (segment.target_from + segment.target_to) / 2,
-                             whole = link.target.length();
-                const auto high = link.target.position(middle >= whole ? middle - whole : middle).use;
-                return walls.contains(wall_on(link.source.uses()[segment.use].edge)) ||
-                       walls.contains(wall_on(link.target.uses()[high].edge));
+                const EdgeId low = link.source.uses()[segment.use].edge;
+                return walls.contains(wall_on(volume_, uses_, low)) ||
+                       walls.contains(wall_on(volume_, uses_, target_use(link, segment).edge));
             });
         }
         if (asked.parts.empty())

@@ -13,9 +13,11 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,42 +31,16 @@ using namespace topology;
 
 namespace {
 
-/// The facets of a linking surface, all faces together.
-struct LinkingFacets {
-    std::vector<Triangle> triangles;
-    std::vector<FaceId> face;
-    std::vector<Index> number;                           ///< in its face
-    std::unordered_map<std::uint64_t, std::size_t> half; ///< directed side → triangle
-};
-
-LinkingFacets facets_of(const Model& model, const std::vector<FaceId>& walls)
-{
-    LinkingFacets facets;
-    for (const FaceId wall : walls) {
-        const std::vector<Triangle>& triangles = model[wall].triangles;
-        for (std::size_t t = 0; t < triangles.size(); ++t) {
-            for (std::size_t i = 0; i < 3; ++i)
-                facets.half[directed_key(triangles[t][i], triangles[t][(i + 1) % 3])] =
-                    facets.triangles.size();
-            facets.triangles.push_back(triangles[t]);
-            facets.face.push_back(wall);
-            facets.number.push_back(static_cast<Index>(t));
-        }
-    }
-    return facets;
-}
-
 /// Shortest path along facet sides from the source chain's start to the target rim, touching the rims only at
 /// its ends.
-std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& facets,
+std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const RunContext& context)
 {
     std::set<Index> low, high;
     for (const ChainNode& p : chain_nodes(model, link.source)) low.insert(p.point);
     for (const ChainNode& p : chain_nodes(model, link.target)) high.insert(p.point);
     const Index start = model[use_from(model, link.source.uses().front())].point;
-    std::vector<Index> way = geometry::shortest_way(model.points, facets.triangles, start, low, high,
-                                                    context);
+    std::vector<Index> way = geometry::shortest_way(model.points, facets, start, low, high, context);
     if (!way.empty()) return way;
     throw NotSweepable("surface.wall_broken", "the facets of " + name_of(model, link.walls.front()) +
                                                   " do not connect the source's rim to the target's");
@@ -72,20 +48,20 @@ std::vector<Index> shortest_way_up(const Model& model, const LinkingFacets& face
 
 /// s of the linking surface with natural conditions on the target rim, which shows how the walls themselves
 /// run. One row per model point.
-Eigen::MatrixXd natural_coordinate(const Model& model, const LinkingFacets& facets,
+Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
                                    const RunContext& context)
 {
     geometry::HarmonicProblem problem;
     problem.points = model.points;
-    problem.triangles = facets.triangles;
+    problem.triangles = facets;
     const std::vector<ChainNode> rim = chain_nodes(model, link.source);
     problem.fixed_values.resize(static_cast<Eigen::Index>(rim.size()), 1);
     for (std::size_t i = 0; i < rim.size(); ++i) {
         problem.fixed.push_back(rim[i].point);
         problem.fixed_values(static_cast<Eigen::Index>(i), 0) = rim[i].at / link.source.length();
     }
-    problem.corner_turns = geometry::turns_along(facets.triangles, cut);
+    problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVectorXd::Ones(1);
     problem.least_energy = true;
     return geometry::solve_harmonic(problem, context);
@@ -99,8 +75,7 @@ constexpr std::size_t kColumnsRound = 360;
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
 {
-    const FacetPosition at[] = {place.at};
-    return points_at({model.points, model[place.face].triangles, {}, nullptr}, at).front();
+    return point_on_facets(model, place.face, place.at);
 }
 
 /// Linear interpolation in [0, 1] between values at even steps.
@@ -121,11 +96,27 @@ bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside
 
 } // namespace
 
+std::vector<Vec3> points_at(const Model& model, std::span<const WallPosition> places, bool exact)
+{
+    std::map<FaceId, std::vector<std::size_t>> on_face;
+    for (std::size_t i = 0; i < places.size(); ++i) on_face[places[i].face].push_back(i);
+    std::vector<Vec3> points(places.size());
+    for (const auto& [face, members] : on_face) {
+        const Face& f = model[face];
+        std::vector<FacetPosition> at;
+        for (const std::size_t i : members) at.push_back(places[i].at);
+        const std::vector<Vec3> found = points_at(
+            {model.points, f.triangles, f.uv, exact ? f.surface.get() : nullptr}, at);
+        for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = found[k];
+    }
+    return points;
+}
+
 std::pair<double, double> unguided_target(const OpenVolume& volume, const LinkingSurface& link,
                                           const RunContext& context)
 {
     const Model& model = volume.model;
-    const LinkingFacets facets = facets_of(model, link.walls);
+    const std::vector<Triangle> facets = facets_of(model, link.walls).triangles;
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
     // The mean difference, on the circle, between the free coordinate s and the share of the target's length.
@@ -158,7 +149,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
                        const RunContext& context)
 {
     const Model& model = volume.model;
-    const LinkingFacets facets = facets_of(model, link.walls);
+    facets_ = facets_of(model, link.walls);
+    const std::vector<Triangle>& facets = facets_.triangles;
     std::map<Index, Vec2> fixed;
     double end_branch = 0;
     std::vector<Index> cut;
@@ -171,8 +163,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         const double natural = link.branch
                                    ? *link.branch
                                    : natural_coordinate(model, facets, link, cut, context)(cut.back(), 0);
-        const auto end = std::find_if(high.begin(), high.end(),
-                                      [&](const ChainNode& p) { return p.point == cut.back(); });
+        const auto end = std::ranges::find_if(high,
+                                              [&](const ChainNode& p) { return p.point == cut.back(); });
         const double wanted = target_coordinate(link, end->at);
         end_branch = wanted + std::round(natural - wanted);
         branch_ = end_branch;
@@ -194,13 +186,13 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
 
     geometry::HarmonicProblem problem;
     problem.points = model.points;
-    problem.triangles = facets.triangles;
+    problem.triangles = facets;
     problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 2);
     for (const auto& [point, value] : fixed) {
         problem.fixed_values.row(static_cast<Eigen::Index>(problem.fixed.size())) = value.transpose();
         problem.fixed.push_back(point);
     }
-    problem.corner_turns = geometry::turns_along(facets.triangles, cut);
+    problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVector2d(1, 0);
     check_cancelled(context);
     strip_ = geometry::solve_harmonic(problem, context);
@@ -213,13 +205,13 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     for (const FaceId wall : link.walls) area += face_area(model, wall);
     height_ = area / width_;
 
-    std::vector<std::array<Vec2, 3>> corners(facets.triangles.size());
+    std::vector<std::array<Vec2, 3>> corners(facets.size());
     std::vector<Vec3> flat;
     std::vector<Triangle> flat_triangles;
-    for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < facets.size(); ++t) {
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Index p = facets.triangles[t][i];
+            const Index p = facets[t][i];
             corners[t][i] = Vec2(strip_(p, 0) + problem.corner_turns[t][i], strip_(p, 1));
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
@@ -235,8 +227,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     check_cancelled(context);
     tree_ = geometry::FacetTree(flat, flat_triangles, context);
     check_cancelled(context);
-    face_of_ = facets.face;
-    triangle_of_ = facets.number;
+
     if (upright.empty()) measure_heights(model);
     const bool creased = upright.size() > link.lines.size(); // columns run along the creases
     if (!creased && !runs_straight(model, link)) measure_columns(model, link, context);
@@ -375,7 +366,7 @@ bool runs_straight(const Model& model, const LinkingSurface& link)
                          .stableNormalized();
     return std::ranges::all_of(link.walls, [&](FaceId wall) {
         return std::ranges::all_of(model[wall].triangles, [&](const Triangle& t) {
-            const Vec3 normal = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+            const Vec3 normal = facet_area_vector(model, t);
             return std::abs(normal.dot(way)) <= kAcross * normal.norm();
         });
     });
@@ -386,14 +377,18 @@ WallPosition LinkingMap::locate(double s, double t) const
     if (!columns_.empty()) s = 0.5 + std::remainder(harmonic(s, t) - 0.5, 1.0);
     const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
     const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
-    return {face_of_[original], {triangle_of_[original], hit.barycentric}};
+    return {facets_.face[original], {facets_.number[original], hit.barycentric}};
 }
 
 void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link,
                             const std::vector<std::array<Vec2, 3>>& corners, bool void_edges)
 {
     const Model& model = volume.model;
-    const LinkingFacets facets = facets_of(model, link.walls);
+    std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+        const Triangle& facet = facets_.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) half[directed_key(facet[i], facet[(i + 1) % 3])] = t;
+    }
     std::set<EdgeId> taken;
     for (const EdgeUse& use : link.source.uses()) taken.insert(use.edge);
     for (const EdgeUse& use : link.target.uses()) taken.insert(use.edge);
@@ -403,46 +398,43 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
     std::vector<Ring> pieces;
     const auto uses = edge_uses(model);
     for (const FaceId wall : link.walls) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (!taken.insert(use.edge).second) continue;
-                const std::vector<FaceUse>& beside = uses[use.edge.index()];
-                const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-                if (seam || (!void_edges && is_void(model, use.edge, beside))) continue;
-                Ring piece;
-                double along = 0, up = 0;
-                const std::vector<Index> points = use_points(model, use);
-                const std::vector<Vec3> line = places_at(model, points);
-                std::vector<double> share = geometry::arc_lengths(line);
-                const double length = share.back();
-                for (double& f : share) f = use.reversed ? 1 - f / length : f / length;
-                for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                    const auto found = facets.half.find(directed_key(points[i], points[i + 1]));
-                    if (found == facets.half.end()) continue;
-                    const Triangle& t = facets.triangles[found->second];
-                    const auto c = static_cast<std::size_t>(std::find(t.begin(), t.end(), points[i]) -
-                                                            t.begin());
-                    const Vec2 a = upright(corners[found->second][c]);
-                    const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
-                    piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
-                    piece.height += (a.y() + b.y()) / 2;
-                    along += std::abs(b.x() - a.x()) * width_;
-                    up += b.y() - a.y();
-                }
-                // Kept quads have mesh nodes along their edges.
-                const bool stays = std::ranges::any_of(beside, [&](const FaceUse& user) {
-                    return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
-                });
-                if (stays) continue;
-                const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
-                if (steep) {
-                    uprights_.push_back({use.edge, std::move(piece.pieces)});
-                    continue;
-                }
-                piece.height /= static_cast<double>(piece.pieces.size());
-                piece.vertices = {use_from(model, use), use_to(model, use)};
-                pieces.push_back(std::move(piece));
+        for (const EdgeUse& use : all_uses(model[wall])) {
+            if (!taken.insert(use.edge).second) continue;
+            const std::vector<FaceUse>& beside = uses[use.edge.index()];
+            const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
+            if (seam || (!void_edges && is_void(model, use.edge, beside))) continue;
+            Ring piece;
+            double along = 0, up = 0;
+            const std::vector<Index> points = use_points(model, use);
+            const std::vector<Vec3> line = places_at(model, points);
+            std::vector<double> share = geometry::arc_lengths(line);
+            const double length = share.back();
+            for (double& f : share) f = use.reversed ? 1 - f / length : f / length;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const auto found = half.find(directed_key(points[i], points[i + 1]));
+                if (found == half.end()) continue;
+                const Triangle& t = facets_.triangles[found->second];
+                const auto c = static_cast<std::size_t>(std::ranges::find(t, points[i]) - t.begin());
+                const Vec2 a = upright(corners[found->second][c]);
+                const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
+                piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
+                piece.height += (a.y() + b.y()) / 2;
+                along += std::abs(b.x() - a.x()) * width_;
+                up += b.y() - a.y();
             }
+            // Kept quads have mesh nodes along their edges.
+            const bool stays = std::ranges::any_of(beside, [&](const FaceUse& user) {
+                return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
+            });
+            if (stays) continue;
+            const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
+            if (steep) {
+                uprights_.push_back({use.edge, std::move(piece.pieces)});
+                continue;
+            }
+            piece.height /= static_cast<double>(piece.pieces.size());
+            piece.vertices = {use_from(model, use), use_to(model, use)};
+            pieces.push_back(std::move(piece));
         }
     }
     // Pieces that meet at a vertex form one ring.
@@ -456,11 +448,8 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         for (bool grown = true; grown;) {
             grown = false;
             for (std::size_t j = 0; j < pieces.size(); ++j) {
-                const bool meets = std::any_of(
-                    pieces[j].vertices.begin(), pieces[j].vertices.end(), [&](VertexId v) {
-                        return std::find(ring.vertices.begin(), ring.vertices.end(), v) !=
-                               ring.vertices.end();
-                    });
+                const bool meets = std::ranges::find_first_of(pieces[j].vertices, ring.vertices) !=
+                                   pieces[j].vertices.end();
                 if (used[j] || !meets) continue;
                 used[j] = grown = true;
                 const auto more = static_cast<double>(pieces[j].pieces.size());
@@ -474,8 +463,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         ring.height /= weight;
         rings_.push_back(std::move(ring));
     }
-    std::stable_sort(rings_.begin(), rings_.end(),
-                     [](const Ring& a, const Ring& b) { return a.height < b.height; });
+    std::ranges::stable_sort(rings_, {}, &Ring::height);
 }
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
@@ -492,7 +480,7 @@ std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double
                 {a.y() + f * (b.y() - a.y()), piece.edge, piece.from + f * (piece.to - piece.from)});
         }
     }
-    std::sort(result.begin(), result.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::ranges::sort(result, {}, &Crossing::t);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <lacuna/surface/detail/linking_map.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace lacuna::surface {
 
@@ -24,7 +26,7 @@ namespace {
 std::vector<EdgeUse> against(const std::vector<EdgeUse>& uses)
 {
     std::vector<EdgeUse> result;
-    for (auto use = uses.rbegin(); use != uses.rend(); ++use) result.push_back({use->edge, !use->reversed});
+    for (auto use = uses.rbegin(); use != uses.rend(); ++use) result.push_back(opposite(*use));
     return result;
 }
 
@@ -67,26 +69,17 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
 {
     std::set<std::size_t> touched;
     for (const FaceId face : part) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const auto found = of.rim.find(use.edge);
-                if (found != of.rim.end()) touched.insert(found->second);
-            }
+        for (const EdgeUse& use : all_uses(model[face])) {
+            const auto found = of.rim.find(use.edge);
+            if (found != of.rim.end()) touched.insert(found->second);
         }
     }
-    if (touched.empty()) {
-        throw NotSweepable("surface.belt_loops",
-                           "the walls " + names_of(model, part) + " do not touch the " + end +
-                               "; a sweep needs one ring of walls between one source loop and one target "
-                               "loop");
-    }
-    if (touched.size() != 1) {
-        throw NotSweepable("surface.belt_loops", "the walls " + names_of(model, part) + " touch " +
-                                                     std::to_string(touched.size()) + " loops of the " + end +
-                                                     "; a sweep needs one ring of walls between one source "
-                                                     "loop and one target loop");
-    }
-    return *touched.begin();
+    if (touched.size() == 1) return *touched.begin();
+    const std::string found = touched.empty() ? " do not touch the "
+                                              : " touch " + std::to_string(touched.size()) + " loops of the ";
+    throw NotSweepable("surface.belt_loops",
+                       "the walls " + names_of(model, part) + found + end +
+                           "; a sweep needs one ring of walls between one source loop and one target loop");
 }
 
 /// Side lines must meet both rims in the same cyclic order: keep the first and all that follow in order.
@@ -122,7 +115,7 @@ void add_segments(const Model& model, LinkingSurface& link, double s0, double s1
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
     for (double& x : a) x = (x - s0) / (s1 - s0);
     for (double& x : b) x = (x - t0) / (t1 - t0);
-    std::vector<std::pair<double, double>> breaks = paired_breaks(a, b, pairing);
+    BreakPairs breaks = paired_breaks(a, b, pairing);
     complete(breaks);
     breaks.emplace_back(1, 1);
     double a0 = 0, b0 = 0;
@@ -170,8 +163,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
         const auto t = use_leaving(model, link.target.uses(), pair.target);
         if (s && t) places.push_back({link.source.start(*s), link.target.start(*t)});
     }
-    std::sort(places.begin(), places.end(),
-              [](const PairedPlaces& a, const PairedPlaces& b) { return a.source_at < b.source_at; });
+    std::ranges::sort(places, {}, &PairedPlaces::source_at);
     return places;
 }
 
@@ -232,8 +224,7 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
         link.lines.push_back({line, link.source.start(*use_leaving(model, source, line.source)),
                               link.target.start(*use_leaving(model, target, line.target))});
     }
-    std::sort(link.lines.begin(), link.lines.end(),
-              [](const LinkingLine& a, const LinkingLine& b) { return a.source_at < b.source_at; });
+    std::ranges::sort(link.lines, {}, &LinkingLine::source_at);
     link.lines = in_order(std::move(link.lines));
 
     const double s_end = link.source.length();
@@ -271,6 +262,21 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
 }
 
 } // namespace
+
+std::pair<double, double> edge_part(const LinkingSurface& link, const RimSegment& segment)
+{
+    const double start = link.source.start(segment.use);
+    const double length = link.source.start(segment.use + 1) - start;
+    const double from = std::clamp((segment.source_from - start) / length, 0.0, 1.0);
+    const double to = std::clamp((segment.source_to - start) / length, 0.0, 1.0);
+    return link.source.uses()[segment.use].reversed ? std::pair{1 - to, 1 - from} : std::pair{from, to};
+}
+
+EdgeUse target_use(const LinkingSurface& link, const RimSegment& segment)
+{
+    const double middle = link.target.wrapped((segment.target_from + segment.target_to) / 2);
+    return link.target.uses()[link.target.position(middle).use];
+}
 
 std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning turning,
                                              std::span<const RimPair> pairs, const RunContext& context)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/mapped_face.h>
 
-#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>
@@ -40,8 +39,8 @@ MappedFace::MappedFace(const Model& model, FaceId face, const std::vector<std::s
     const Loop& loop = model[face].loops[0];
     std::array<std::vector<Vec3>, 4> side;
     for (std::size_t s = 0; s < 4; ++s) side[s] = side_points(model, loop, corners[s], corners[(s + 1) % 4]);
-    std::reverse(side[2].begin(), side[2].end());
-    std::reverse(side[3].begin(), side[3].end());
+    std::ranges::reverse(side[2]);
+    std::ranges::reverse(side[3]);
     points_ = geometry::transfinite(side[0], side[1], side[2], side[3]);
     if (model[face].kind == "plane" || plane_of(model, face)) return;
     // Facets are accurate enough for sizes and angles.
@@ -102,7 +101,7 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
         double squares = 0;
         for (const double s : own) squares += s * s;
         const double mean = std::sqrt(squares / static_cast<double>(own.size()));
-        const auto good = std::count_if(own.begin(), own.end(), [&](double s) {
+        const auto good = std::ranges::count_if(own, [&](double s) {
             return s >= quads::kShortestOfSize * mean && s <= quads::kLongestOfSize * mean;
         });
         shape.even_share = std::min(shape.even_share,

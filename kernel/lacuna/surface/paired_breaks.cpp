@@ -10,27 +10,27 @@ namespace lacuna::surface {
 namespace {
 
 /// @param alone  cost of an unpaired break, as a share of the length.
-std::vector<std::pair<double, double>> paired(const std::vector<double>& a, const std::vector<double>& b,
-                                              double alone, bool in_order)
+BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, double alone, bool in_order)
 {
     const std::size_t n = a.size(), m = b.size();
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
+    // With `in_order` the distance of a pair costs nothing.
+    const auto cost_paired = [&](std::size_t i, std::size_t j) {
+        return cost[i - 1][j - 1] + (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]);
+    };
     for (std::size_t i = 0; i <= n; ++i) {
         for (std::size_t j = 0; j <= m; ++j) {
             if (i == 0 && j == 0) continue;
             double best = std::numeric_limits<double>::infinity();
             if (i > 0) best = std::min(best, cost[i - 1][j] + alone);
             if (j > 0) best = std::min(best, cost[i][j - 1] + alone);
-            // With `in_order` the distance of a pair costs nothing.
-            const double apart = i > 0 && j > 0 ? (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
-            if (i > 0 && j > 0) best = std::min(best, cost[i - 1][j - 1] + apart);
+            if (i > 0 && j > 0) best = std::min(best, cost_paired(i, j));
             cost[i][j] = best;
         }
     }
-    std::vector<std::pair<double, double>> result;
+    BreakPairs result;
     for (std::size_t i = n, j = m; i > 0 || j > 0;) {
-        const double apart = i > 0 && j > 0 ? (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]) : 0;
-        if (i > 0 && j > 0 && cost[i][j] == cost[i - 1][j - 1] + apart) {
+        if (i > 0 && j > 0 && cost[i][j] == cost_paired(i, j)) {
             result.emplace_back(a[--i], b[--j]);
         } else if (i > 0 && cost[i][j] == cost[i - 1][j] + alone) {
             result.emplace_back(a[--i], -1);
@@ -38,29 +38,27 @@ std::vector<std::pair<double, double>> paired(const std::vector<double>& a, cons
             result.emplace_back(-1, b[--j]);
         }
     }
-    std::reverse(result.begin(), result.end());
+    std::ranges::reverse(result);
     return result;
 }
 
 } // namespace
 
-std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
-                                                     const std::vector<double>& b, Pairing pairing)
+BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, Pairing pairing)
 {
     // Two unpaired breaks cost as much as a pair this far apart, as a share of the length. Heuristic.
     const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
 }
 
-std::vector<std::pair<double, double>> paired_breaks(const std::vector<double>& a,
-                                                     const std::vector<double>& b, double apart)
+BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, double apart)
 {
     return paired(a, b, apart / 2, false);
 }
 
-void complete(std::vector<std::pair<double, double>>& breaks)
+void complete(BreakPairs& breaks)
 {
-    std::vector<std::pair<double, double>> anchors{{0, 0}};
+    BreakPairs anchors{{0, 0}};
     for (const auto& pair : breaks) {
         if (pair.first >= 0 && pair.second >= 0) anchors.push_back(pair);
     }
@@ -78,7 +76,7 @@ void complete(std::vector<std::pair<double, double>>& breaks)
         else
             b = b0 + (b1 - b0) * (a - a0) / (a1 - a0);
     }
-    std::sort(breaks.begin(), breaks.end());
+    std::ranges::sort(breaks);
 }
 
 } // namespace lacuna::surface

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_loops.h>
 
+#include <lacuna/geometry/shared/plane.h>
+
 #include <algorithm>
 
 namespace lacuna::surface {
 
 double signed_area(std::span<const Vec2> points, std::span<const Index> loop)
 {
+    std::vector<Vec2> outline;
+    for (const Index p : loop) outline.push_back(points[index(p)]);
+    return signed_area(outline);
+}
+
+double signed_area(std::span<const Vec2> outline)
+{
     double sum = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2& a = points[static_cast<std::size_t>(loop[i])];
-        const Vec2& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-        sum += a.x() * b.y() - a.y() * b.x();
-    }
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        sum += geometry::cross(outline[i], outline[(i + 1) % outline.size()]);
     return sum / 2;
 }
 
 void sort_outer_first(std::span<const Vec2> points, std::vector<std::vector<Index>>& loops)
 {
-    std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
-        return signed_area(points, a) > signed_area(points, b);
-    });
+    std::ranges::stable_sort(
+        loops, [&](const auto& a, const auto& b) { return signed_area(points, a) > signed_area(points, b); });
 }
 
 } // namespace lacuna::surface

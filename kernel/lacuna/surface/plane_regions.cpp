@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_regions.h>
 
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/surface/detail/plane_loops.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,27 +26,6 @@ std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Walk& loop
     return points;
 }
 
-double area_of(const std::vector<Vec2>& points)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec2 &a = points[i], &b = points[(i + 1) % points.size()];
-        sum += a.x() * b.y() - a.y() * b.x();
-    }
-    return sum / 2;
-}
-
-bool inside(const std::vector<Vec2>& polygon, const Vec2& p)
-{
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Vec2 &a = polygon[i], &b = polygon[j];
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
-    }
-    return in;
-}
-
 /// An outgoing half-edge of a node.
 struct Spoke {
     double angle;
@@ -62,8 +44,7 @@ std::map<std::size_t, std::vector<Spoke>> spokes_of(std::span<const PlaneChain> 
         spokes[chains[c].to].push_back({angle(line.back(), line[line.size() - 2]), {c, true}});
     }
     for (auto& [node, around] : spokes) {
-        std::stable_sort(around.begin(), around.end(),
-                         [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
+        std::ranges::stable_sort(around, {}, &Spoke::angle);
     }
     return spokes;
 }
@@ -107,7 +88,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
     std::vector<Walk> holes;
     for (Walk& loop : traced_loops(chains)) {
         std::vector<Vec2> outline = points_of(chains, loop);
-        const double area = area_of(outline);
+        const double area = signed_area(outline);
         if (!(area > 0)) {
             holes.push_back(std::move(loop));
             continue;
@@ -123,9 +104,9 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
         std::size_t round = regions.size();
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            const bool own = std::any_of(regions[r].loops.front().begin(), regions[r].loops.front().end(),
-                                         [&](const PlaneUse& u) { return u.chain == use.chain; });
-            if (own || areas[r] >= least || !inside(outlines[r], at)) continue;
+            const bool own = std::ranges::any_of(regions[r].loops.front(),
+                                                 [&](const PlaneUse& u) { return u.chain == use.chain; });
+            if (own || areas[r] >= least || !geometry::lies_inside(outlines[r], at)) continue;
             round = r;
             least = areas[r];
         }

@@ -10,6 +10,19 @@ namespace lacuna::surface {
 
 using namespace topology;
 
+FacetSet facets_of(const Model& model, std::span<const FaceId> faces)
+{
+    FacetSet facets;
+    for (const FaceId face : faces) {
+        for (std::size_t t = 0; t < model[face].triangles.size(); ++t) {
+            facets.triangles.push_back(model[face].triangles[t]);
+            facets.face.push_back(face);
+            facets.number.push_back(static_cast<Index>(t));
+        }
+    }
+    return facets;
+}
+
 std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places)
 {
     std::vector<Vec3> points(places.size());
@@ -36,18 +49,17 @@ std::vector<Vec3> points_at(const Model& model, FaceId face, std::span<const Fac
     return points_at({model.points, f.triangles, f.uv, f.surface.get()}, places);
 }
 
-Projector::Projector(const Model& model, std::vector<FaceId> faces) : model_(&model)
+Vec3 point_on_facets(const Model& model, FaceId face, const FacetPosition& place)
 {
-    std::vector<Triangle> triangles;
+    return points_at({model.points, model[face].triangles, {}, nullptr}, std::array{place}).front();
+}
+
+Projector::Projector(const Model& model, std::vector<FaceId> faces)
+    : model_(&model), facets_(facets_of(model, faces)), tree_(model.points, facets_.triangles)
+{
     for (const FaceId face : faces) {
-        for (std::size_t t = 0; t < model[face].triangles.size(); ++t) {
-            triangles.push_back(model[face].triangles[t]);
-            face_of_.push_back(face);
-            triangle_of_.push_back(static_cast<Index>(t));
-        }
         if (model[face].surface != nullptr) trimmed_.try_emplace(face, model, face);
     }
-    tree_ = geometry::FacetTree(model.points, triangles);
 }
 
 Projector::Projector(Projector&&) noexcept = default;
@@ -58,8 +70,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
 {
     std::vector<geometry::FacetTree::Hit> hits(points.size());
     const auto hit_on = [&](Index facet, const Vec3& p) {
-        const Face& face = (*model_)[face_of_[index(facet)]];
-        const Triangle& t = face.triangles[index(triangle_of_[index(facet)])];
+        const Triangle& t = facets_.triangles[index(facet)];
         const std::array<Vec3, 3> corners{model_->at(t[0]), model_->at(t[1]), model_->at(t[2])};
         geometry::FacetTree::Hit hit = geometry::closest_on_triangle(p, corners);
         hit.triangle = facet;
@@ -83,8 +94,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
     std::map<FaceId, std::vector<std::size_t>> on_face;
     std::vector<FaceId> faces(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto hit = static_cast<std::size_t>(hits[i].triangle);
-        faces[i] = face_of_[hit];
+        faces[i] = facets_.face[index(hits[i].triangle)];
         on_face[faces[i]].push_back(i);
     }
     // One call per face, because exact surfaces project in bulk.
@@ -97,8 +107,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         std::vector<Vec3> moved;
         std::vector<Vec2> uv;
         for (const std::size_t i : members) {
-            const auto& c =
-                f.uv[static_cast<std::size_t>(triangle_of_[static_cast<std::size_t>(hits[i].triangle)])];
+            const auto& c = f.uv[index(facets_.number[index(hits[i].triangle)])];
             const Vec3& w = hits[i].barycentric;
             moved.push_back(points[i]);
             uv.emplace_back(w[0] * c[0] + w[1] * c[1] + w[2] * c[2]);
@@ -107,7 +116,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         std::vector<Projected> now(members.size());
         for (std::size_t k = 0; k < members.size(); ++k) {
             const geometry::FacetTree::Hit& hit = hits[members[k]];
-            now[k] = {&hit, triangle_of_[static_cast<std::size_t>(hit.triangle)], &moved[k]};
+            now[k] = {&hit, facets_.number[index(hit.triangle)], &moved[k]};
         }
         trimmed_.at(face).keep_inside(now, context);
         for (std::size_t k = 0; k < members.size(); ++k) points[members[k]] = moved[k];

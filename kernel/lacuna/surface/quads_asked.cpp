@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/quads_asked.h>
 
 #include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -73,12 +74,10 @@ double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double 
 double sides_round(const Model& model, FaceId face, const SizeField& size, double most)
 {
     double sides = 0;
-    for (const Loop& loop : model[face].loops) {
-        for (const EdgeUse& use : loop.uses) {
-            const std::vector<Index>& points = model[use.edge].points;
-            for (std::size_t i = 0; i + 1 < points.size() && sides <= most; ++i)
-                sides += asked_on(Segment{model.at(points[i]), model.at(points[i + 1])}, size, most);
-        }
+    for (const EdgeUse& use : all_uses(model[face])) {
+        const std::vector<Index>& points = model[use.edge].points;
+        for (std::size_t i = 0; i + 1 < points.size() && sides <= most; ++i)
+            sides += asked_on(Segment{model.at(points[i]), model.at(points[i + 1])}, size, most);
     }
     return sides;
 }

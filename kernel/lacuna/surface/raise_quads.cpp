@@ -46,7 +46,7 @@ public:
 
     std::map<EdgeId, std::vector<double>> run()
     {
-        if (!any_poor()) return {};
+
         home_.resize(nodes_.size());
         for (std::size_t e = 0; e < freedom_.edges.size(); ++e) {
             const NodeFreedom::OnEdge& own = freedom_.edges[e];
@@ -81,11 +81,8 @@ private:
         std::vector<Vec3> points;
         std::vector<double> arc;
     };
-    /// The surface on which a node of a face moves: its plane, or its facets.
-    struct Ground {
-        bool flat = false;
-        std::optional<geometry::FacetTree> tree;
-    };
+    /// The facets on which a node of a face moves; none for a plane.
+    using Ground = std::optional<geometry::FacetTree>;
 
     [[nodiscard]] Vec3 area_of(std::size_t q) const
     {
@@ -114,14 +111,6 @@ private:
     [[nodiscard]] bool is_poor(std::size_t q) const
     {
         return !mesh::is_triangle(mesh_.quads[q]) && least_sine(q, area_of(q)) < kGoodEnough;
-    }
-
-    [[nodiscard]] bool any_poor() const
-    {
-        for (std::size_t q = 0; q < mesh_.quads.size(); ++q) {
-            if (is_poor(q)) return true;
-        }
-        return false;
     }
 
     /// The quads at a node, each with the face normal there.
@@ -246,10 +235,7 @@ private:
     {
         Ground& ground = grounds_[f];
         const Face& face = model_[freedom_.faces[f].face];
-        if (face.kind == "plane")
-            ground.flat = true;
-        else if (!ground.tree)
-            ground.tree.emplace(model_.points, face.triangles);
+        if (face.kind != "plane" && !ground) ground.emplace(model_.points, face.triangles);
         return ground;
     }
 
@@ -263,7 +249,7 @@ private:
         const double before = worst_of(star);
         const auto place = [&](const Vec2& to) {
             nodes_[p] = start + to.x() * u + to.y() * v;
-            if (!ground.flat) nodes_[p] = ground.tree->closest(nodes_[p]).point;
+            if (ground) nodes_[p] = ground->closest(nodes_[p]).point;
         };
         const auto value = [&](const Vec2& to, double /*floor*/) {
             place(to);

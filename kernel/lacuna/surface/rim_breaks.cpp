@@ -21,8 +21,6 @@ using namespace topology;
 
 namespace {
 
-using Pairs = std::vector<std::pair<double, double>>;
-
 /// Vertices of both rims closer than this share of the local facets use one column, as for edges of the
 /// walls: no quad fits between them.
 constexpr double kOneColumn = 0.4;
@@ -77,12 +75,13 @@ double nearest_turn(double at, double to, double length)
 
 /// Snap the breaks between segments to nearby vertices, unless they are vertices of this rim.
 template <class Vertices>
-void snap(Pairs& ends, double std::pair<double, double>::*side, const Chain& chain, const Vertices& vertices)
+void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
+          const Vertices& vertices)
 {
     const double length = chain.length(), reach = kOneColumn * length / static_cast<double>(vertices.size());
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         double& at = ends[i].*side;
-        if (starts_at(chain, at >= length ? at - length : at)) continue;
+        if (starts_at(chain, chain.wrapped(at))) continue;
         double best = at, least = reach;
         for (const auto& vertex : vertices) {
             const double place = nearest_turn(vertex.at, at, length);
@@ -110,9 +109,9 @@ std::vector<double> shares_between(double from, double to, const Chain& chain, c
 }
 
 /// The starts of all segments, and the end of the last one.
-Pairs boundaries(const LinkingSurface& link)
+BreakPairs boundaries(const LinkingSurface& link)
 {
-    Pairs ends;
+    BreakPairs ends;
     for (const RimSegment& segment : link.segments)
         ends.emplace_back(segment.source_from, segment.target_from);
     ends.emplace_back(link.source.length(), ends.front().second + link.target.length());
@@ -120,7 +119,7 @@ Pairs boundaries(const LinkingSurface& link)
 }
 
 /// Whether a pair is among others, up to whole turns.
-bool holds(const Pairs& pairs, const std::pair<double, double>& wanted, const LinkingSurface& link)
+bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, const LinkingSurface& link)
 {
     const double length = link.target.length();
     return std::ranges::any_of(pairs, [&](const std::pair<double, double>& pair) {
@@ -130,8 +129,8 @@ bool holds(const Pairs& pairs, const std::pair<double, double>& wanted, const Li
     });
 }
 
-/// Pairs around the ring, and positions between them where source edges start.
-Pairs with_starts(Pairs pairs, const LinkingSurface& link)
+/// BreakPairs around the ring, and positions between them where source edges start.
+BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
     for (std::size_t u = 1; u < link.source.uses().size(); ++u) {
@@ -146,11 +145,11 @@ Pairs with_starts(Pairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// Pairs of close vertices of both rims, and the opposite positions of the other vertices.
+/// BreakPairs of close vertices of both rims, and the opposite positions of the other vertices.
 template <class Vertices>
-Pairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
+BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {
-    Pairs ends = boundaries(link), pairs;
+    BreakPairs ends = boundaries(link), pairs;
     if (!high.empty()) snap(ends, &std::pair<double, double>::second, link.target, high);
     if (!low.empty()) snap(ends, &std::pair<double, double>::first, link.source, low);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
@@ -159,7 +158,7 @@ Pairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertice
         const std::vector<double> own = shares_between(s0, s1, link.source, low);
         const std::vector<double> other = shares_between(t0, t1, link.target, high);
         const auto facets = static_cast<double>(std::max(own.size(), other.size()) + 1);
-        Pairs inside = paired_breaks(own, other, kOneColumn / facets);
+        BreakPairs inside = paired_breaks(own, other, kOneColumn / facets);
         complete(inside);
         pairs.emplace_back(s0, t0);
         for (const auto& [s, t] : inside) pairs.emplace_back(s0 + s * (s1 - s0), t0 + t * (t1 - t0));
@@ -322,7 +321,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         if (low.empty() && high.empty()) continue;
         // Creases up the walls, and the positions they connect.
         std::vector<Crease> up;
-        Pairs joined;
+        BreakPairs joined;
         bool in_order = true;
         for (const Vertex& vertex : low) {
             const std::vector<Index>& crease = creases_.at(vertex.point);
@@ -338,24 +337,24 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
             up.push_back({vertex.at, crease});
             joined.emplace_back(vertex.at, at);
         }
+        const auto is_up = [&](const Vertex& v) {
+            return v.at_start || end_of_[index(creases_.at(v.point).back())] == 2;
+        };
         const auto is_met = [&](const Vertex& v) {
-            return v.at_start || end_of_[index(creases_.at(v.point).back())] == 2 ||
+            return is_up(v) ||
                    std::ranges::any_of(up, [&](const Crease& c) { return c.points.back() == v.point; });
         };
         if (!in_order || !std::ranges::all_of(high, is_met)) continue;
         const bool given = std::ranges::any_of(link.segments, &RimSegment::given);
-        const auto is_up = [&](const Vertex& v) {
-            return v.at_start || end_of_[index(creases_.at(v.point).back())] == 2;
-        };
         // Given meshes of walls have columns of their own.
         const bool meshed = std::ranges::any_of(link.walls,
                                                 [&](FaceId wall) { return volume_.model[wall].keeps_nodes; });
         const bool whole = !meshed && link.lines.empty() && !up.empty() && up.front().source_at == 0 &&
                            std::ranges::all_of(low, is_up);
-        Pairs pairs = given
-                          ? whole && has_nodes_at(link, joined) ? with_starts(joined, link) : boundaries(link)
-                      : whole ? with_starts(joined, link)
-                              : paired_near(link, low, high);
+        BreakPairs pairs = given   ? whole && has_nodes_at(link, joined) ? with_starts(joined, link)
+                                                                         : boundaries(link)
+                             : whole ? with_starts(joined, link)
+                                   : paired_near(link, low, high);
         if (!std::ranges::all_of(joined, [&](const auto& pair) { return holds(pairs, pair, link); }))
             continue;
         if (!whole && std::ranges::any_of(up, [](const Crease& c) { return c.points.size() > 2; })) continue;
@@ -381,12 +380,10 @@ std::vector<Crease> creases_of(const OpenVolume& volume, const LinkingSurface& l
     RimFacets facets(volume, std::span(&link, 1));
     const std::vector<ChainNode> nodes = chain_nodes(volume.model, link.source);
     for (const RimSegment& segment : link.segments) {
-        const auto node = std::ranges::find_if(nodes, [&](const ChainNode& n) {
-            return std::abs(n.at - segment.source_from) <= kSamePlace * link.source.length();
-        });
-        if (!segment.on_crease || node == nodes.end()) continue;
-        std::vector<Index> points = facets.crease(node->point);
-        if (!points.empty()) creases.push_back({node->at, std::move(points)});
+        const Index node = node_at(nodes, link.source, segment.source_from);
+        if (!segment.on_crease || node < 0) continue;
+        std::vector<Index> points = facets.crease(nodes[index(node)].point);
+        if (!points.empty()) creases.push_back({nodes[index(node)].at, std::move(points)});
     }
     return creases;
 }

@@ -36,9 +36,8 @@ std::optional<RoundSide> bulge_of(const Model& model, FaceId face,
         }
         if (turn < kBulges) continue;
         if (found) return {};
-        const EdgeId longest = *std::max_element(sides[s].begin(), sides[s].end(), [&](EdgeId a, EdgeId b) {
-            return edge_length(model, a) < edge_length(model, b);
-        });
+        const EdgeId longest = *std::ranges::max_element(
+            sides[s], [&](EdgeId a, EdgeId b) { return edge_length(model, a) < edge_length(model, b); });
         const double at[] = {0, 0.5, 1};
         const std::vector<Vec3> points = edge_points(model, longest, at);
         const Vec3 bend = points[1] - (points[0] + points[2]) / 2;

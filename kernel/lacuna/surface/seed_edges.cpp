@@ -2,13 +2,13 @@
 #include <lacuna/surface/detail/seed_edges.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -54,25 +54,16 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     const EdgeTurning target(model, link.target.uses());
     for (const RimSegment& segment : link.segments) {
         const EdgeUse use = link.source.uses()[segment.use];
-        const double start = link.source.start(segment.use);
-        const double length = link.source.start(segment.use + 1) - start;
-        double from = std::clamp((segment.source_from - start) / length, 0.0, 1.0);
-        double to = std::clamp((segment.source_to - start) / length, 0.0, 1.0);
-        if (use.reversed) {
-            std::swap(from, to);
-            from = 1 - from;
-            to = 1 - to;
-        }
+        const auto [from, to] = edge_part(link, segment);
         SeedPiece piece{from, to, segment.source_to - segment.source_from, 1};
         if (!segment.target_follows) piece.opposite = opposite_turning(target, segment);
-        if (use.reversed) std::reverse(piece.opposite.begin(), piece.opposite.end());
+        if (use.reversed) std::ranges::reverse(piece.opposite);
         piece.fixed = segment.given;
         piece.follows = segment.follows;
         seeds.pieces[use.edge].push_back(std::move(piece));
     }
     for (auto& [edge, pieces] : seeds.pieces) {
-        std::sort(pieces.begin(), pieces.end(),
-                  [](const SeedPiece& a, const SeedPiece& b) { return a.from < b.from; });
+        std::ranges::sort(pieces, {}, &SeedPiece::from);
     }
 }
 
@@ -177,9 +168,9 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     }
     if (most < least * (1 + kSameSize)) piece.wanted.clear();
     if (sides > std::numeric_limits<Index>::max() / 8) {
-        char count[32];
-        std::snprintf(count, sizeof count, "%.3g", sides);
-        throw NotSweepable("surface.too_many_sides", name_of(task.model, edge) + " would have " + count +
+
+        throw NotSweepable("surface.too_many_sides", name_of(task.model, edge) + " would have " +
+                                                         with_digits(sides, 3) +
                                                          " sides at this size, more than node numbers allow; "
                                                          "give a larger size");
     }

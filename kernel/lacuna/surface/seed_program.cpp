@@ -49,11 +49,11 @@ struct Program {
 
 void add_piece(SeedPiece& piece, Program& program)
 {
-    const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
-    const double wanted = rows > 0 ? piece.count : piece.sides;
+    const double wanted = piece.rows() > 0 ? piece.count : piece.sides;
     const std::size_t variable = program.intervals.variables.size();
     program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), 1});
-    program.intervals.variables.push_back({std::max(piece.least, rows + 1), piece.count, piece.fixed});
+    program.intervals.variables.push_back(
+        {std::max(piece.least, piece.rows() + 1), piece.count, piece.fixed});
     program.pieces.push_back(&piece);
     program.piece_variable.push_back(variable);
 }
@@ -113,10 +113,10 @@ bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds&
         return false;
     const auto bulge = bulge_of(task.model, face, sides, task.size);
     if (!bulge || bulge->turn / 2 * std::pow(bulge->radius / bulge->size, 2) < kQuadsForRows) return false;
-    return std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+    return std::ranges::any_of(edges, [&](EdgeId edge) {
         const std::set<FaceId>& users = task.users.at(edge);
-        return std::any_of(users.begin(), users.end(),
-                           [&](FaceId user) { return user != face && is_free(grids, seeds, user); });
+        return std::ranges::any_of(users,
+                                   [&](FaceId user) { return user != face && is_free(grids, seeds, user); });
     });
 }
 
@@ -185,10 +185,9 @@ std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids,
     if (task.style != QuadStyle::automatic) return settled;
     for (const FaceId face : task.faces) {
         const std::vector<EdgeId> edges = edges_of(task.model, face);
-        const bool beside = std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+        const bool beside = std::ranges::any_of(edges, [&](EdgeId edge) {
             const std::set<FaceId>& users = task.users.at(edge);
-            return std::any_of(users.begin(), users.end(),
-                               [&](FaceId user) { return grids.opposite.contains(user); });
+            return std::ranges::any_of(users, [&](FaceId user) { return grids.opposite.contains(user); });
         });
         if (is_free(grids, seeds, face) && (beside || is_sector_beside(task, grids, seeds, face, edges))) {
             if (add_free(task, face, edges, seeds, program)) settled.insert(edges.begin(), edges.end());
@@ -228,7 +227,7 @@ IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const In
             if (first == program.first.end() || pieces.size() > 1 || pieces.front().fixed) continue;
             wanted.emplace_back(pieces.front().sides, first->second);
         }
-        std::sort(wanted.begin(), wanted.end());
+        std::ranges::sort(wanted);
         for (std::size_t i = 1; i < wanted.size(); ++i) {
             if (wanted[i].first <= (1 + kSame) * wanted[i - 1].first)
                 straight.equations.push_back({{wanted[i - 1].second}, {wanted[i].second}});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/seed_task.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <numeric>
@@ -33,9 +34,7 @@ SeedTask::SeedTask(const OpenVolume& of, std::span<const LinkingSurface> links, 
 std::vector<EdgeId> edges_of(const Model& model, FaceId face)
 {
     std::vector<EdgeId> edges;
-    for (const Loop& loop : model[face].loops) {
-        for (const EdgeUse& use : loop.uses) edges.push_back(use.edge);
-    }
+    for (const EdgeUse& use : all_uses(model[face])) edges.push_back(use.edge);
     return edges;
 }
 
@@ -65,7 +64,7 @@ double quads_asked(const Model& model, const Seeds& seeds, FaceId face)
 bool is_fixed(const Seeds& seeds, EdgeId edge)
 {
     const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
-    return std::all_of(pieces.begin(), pieces.end(), [](const SeedPiece& piece) { return piece.fixed; });
+    return std::ranges::all_of(pieces, [](const SeedPiece& piece) { return piece.fixed; });
 }
 
 bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by)

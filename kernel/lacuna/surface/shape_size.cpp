@@ -9,6 +9,7 @@
 #include <lacuna/surface/detail/graded_points.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -74,7 +75,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
     };
     std::vector<Index> number; // model points of the face, sorted
     for (const Triangle& t : f.triangles) number.insert(number.end(), t.begin(), t.end());
-    std::sort(number.begin(), number.end());
+    std::ranges::sort(number);
     number.erase(std::unique(number.begin(), number.end()), number.end());
     const auto place = [&](Index p) {
         return static_cast<std::size_t>(std::lower_bound(number.begin(), number.end(), p) - number.begin());
@@ -151,9 +152,7 @@ public:
     {
         double rim = 0;
         std::map<EdgeId, int> uses;
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) ++uses[use.edge];
-        }
+        for (const EdgeUse& use : all_uses(model[face])) ++uses[use.edge];
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
         for (const auto& [edge, count] : uses) {
@@ -220,7 +219,10 @@ private:
                 // The edge's own curvature limits its sides to this length anyway.
                 const double bend = at.curvature * sizing.curvature / (2 * std::numbers::pi);
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                const auto facing = opposite(edge, start + (from + to) / 2, at, reach(at, most, sizing.gap));
+                // Wider places do not reduce the size.
+                const double reach = std::max(sizing.gap * most,
+                                              at.curvature * most * most / (8 * kSagOfWidth));
+                const auto facing = opposite(edge, start + (from + to) / 2, at, reach);
                 if (!facing) continue;
                 const double width = facing->width;
                 const auto because = [&](double size) {
@@ -246,12 +248,6 @@ private:
             }
             start += length;
         }
-    }
-
-    /// The width above which a place does not reduce the size.
-    static double reach(const RimPoint& at, double most, int gap)
-    {
-        return std::max(gap * most, at.curvature * most * most / (8 * kSagOfWidth));
     }
 
     /// The boundary point opposite to this place, if it is within `reach`.
@@ -280,28 +276,18 @@ private:
         if (!(width > model_.tolerance) || (met - at.point).dot(at.inward) < kFacing * width)
             return std::nullopt;
         const EdgeId other = pieces_[*piece].edge;
-        if (enclose_face(edge, other)) return Opposite{other, std::max(width, mean_width_)};
-        if (!across(edge, s, pieces_[*piece], met, width)) return std::nullopt;
-        return Opposite{other, width};
-    }
-
-    /// Whether two edges share both end vertices.
-    [[nodiscard]] bool enclose_face(EdgeId edge, EdgeId other) const
-    {
         const Edge &a = model_[edge], &b = model_[other];
-        return edge != other && a.from != a.to &&
-               ((a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from));
-    }
-
-    /// Whether two points lie on different sides of the face, and not next to the same corner or bend.
-    [[nodiscard]] bool across(EdgeId edge, double s, const RimPiece& other, const Vec3& met,
-                              double width) const
-    {
-        const Edge &a = model_[edge], &b = model_[other.edge];
-        if (edge != other.edge) return a.from != b.from && a.from != b.to && a.to != b.from && a.to != b.to;
-        double way = std::abs(other.from + (met - other.start).norm() - s);
-        if (a.from == a.to) way = std::min(way, other.length - way);
-        return way > kWayRound * width;
+        if (edge == other) {
+            const RimPiece& there = pieces_[*piece];
+            double way = std::abs(there.from + (met - there.start).norm() - s);
+            if (a.from == a.to) way = std::min(way, there.length - way);
+            return way > kWayRound * width ? std::optional(Opposite{other, width}) : std::nullopt;
+        }
+        const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
+        if (!at_start && !at_end) return Opposite{other, width};
+        // Next to a common corner no width is defined; two edges with both ends in common enclose the face.
+        if (!at_start || !at_end || a.from == a.to) return std::nullopt;
+        return Opposite{other, std::max(width, mean_width_)};
     }
 
     const Model& model_;

@@ -2,12 +2,13 @@
 #include <lacuna/surface/detail/sides_asked.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/surface/detail/seed_pieces.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 
@@ -17,21 +18,14 @@ using namespace topology;
 
 namespace {
 
-std::string in_short(double x)
-{
-    char words[32];
-    std::snprintf(words, sizeof words, "%.4g", x);
-    return words;
-}
-
 /// The height of rows, measured along the side they run along, up to which an edge has room for them.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;
     const double far = at_end ? (other.empty() ? piece.from : other.back())
                               : (other.empty() ? piece.to : other.front());
-    const double at[] = {far};
-    return (edge_points(model, edge, at).front() - model.at(model[end.corner].point)).dot(end.inward);
+    return (edge_points(model, edge, std::array{far}).front() - model.at(model[end.corner].point))
+        .dot(end.inward);
 }
 
 /// Place nodes on an edge at the heights of the rows that end at one of its ends.
@@ -48,9 +42,9 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     if (own.size() < heights.size() || !(low < high)) {
         throw NotSweepable(
             "surface.layers_room",
-            "the boundary layers of " + name_of(model, end.wall) + ", " + in_short(heights.back()) +
+            "the boundary layers of " + name_of(model, end.wall) + ", " + with_digits(heights.back(), 4) +
                 " high, end on " + name_of(model, edge) + " at " + name_of(model, end.corner) +
-                ", where there is room for only " + in_short(room_on(model, piece, edge, at_end, end)) +
+                ", where there is room for only " + with_digits(room_on(model, piece, edge, at_end, end), 4) +
                 ((at_end ? piece.low : piece.high).empty() ? ""
                                                            : " beside the rows that end at its other end") +
                 "; use fewer or thinner rows");
@@ -58,8 +52,7 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     const double share = (high - low) / (piece.to - piece.from);
     const double sides_between = piece.wanted.empty() ? share * piece.count
                                                       : wanted_at(piece, high) - wanted_at(piece, low);
-    piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) +
-                  static_cast<int>(piece.low.size() + piece.high.size());
+    piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) + piece.rows();
 }
 
 /// Number of sides up to a share of the length, with bias.
@@ -110,8 +103,7 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
         }
         return;
     }
-    if (!piece.low.empty() || !piece.high.empty()) {
-        const auto rows = static_cast<int>(piece.low.size() + piece.high.size());
+    if (const int rows = piece.rows(); rows > 0) {
         if (own.count <= rows)
             refuse_sides(who + ", where boundary layers end with " + std::to_string(rows) + " sides: give " +
                          std::to_string(rows + 1) + " or more");
@@ -131,9 +123,11 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
 void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAsked& asked)
 {
     const std::string who = asked.name + " asks for " + std::to_string(asked.count) + " sides";
-    std::vector<SeedPiece*> pieces;
-    std::vector<bool> reversed;
-    std::vector<std::string> names;
+    struct Asked {
+        SeedPiece* piece;
+        const SidesAsked::Part* part;
+    };
+    std::vector<Asked> pieces;
     for (const SidesAsked::Part& part : asked.parts) {
         std::vector<std::size_t> within;
         std::vector<SeedPiece>& all = seeds.pieces.at(part.edge);
@@ -141,21 +135,18 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
             const double middle = (all[i].from + all[i].to) / 2;
             if (middle > part.from && middle < part.to) within.push_back(i);
         }
-        if (part.reversed) std::reverse(within.begin(), within.end());
-        for (const std::size_t i : within) {
-            pieces.push_back(&all[i]);
-            reversed.push_back(part.reversed);
-            names.push_back(name_of(model, part.edge));
-        }
+        if (part.reversed) std::ranges::reverse(within);
+        for (const std::size_t i : within) pieces.push_back({&all[i], &part});
     }
     if (static_cast<std::size_t>(asked.count) < pieces.size()) {
         refuse_sides(who + ", but corners of both ends require at least " + std::to_string(pieces.size()));
     }
     std::vector<double> ends{0}; // running lengths
-    for (const SeedPiece* piece : pieces) ends.push_back(ends.back() + piece->length);
+    for (const auto& [piece, part] : pieces) ends.push_back(ends.back() + piece->length);
     const std::vector<int> node = nodes_at(ends, asked);
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-        SeedPiece own = *pieces[p];
+        const auto& [piece, part] = pieces[p];
+        SeedPiece own = *piece;
         own.fixed = own.asked = true;
         own.count = node[p + 1] - node[p];
         own.kept.clear();
@@ -164,11 +155,11 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
         for (int i = 1; i < own.count; ++i) {
             const double at = from + (to - from) * i / own.count;
             double share = (length_at(at, asked) * ends.back() - ends[p]) / (ends[p + 1] - ends[p]);
-            if (reversed[p]) share = 1 - share;
+            if (part->reversed) share = 1 - share;
             own.kept.push_back(own.from + share * (own.to - own.from));
         }
-        std::sort(own.kept.begin(), own.kept.end());
-        settle(model, askers, *pieces[p], own, who + " on " + names[p], asked);
+        std::ranges::sort(own.kept);
+        settle(model, askers, *piece, own, who + " on " + name_of(model, part->edge), asked);
     }
 }
 

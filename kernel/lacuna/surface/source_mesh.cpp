@@ -2,17 +2,19 @@
 #include <lacuna/surface/shared/source_mesh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/raise_quads.h>
 #include <lacuna/surface/shared/fill_face.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::surface {
 
@@ -87,22 +89,15 @@ private:
 
     void put_triangles_last()
     {
-        mesh::QuadMesh& cells = result_.quads;
-        std::vector<Quad> triangles;
-        std::vector<Index> face;
-        std::size_t quads = 0;
-        for (std::size_t q = 0; q < cells.quads.size(); ++q) {
-            if (mesh::is_triangle(cells.quads[q])) {
-                triangles.push_back(cells.quads[q]);
-                face.push_back(cells.face[q]);
-                continue;
+        const std::vector<Quad> cells = std::exchange(result_.quads.quads, {});
+        const std::vector<Index> face = std::exchange(result_.quads.face, {});
+        for (const bool triangles : {false, true}) {
+            for (std::size_t q = 0; q < cells.size(); ++q) {
+                if (mesh::is_triangle(cells[q]) != triangles) continue;
+                result_.quads.quads.push_back(cells[q]);
+                result_.quads.face.push_back(face[q]);
             }
-            cells.quads[quads] = cells.quads[q];
-            cells.face[quads++] = cells.face[q];
         }
-        std::copy(triangles.begin(), triangles.end(),
-                  cells.quads.begin() + static_cast<std::ptrdiff_t>(quads));
-        std::copy(face.begin(), face.end(), cells.face.begin() + static_cast<std::ptrdiff_t>(quads));
     }
 
     Index add_node(const Vec3& p)
@@ -130,7 +125,7 @@ private:
                                 static_cast<Index>((i + static_cast<std::size_t>(k)) % points.size()));
             i += chain.size() - 1;
             node_of_[use_from(model_, use)] = chain.front();
-            if (use.reversed) std::reverse(chain.begin(), chain.end());
+            if (use.reversed) std::ranges::reverse(chain);
             rim_.insert(use.edge);
             result_.on_edge[use.edge] = std::move(chain);
         }
@@ -159,7 +154,7 @@ private:
     [[nodiscard]] std::vector<Index> nodes_along(EdgeUse use) const
     {
         std::vector<Index> chain = result_.on_edge.at(use.edge);
-        if (use.reversed) std::reverse(chain.begin(), chain.end());
+        if (use.reversed) std::ranges::reverse(chain);
         return chain;
     }
 
@@ -167,11 +162,9 @@ private:
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
-        for (const Loop& loop : model_[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
-                for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
-            }
+        for (const EdgeUse& use : all_uses(model_[face])) {
+            const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
+            for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
         }
         std::vector<Quad> cells = model_[face].given_quads;
         for (const Triangle& t : loose_triangles(model_[face])) cells.push_back({t[0], t[1], t[2], t[2]});
@@ -198,8 +191,8 @@ private:
                 side[s].insert(side[s].end(), chain.begin() + (side[s].empty() ? 0 : 1), chain.end());
             }
         }
-        std::reverse(side[2].begin(), side[2].end());
-        std::reverse(side[3].begin(), side[3].end());
+        std::ranges::reverse(side[2]);
+        std::ranges::reverse(side[3]);
         const std::size_t n = side[0].size() - 1, m = side[1].size() - 1;
         const auto places = [&](const std::vector<Index>& nodes) {
             std::vector<Vec3> points;
@@ -248,7 +241,7 @@ private:
                 if (angle < kRowsEnd) rows.turn[next] = quads::RowTurn::inner;
                 if (angle > kRowsBreak) rows.turn[next] = quads::RowTurn::outer;
                 std::vector<double> at = seeds_.fractions(use.edge);
-                if (use.reversed) std::reverse(at.begin(), at.end());
+                if (use.reversed) std::ranges::reverse(at);
                 for (std::size_t i = 0; i + 1 < at.size(); ++i, ++next) {
                     const RimRows::Part* part = seeds_.rows.part_at(use.edge, (at[i] + at[i + 1]) / 2);
                     if (part != nullptr) rows.table[next] = part->table;
@@ -263,11 +256,7 @@ private:
                                   const quads::RowsFinding& finding) const
     {
         using Why = quads::RowsFinding::Why;
-        const auto number = [](double x) {
-            char words[32];
-            std::snprintf(words, sizeof words, "%.4g", x);
-            return std::string(words);
-        };
+        const std::string asked = with_digits(finding.asked, 4), found = with_digits(finding.found, 4);
         const RimNode& node = rim[static_cast<std::size_t>(finding.node)];
         std::string wall = "a wall";
         for (const auto& [edge, parts] : seeds_.rows.parts) {
@@ -278,26 +267,22 @@ private:
         }
         const std::string who = "the boundary layers of " + wall + " along " + name_of(model_, node.edge) +
                                 " of " + name_of(model_, face);
-        const std::string where = " near (" + number(node.point.x()) + ", " + number(node.point.y()) + ", " +
-                                  number(node.point.z()) + ")";
+        const std::string where = " near " + place_with_digits(node.point, 4);
         switch (finding.why) {
         case Why::no_room:
-            throw NotSweepable("surface.layers_room", who + " are " + number(finding.asked) +
-                                                          " high in all, and " + number(finding.found) +
+            throw NotSweepable("surface.layers_room", who + " are " + asked + " high in all, and " + found +
                                                           where +
                                                           " is the room to the opposite side, including its "
                                                           "rows; use fewer or thinner rows");
         case Why::sharp_bend:
-            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " +
-                                                          number(finding.asked) + "; there is room for " +
-                                                          number(finding.found) +
+            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " + asked +
+                                                          "; there is room for " + found +
                                                           " there; use fewer or thinner rows, or a "
                                                           "smaller size");
         case Why::off_height:
             throw NotSweepable("surface.layers_ends",
-                               who + " end" + where + " on nodes at height " + number(finding.found) +
-                                   " instead of " + number(finding.asked) +
-                                   "; these are given nodes, or the edge is too short for the rows");
+                               who + " end" + where + " on nodes at height " + found + " instead of " +
+                                   asked + "; these are given nodes, or the edge is too short for the rows");
         case Why::unlike:
             break;
         }
@@ -323,7 +308,7 @@ private:
             for (const EdgeUse& use : loop.uses) {
                 const std::vector<Index> chain = nodes_along(use);
                 std::vector<double> fractions = seeds_.fractions(use.edge);
-                if (use.reversed) std::reverse(fractions.begin(), fractions.end());
+                if (use.reversed) std::ranges::reverse(fractions);
                 for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
                     cycle.push_back(static_cast<Index>(rim.size()));
                     boundary.push_back(chain[i]);
@@ -333,7 +318,7 @@ private:
             }
         }
         const quads::BoundaryRows rows = rows_along(face, rim);
-        const bool any = std::any_of(rows.table.begin(), rows.table.end(), [](int t) { return t >= 0; });
+        const bool any = std::ranges::any_of(rows.table, [](int t) { return t >= 0; });
         const FaceQuads filling = fill_face(model_, face, rim, loops, sizes_, mesher_, any ? &rows : nullptr,
                                             context_);
         if (filling.finding) refuse_rows(face, rim, *filling.finding);

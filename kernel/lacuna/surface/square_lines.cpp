@@ -82,8 +82,7 @@ public:
             const auto& [lines, rungs] = part;
             check_cancelled(context_);
             if (worst_cosine(rungs, 1) < kWorthIt) continue;
-            const bool swept = std::any_of(rungs.begin(), rungs.end(),
-                                           [&](std::size_t r) { return rungs_[r].on_rims; });
+            const bool swept = std::ranges::any_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
             if (swept && !std::exchange(above, true) && !add_sections()) return;
             settle(lines, rungs);
         }
@@ -130,7 +129,7 @@ private:
         for (std::size_t k = 0; k < kSections; ++k) heights.push_back(height_of(k));
         std::vector<WallMesh> walls;
         try {
-            walls = mesh_walls_on_facets(volume_, links_, nodes, heights, context_);
+            walls = mesh_walls(volume_, links_, nodes, heights, {}, context_, false);
         } catch (const NotSweepable&) {
             return false; // there are more edges to follow than sections
         }
@@ -147,7 +146,7 @@ private:
                     points.clear();
                     for (std::size_t i = 0; i <= sides; ++i)
                         points.push_back(walls[b].points[k * round + (next + i) % round]);
-                    if (use.reversed) std::reverse(points.begin(), points.end());
+                    if (use.reversed) std::ranges::reverse(points);
                 }
                 next += sides;
             }
@@ -163,8 +162,8 @@ private:
             for (std::size_t i = corners[s]; i != corners[(s + 1) % 4]; i = (i + 1) % loop.uses.size())
                 add_nodes(loop.uses[i], side[s]);
         }
-        std::reverse(side[2].begin(), side[2].end());
-        std::reverse(side[3].begin(), side[3].end());
+        std::ranges::reverse(side[2]);
+        std::ranges::reverse(side[3]);
         add_between(side[0], side[2], side[3], side[1]);
         add_between(side[3], side[1], side[0], side[2]);
     }
@@ -274,7 +273,7 @@ private:
     /// Whether the angles between lines and edges vary from section to section.
     [[nodiscard]] bool are_unlike(const std::vector<std::size_t>& rungs) const
     {
-        return std::any_of(rungs.begin(), rungs.end(), [&](std::size_t r) {
+        return std::ranges::any_of(rungs, [&](std::size_t r) {
             const std::array<Cosine, 2> below = cosines(rungs_[r], kSource);
             for (std::size_t section = 1; section < kSections; ++section) {
                 const std::array<Cosine, 2> own = cosines(rungs_[r], section);
@@ -290,27 +289,46 @@ private:
                                 double weight) const
     {
         double sum = 0;
-        for (const std::size_t l : lines) {
-            const double each = weight_of(lines_[l], weight);
-            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>&) {
-                for (std::size_t i = 0; i + 1 < u.size(); ++i)
-                    sum += each * beside_end(i, u) * std::pow(u[i + 1] - u[i] - 1, 2);
-            });
-            for_columns(lines_[l], [&](std::size_t, double slope) { sum += slope * slope; });
-        }
-        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t, const Cosine& cosine) {
-            sum += share(rung) * cosine.value * cosine.value;
-        });
+        for_terms(lines, rungs, weight,
+                  [&](double r, double w, std::span<const Slope>) { sum += w * r * r; });
         return sum;
     }
 
-    /// Visit the positions of a line's end nodes with their variables: on the source, and on the target if it
-    /// has its own.
+    using Slope = std::pair<std::size_t, double>; ///< derivative by a variable
+
+    /// Visit the terms of the objective: residual, weight and derivatives.
     template <class Visit>
-    static void for_ends(const Line& line, const Visit& visit)
+    void for_terms(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
+                   double weight, const Visit& visit) const
     {
-        visit(line.at, line.variable);
-        if (!line.above.empty()) visit(line.above, line.variable_above);
+        for (const std::size_t l : lines) {
+            const Line& line = lines_[l];
+            // Both ends of the sweep count once if they are the same.
+            const double each = line.above.empty() ? weight : weight / 2;
+            const auto visit_sides = [&](const std::vector<double>& u,
+                                         const std::vector<std::size_t>& variable) {
+                for (std::size_t i = 0; i + 1 < u.size(); ++i) {
+                    // A side at an end of a line is the height of a row along the edge that meets it.
+                    const double ends = i == 0 || i + 2 == u.size() ? kEnds : 1;
+                    visit(u[i + 1] - u[i] - 1, each * ends,
+                          std::array<Slope, 2>{{{variable[i], -1}, {variable[i + 1], 1}}});
+                }
+            };
+            visit_sides(line.at, line.variable);
+            visit_sides(line.above, line.variable_above);
+            for_columns(line, [&](std::size_t i, double slope) {
+                visit(slope, 1.0,
+                      std::array<Slope, 2>{
+                          {{line.variable[i], -line.steep[i]}, {line.variable_above[i], line.steep[i]}}});
+            });
+        }
+        std::vector<Slope> own;
+        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, const Cosine& cosine) {
+            own.clear();
+            add_slopes(rung.from, section, cosine.from, own);
+            add_slopes(rung.to, section, cosine.to, own);
+            visit(cosine.value, share(rung), own);
+        });
     }
 
     /// Visit the nodes whose columns deviate from even ones: displacement along the edge per length of the
@@ -321,21 +339,6 @@ private:
         for (std::size_t i = 1; i + 1 < line.above.size(); ++i)
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
-
-    /// Weight of evenness at an end of a line; both ends count once if they are the same.
-    static double weight_of(const Line& line, double weight)
-    {
-        return line.above.empty() ? weight : weight / 2;
-    }
-
-    /// Additional weight of evenness at the ends of a line if a side there is the height of a row along the
-    /// edge that meets it.
-    static double beside_end(std::size_t side, const std::vector<double>& u)
-    {
-        return side == 0 || side + 2 == u.size() ? kEnds : 1;
-    }
-
-    using Slope = std::pair<std::size_t, double>; ///< derivative by a variable
 
     /// Derivative of a node's column in a section, by its variables.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
@@ -352,7 +355,7 @@ private:
     {
         std::vector<Eigen::Triplet<double>> entries;
         Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(variables));
-        const auto add = [&](std::span<const Slope> own, double r, double w) {
+        for_terms(lines, rungs, weight, [&](double r, double w, std::span<const Slope> own) {
             for (const auto& [v, dv] : own) {
                 if (v == kNone) continue;
                 right[static_cast<Eigen::Index>(v)] -= w * dv * r;
@@ -361,27 +364,6 @@ private:
                         entries.emplace_back(static_cast<int>(v), static_cast<int>(o), w * dv * d_o);
                 }
             }
-        };
-        for (const std::size_t l : lines) {
-            const double each = weight_of(lines_[l], weight);
-            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>& variable) {
-                for (std::size_t i = 0; i + 1 < u.size(); ++i)
-                    add(std::array<Slope, 2>{{{variable[i], -1}, {variable[i + 1], 1}}}, u[i + 1] - u[i] - 1,
-                        each * beside_end(i, u));
-            });
-            for_columns(lines_[l], [&](std::size_t i, double slope) {
-                const Line& line = lines_[l];
-                add(std::array<Slope, 2>{{{line.variable[i], -line.steep[i]},
-                                          {line.variable_above[i], line.steep[i]}}},
-                    slope, 1);
-            });
-        }
-        std::vector<Slope> own;
-        for_cosines(rungs, kSections, [&](const Rung& rung, std::size_t section, const Cosine& cosine) {
-            own.clear();
-            add_slopes(rung.from, section, cosine.from, own);
-            add_slopes(rung.to, section, cosine.to, own);
-            add(own, cosine.value, share(rung));
         });
         const auto n = static_cast<Eigen::Index>(variables);
         Eigen::SparseMatrix<double> matrix(n, n);
@@ -418,10 +400,10 @@ private:
     {
         bool even = true;
         for (const std::size_t l : lines) {
-            for_ends(lines_[l], [&](const std::vector<double>& u, const std::vector<std::size_t>&) {
-                for (std::size_t i = 0; i + 1 < u.size(); ++i)
-                    even = even && u[i + 1] - u[i] >= kShortest && u[i + 1] - u[i] <= kLongest;
-            });
+            for (const std::vector<double>* u : {&lines_[l].at, &lines_[l].above}) {
+                for (std::size_t i = 0; i + 1 < u->size(); ++i)
+                    even = even && (*u)[i + 1] - (*u)[i] >= kShortest && (*u)[i + 1] - (*u)[i] <= kLongest;
+            }
         }
         return even;
     }
@@ -432,7 +414,7 @@ private:
         for (const std::size_t l : lines) {
             Line& line = lines_[l];
             line.variable.assign(line.at.size(), kNone);
-            if (line.piece->fixed || !line.piece->low.empty() || !line.piece->high.empty()) continue;
+            if (line.piece->fixed || line.piece->rows() > 0) continue;
             for (std::size_t i = 1; i + 1 < line.at.size(); ++i) line.variable[i] = variables++;
         }
         if (variables == 0) return;
@@ -450,8 +432,7 @@ private:
     bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                       std::size_t variables)
     {
-        const bool swept = std::all_of(rungs.begin(), rungs.end(),
-                                       [&](std::size_t r) { return rungs_[r].on_rims; });
+        const bool swept = std::ranges::all_of(rungs, [&](std::size_t r) { return rungs_[r].on_rims; });
         if (!swept || !are_unlike(rungs)) return false;
         const double before = worst_cosine(rungs, kSections);
         std::vector<std::vector<double>> alike;

@@ -16,18 +16,10 @@ using namespace topology;
 
 namespace {
 
-double within(double at, double length) { return at >= length ? at - length : at; }
-
-class StripLayer {
+class StripLayer : StripTask {
 public:
     StripLayer(const StripTask& task, const LinkingMap* map, const WallNet& net, const RunContext& context)
-        : model_(task.model),
-          link_(task.link),
-          nodes_(task.nodes),
-          heights_(task.heights.begin(), task.heights.end()),
-          line_of_(task.line_of),
-          given_(task.begun.given),
-          faces_(task.begun.mesh.face),
+        : StripTask(task),
           map_(map),
           net_(net),
           context_(context),
@@ -49,24 +41,15 @@ private:
     {
         const auto layers = static_cast<int>(layers_);
         const std::size_t count = net_.levels.size();
-        std::vector<std::vector<std::size_t>> below(count);
-        std::vector<int> above(count, 0), depth(count, 0);
-        for (std::size_t a = 0; a < count; ++a) {
-            for (std::size_t b = a + 1; b < count; ++b) {
-                if (net_.over_each_other(*map_, a, b)) below[b].push_back(a);
-            }
-        }
-        int most = 0;
-        for (std::size_t b = 0; b < count; ++b) {
-            for (const std::size_t a : below[b]) depth[b] = std::max(depth[b], depth[a] + 1);
-            most = std::max(most, depth[b] + 1);
-        }
+        const std::vector<std::vector<std::size_t>> below = net_.levels_below(*map_);
+        std::vector<int> above(count, 0);
+        const int most = most_levels(below);
         for (std::size_t b = count; b-- > 0;) {
             for (const std::size_t a : below[b]) above[a] = std::max(above[a], above[b] + 1);
         }
         if (most >= layers) {
             throw NotSweepable("surface.too_few_layers",
-                               name_of(model_, net_.levels.front().edge) +
+                               name_of(model, net_.levels.front().edge) +
                                    " runs around the walls between source and target, as do edges at " +
                                    std::to_string(most) + " heights in all; each height needs a layer, " +
                                    "so use layers = " + std::to_string(most + 1) + " or more (" +
@@ -75,8 +58,8 @@ private:
         for (std::size_t r = 0; r < count; ++r) {
             int nearest = 1, lowest = 1;
             for (int k = 1; k < layers; ++k) {
-                if (std::abs(heights_[static_cast<std::size_t>(k)] - net_.levels[r].height) <
-                    std::abs(heights_[static_cast<std::size_t>(nearest)] - net_.levels[r].height))
+                if (std::abs(heights[static_cast<std::size_t>(k)] - net_.levels[r].height) <
+                    std::abs(heights[static_cast<std::size_t>(nearest)] - net_.levels[r].height))
                     nearest = k;
             }
             for (const std::size_t a : below[r]) lowest = std::max(lowest, level_layer_[a] + 1);
@@ -90,12 +73,12 @@ private:
         std::vector<std::pair<double, double>> knots{{0, 0}};
         for (const auto& [layer, t] : at_layer) {
             if (t > knots.back().second && t < 1)
-                knots.emplace_back(heights_[static_cast<std::size_t>(layer)], t);
+                knots.emplace_back(heights[static_cast<std::size_t>(layer)], t);
         }
         knots.emplace_back(1, 1);
         std::vector<double> result;
         std::size_t k = 0;
-        for (const double h : heights_) {
+        for (const double h : heights) {
             while (k + 2 < knots.size() && h > knots[k + 1].first) ++k;
             const auto& [h0, t0] = knots[k];
             const auto& [h1, t1] = knots[k + 1];
@@ -134,11 +117,11 @@ private:
     {
         std::map<int, double> at_layer;
         for (std::size_t u = 1; u < chain.uses().size(); ++u) {
-            const VertexId v = use_from(model_, chain.uses()[u]);
+            const VertexId v = use_from(model, chain.uses()[u]);
             for (std::size_t r = 0; r < level_layer_.size(); ++r) {
                 if (!net_.levels[r].plain) continue;
                 const auto& vertices = map_->rings()[*net_.levels[r].ring].vertices;
-                if (std::find(vertices.begin(), vertices.end(), v) != vertices.end())
+                if (std::ranges::find(vertices, v) != vertices.end())
                     at_layer[level_layer_[r]] = chain.start(u) / chain.length();
             }
         }
@@ -151,11 +134,11 @@ private:
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
         for (std::size_t i = 0; i < count_; ++i) {
-            std::vector<double> at = heights_;
-            const double s = nodes_.source_at[i] / link_.source.length();
-            if (line_of_[i] >= 0) {
-                const LinkingLine& line = link_.lines[static_cast<std::size_t>(line_of_[i])];
-                at = line_heights(Chain(model_, line.line.uses));
+            std::vector<double> at(heights.begin(), heights.end());
+            const double s = nodes.source_at[i] / link.source.length();
+            if (line_of[i] >= 0) {
+                const LinkingLine& line = link.lines[static_cast<std::size_t>(line_of[i])];
+                at = line_heights(Chain(model, line.line.uses));
             } else if (map_ != nullptr) {
                 std::map<int, double> at_layer;
                 for (const auto& [layer, crossing] : crossings_at(s)) {
@@ -167,7 +150,7 @@ private:
             }
             for (std::size_t k = 0; k <= layers_; ++k) laid_.place[k * count_ + i] = Vec2(s, at[k]);
         }
-        if (map_ != nullptr && (given_.has_sides() || !net_.stops.empty())) follow_net();
+        if (map_ != nullptr && (begun.given.has_sides() || !net_.stops.empty())) follow_net();
     }
 
     // --- the net -------------------------------------------------------------------------------------
@@ -181,24 +164,24 @@ private:
             double least = std::numeric_limits<double>::infinity();
             for (std::size_t i = 0; i < count_; ++i) {
                 const double to = column.target_at
-                                      ? within(nodes_.target_at[i], link_.target.length()) - *column.target_at
+                                      ? link.target.wrapped(nodes.target_at[i]) - *column.target_at
                                       : 0;
                 const double off = column.target_at && !column.source_at
-                                       ? std::abs(std::remainder(to / link_.target.length(), 1.0))
+                                       ? std::abs(std::remainder(to / link.target.length(), 1.0))
                                        : std::abs(std::remainder(
-                                             nodes_.source_at[i] / link_.source.length() - column.at, 1.0));
+                                             nodes.source_at[i] / link.source.length() - column.at, 1.0));
                 if (off >= least) continue;
                 least = off;
                 nearest = i;
             }
-            node.push_back(column.line ? nodes_.line[*column.line] : nearest);
+            node.push_back(column.line ? nodes.line[*column.line] : nearest);
         }
         for (std::size_t a = 0; a < node.size(); ++a) {
             for (std::size_t b = 0; b < a; ++b) {
                 const WallNet::Column &p = net_.columns[a], &q = net_.columns[b];
                 if (node[a] != node[b] || p.high < q.low || q.high < p.low) continue;
-                refuse_wall_edge(model_, q.line ? p.edge : q.edge,
-                                 "and " + name_of(model_, q.line ? q.edge : p.edge) +
+                refuse_wall_edge(model, q.line ? p.edge : q.edge,
+                                 "and " + name_of(model, q.line ? q.edge : p.edge) +
                                      " require the same column of nodes; use a smaller size");
             }
         }
@@ -225,12 +208,12 @@ private:
             const WallNet::Stop &low = net_.stops[edge.low], &high = net_.stops[edge.high];
             const std::size_t from = layer_of(low), to = layer_of(high);
             if (from >= to) {
-                refuse_wall_edge(model_, edge.upright->edge,
+                refuse_wall_edge(model, edge.upright->edge,
                                  "runs up the walls past edges whose layers have another order; use "
                                  "more layers");
             }
             for (std::size_t k = from; k <= to; ++k) {
-                double f = (heights_[k] - heights_[from]) / (heights_[to] - heights_[from]);
+                double f = (heights[k] - heights[from]) / (heights[to] - heights[from]);
                 if (edge.reversed) f = 1 - f;
                 pin(column_node[low.column], k, edge.upright->edge, f,
                     place_on(edge.upright->pieces, edge.upright->edge, f));
@@ -267,8 +250,7 @@ private:
             const double s = net_.stops[stop].place.x();
             anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
         }
-        std::sort(anchors.begin(), anchors.end(),
-                  [](const Anchor& a, const Anchor& b) { return a.node < b.node; });
+        std::ranges::sort(anchors, {}, &Anchor::node);
         for (std::size_t a = 0; a < anchors.size(); ++a) {
             const Anchor& from = anchors[a];
             Anchor to = anchors[(a + 1) % anchors.size()];
@@ -287,7 +269,7 @@ private:
     /// s of a node, continued over whole turns.
     [[nodiscard]] double at_node(std::size_t node) const
     {
-        return nodes_.source_at[node % count_] / link_.source.length() +
+        return nodes.source_at[node % count_] / link.source.length() +
                static_cast<double>(node / count_); // NOLINT(bugprone-integer-division): whole turns
     }
 
@@ -300,9 +282,9 @@ private:
         for (const WallNet::Stop& stop : net_.stops) {
             const std::size_t node = column_node[stop.column], layer = layer_of(stop);
             laid_.stops.push_back(layer * count_ + node);
-            for (const Edge& edge : model_.edges) {
+            for (const Edge& edge : model.edges) {
                 if (edge.from != stop.vertex && edge.to != stop.vertex) continue;
-                const EdgeId id(static_cast<std::size_t>(&edge - model_.edges.data()));
+                const EdgeId id(static_cast<std::size_t>(&edge - model.edges.data()));
                 pin(node, layer, id, edge.from == stop.vertex ? 0.0 : 1.0, stop.place);
                 break;
             }
@@ -319,7 +301,7 @@ private:
     {
         for (std::size_t k = 0; k < layers_; ++k) {
             if (laid_.place[(k + 1) * count_ + node].y() > laid_.place[k * count_ + node].y()) continue;
-            if (!given_.has_node(k, node) || !given_.has_node(k + 1, node)) return false;
+            if (!begun.given.has_node(k, node) || !begun.given.has_node(k + 1, node)) return false;
         }
         return true;
     }
@@ -329,7 +311,7 @@ private:
     void spread_evenly(std::size_t node)
     {
         const auto is_free = [&](std::size_t k) {
-            return k > 0 && k < layers_ && !given_.has_node(k, node) &&
+            return k > 0 && k < layers_ && !begun.given.has_node(k, node) &&
                    !laid_.on_edge.contains(k * count_ + node);
         };
         std::size_t low = 0;
@@ -337,7 +319,7 @@ private:
             if (is_free(k)) continue;
             const double from = laid_.place[low * count_ + node].y(), to = laid_.place[k * count_ + node].y();
             for (std::size_t j = low + 1; j < k; ++j) {
-                const double f = (heights_[j] - heights_[low]) / (heights_[k] - heights_[low]);
+                const double f = (heights[j] - heights[low]) / (heights[k] - heights[low]);
                 laid_.place[j * count_ + node].y() = from + f * (to - from);
             }
             low = k;
@@ -347,12 +329,13 @@ private:
     [[noreturn]] void refuse_overlap() const
     {
         const std::string why = "makes layers overlap; use more layers";
-        if (!net_.levels.empty()) refuse_wall_edge(model_, net_.levels.front().edge, why);
-        if (!net_.columns.empty()) refuse_wall_edge(model_, net_.columns.front().edge, why);
-        const auto given = std::find(given_.side.begin(), given_.side.end(), 1) - given_.side.begin();
-        throw NotSweepable("surface.wall_rows", "the mesh that " +
-                                                    name_of(model_, faces_[static_cast<std::size_t>(given)]) +
-                                                    " came with " + why);
+        if (!net_.levels.empty()) refuse_wall_edge(model, net_.levels.front().edge, why);
+        if (!net_.columns.empty()) refuse_wall_edge(model, net_.columns.front().edge, why);
+        const auto given = std::ranges::find(begun.given.side, 1) - begun.given.side.begin();
+        throw NotSweepable("surface.wall_rows",
+                           "the mesh that " +
+                               name_of(model, begun.mesh.face[static_cast<std::size_t>(given)]) +
+                               " came with " + why);
     }
 
     /// Displacement of a node from its target position in the strip.
@@ -371,7 +354,7 @@ private:
             for (std::size_t i = 0; i < count_; ++i) {
                 const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
                 points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
-                                    heights_[k] * map_->height());
+                                    heights[k] * map_->height());
             }
         }
         std::vector<Triangle> triangles;
@@ -388,8 +371,8 @@ private:
             std::map<Index, double> fixed;
             for (std::size_t i = 0; i < count_; ++i) {
                 for (std::size_t k = 0; k <= layers_; ++k) {
-                    const bool still = k == 0 || k == layers_ || (axis == 0 && line_of_[i] >= 0);
-                    const Index point = given_.node[k * count_ + i];
+                    const bool still = k == 0 || k == layers_ || (axis == 0 && line_of[i] >= 0);
+                    const Index point = begun.given.node[k * count_ + i];
                     if (still)
                         fixed[at(k, i)] = 0;
                     else if (point >= 0)
@@ -413,13 +396,6 @@ private:
         }
     }
 
-    const Model& model_;
-    const LinkingSurface& link_;
-    const LinkingNodes& nodes_;
-    std::vector<double> heights_;
-    std::span<const int> line_of_;
-    const GivenWall& given_;
-    std::span<const FaceId> faces_;
     const LinkingMap* map_;
     const WallNet& net_;
     const RunContext& context_;

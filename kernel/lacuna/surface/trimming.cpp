@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,12 +104,10 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
         const std::size_t count = chain.size() - 1;
         for (std::size_t i = 0; i < count; ++i) {
             const auto facet = index(facet_of_side[sides_.size() - first]);
-            const Triangle& t = model[face_].triangles[facet];
             Side side;
             side.use = use;
             side.segment = use.reversed ? count - 1 - i : i;
-            side.normal =
-                (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).stableNormalized();
+            side.normal = facet_area_vector(model, model[face_].triangles[facet]).stableNormalized();
             along.push_back(model.at(chain[i + 1]) - model.at(chain[i]));
             side.inward = side.normal.cross(along.back()).stableNormalized();
             sides_.push_back(side);
@@ -148,12 +147,6 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-void Trimming::measure_clearance() const
-{
-    for (std::size_t t = 0; t < (*model_)[face_].triangles.size(); ++t)
-        clearance_.push_back(clearance_of(static_cast<Index>(t)));
-}
-
 /// Points well inside: the displacement from the facet is shorter than the distance to any border, or ends
 /// over the same facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
@@ -182,8 +175,14 @@ void Trimming::keep_inside(std::span<const Projected> points, const RunContext& 
 {
     if (sides_.empty()) return;
     // Compute the clearance of all facets if there are as many points; otherwise only of those in use.
-    const bool measured = points.size() >= (*model_)[face_].triangles.size();
-    if (measured) std::call_once(once_, [&] { measure_clearance(); });
+    const std::size_t facets = (*model_)[face_].triangles.size();
+    const bool measured = points.size() >= facets;
+    if (measured) {
+        std::call_once(once_, [&] {
+            for (std::size_t t = 0; t < facets; ++t)
+                clearance_.push_back(clearance_of(static_cast<Index>(t)));
+        });
+    }
     std::vector<char> clear(points.size(), 0);
     parallel_for(context, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i], measured) ? 1 : 0;

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/detail/wall_net.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -25,22 +26,16 @@ constexpr double kRounding = 1e-9; ///< of the rim's length
 bool has_net(const Model& model, const LinkingSurface& link)
 {
     std::set<VertexId> known;
-    std::set<EdgeId> taken;
-    const auto take = [&](const EdgeUse& use) {
-        known.insert({use_from(model, use), use_to(model, use)});
-        taken.insert(use.edge);
-    };
+    const auto take = [&](const EdgeUse& use) { known.insert({use_from(model, use), use_to(model, use)}); };
     for (const EdgeUse& use : link.source.uses()) take(use);
     for (const EdgeUse& use : link.target.uses()) take(use);
     for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) take(use);
     }
     for (const FaceId wall : link.walls) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (taken.contains(use.edge)) continue;
-                if (!known.contains(use_from(model, use)) || !known.contains(use_to(model, use))) return true;
-            }
+        for (const EdgeUse& use : all_uses(model[wall])) {
+
+            if (!known.contains(use_from(model, use)) || !known.contains(use_to(model, use))) return true;
         }
     }
     return false;
@@ -55,11 +50,9 @@ int layers_between_rings(const Model& model, const LinkingSurface& link)
     for (const LinkingLine& line : link.lines)
         for (const EdgeUse& use : line.line.uses) along.insert(use.edge);
     for (const FaceId wall : link.walls) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (along.contains(use.edge)) continue;
-                crossed.insert({use_from(model, use), use_to(model, use)});
-            }
+        for (const EdgeUse& use : all_uses(model[wall])) {
+            if (along.contains(use.edge)) continue;
+            crossed.insert({use_from(model, use), use_to(model, use)});
         }
     }
     int layers = 1;
@@ -84,15 +77,7 @@ public:
         for (std::size_t c = 0; c < net_.columns.size(); ++c) {
             if (!net_.columns[c].line) break_at(c);
         }
-        std::vector<int> depth(net_.levels.size(), 1);
-        int most = 0;
-        for (std::size_t b = 0; b < net_.levels.size(); ++b) {
-            for (std::size_t a = 0; a < b; ++a) {
-                if (net_.over_each_other(map_, a, b)) depth[b] = std::max(depth[b], depth[a] + 1);
-            }
-            most = std::max(most, depth[b]);
-        }
-        return most + 1;
+        return most_levels(net_.levels_below(map_)) + 1;
     }
 
 private:
@@ -106,7 +91,7 @@ private:
                 that.low <= own.high)
                 return true;
         }
-        return std::any_of(link_.lines.begin(), link_.lines.end(), [&](const LinkingLine& line) {
+        return std::ranges::any_of(link_.lines, [&](const LinkingLine& line) {
             return std::abs(line.source_at - at) <= kRounding * link_.source.length();
         });
     }
@@ -119,7 +104,7 @@ private:
             taken_.emplace_back(*column.source_at, c);
             return;
         }
-        const std::array<double, 1> here{std::min(at, link_.source.length())};
+        const std::array here{std::min(at, link_.source.length())};
         const double reach = kOneColumn * size_(link_.source.points(here).front());
         double least = std::max(reach, kRounding * link_.source.length());
         std::optional<std::size_t> near;
@@ -196,7 +181,7 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
     for (LinkingSurface& link : links) {
         layers = std::max(layers, layers_between_rings(volume.model, link));
         if (!has_net(volume.model, link)) continue;
-        const bool has_given = std::any_of(link.walls.begin(), link.walls.end(), [&](FaceId wall) {
+        const bool has_given = std::ranges::any_of(link.walls, [&](FaceId wall) {
             return volume.model[wall].keeps_nodes && has_quads_all_over(volume.model[wall]);
         });
         try {

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace lacuna::surface {
 
@@ -36,10 +34,7 @@ bool are_straight(const Model& model, const LinkingSurface& link, double straigh
 
 std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& segment, int steps)
 {
-    const double end = link.target.length();
-    const std::array<double, 1> low{segment.source_from};
-    const std::array<double, 1> high{segment.target_from >= end ? segment.target_from - end
-                                                                : segment.target_from};
+    const std::array low{segment.source_from}, high{link.target.wrapped(segment.target_from)};
     const Vec3 from = link.source.points(low).front(), to = link.target.points(high).front();
     std::vector<Vec3> points;
     for (int i = 0; i <= steps; ++i) points.emplace_back(from + static_cast<double>(i) / steps * (to - from));
@@ -51,23 +46,14 @@ struct ColumnPlace {
     double s, share;
 };
 
-/// The points of columns, with one request for each face: exact surfaces lie in another process.
+/// The points of columns.
 std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
                                 const std::vector<ColumnPlace>& places)
 {
-    std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> of_face;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const WallPosition place = map.locate(places[i].s, map.from_even(places[i].share));
-        auto& [at, index] = of_face[place.face];
-        at.push_back(place.at);
-        index.push_back(i);
-    }
-    std::vector<Vec3> points(places.size());
-    for (const auto& [face, own] : of_face) {
-        const std::vector<Vec3> found = points_at(model, face, own.first);
-        for (std::size_t i = 0; i < found.size(); ++i) points[own.second[i]] = found[i];
-    }
-    return points;
+    std::vector<WallPosition> on_walls;
+    for (const ColumnPlace& place : places)
+        on_walls.push_back(map.locate(place.s, map.from_even(place.share)));
+    return points_at(model, on_walls);
 }
 
 } // namespace
@@ -103,8 +89,7 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
 std::vector<std::vector<Vec3>> wall_rows(const OpenVolume& volume, const LinkingSurface& link,
                                          const LinkingNodes& nodes, int steps, const RunContext& context)
 {
-    std::vector<double> high = nodes.target_at;
-    for (double& at : high) at = at >= link.target.length() ? at - link.target.length() : at;
+
     std::vector<std::vector<Vec3>> rows{link.source.points(nodes.source_at)};
     if (steps > 1) {
         const LinkingMap map(volume, link, true, context);
@@ -117,7 +102,7 @@ std::vector<std::vector<Vec3>> wall_rows(const OpenVolume& volume, const Linking
         for (auto at = points.begin(); at != points.end(); at += std::ssize(nodes.source_at))
             rows.emplace_back(at, at + std::ssize(nodes.source_at));
     }
-    rows.push_back(link.target.points(high));
+    rows.push_back(target_points(link, nodes));
     return rows;
 }
 

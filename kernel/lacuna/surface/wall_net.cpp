@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/wall_net.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,24 +25,6 @@ constexpr double kSmooth = 0.94;
 constexpr double kSamePlaceInStrip = 1e-9;
 
 double wrapped(double s) { return s - std::floor(s + kSamePlaceInStrip); }
-
-/// Disjoint sets (union-find).
-class Groups {
-public:
-    explicit Groups(std::size_t count) : parent_(count)
-    {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t of(std::size_t i)
-    {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 /// Whether two intervals on the circle of length 1 overlap in more than a point.
 bool overlap(double a0, double a1, double b0, double b1)
@@ -160,8 +143,7 @@ private:
         for (const auto& [vertex, place] : places) {
             if (level.plain || !on_line_.contains(vertex)) continue;
             const std::size_t stop = stop_at(vertex, place);
-            if (std::find(level.stops.begin(), level.stops.end(), stop) == level.stops.end())
-                level.stops.push_back(stop);
+            if (std::ranges::find(level.stops, stop) == level.stops.end()) level.stops.push_back(stop);
         }
         for (const std::size_t stop : level.stops) net_.stops[stop].level = static_cast<int>(r);
         level_stops_.insert(level.stops.begin(), level.stops.end());
@@ -247,7 +229,7 @@ private:
             if (edge.low == stop || edge.high == stop) return edge.upright->edge;
         }
         for (const WallNet::Level& level : net_.levels) {
-            if (std::find(level.stops.begin(), level.stops.end(), stop) == level.stops.end()) continue;
+            if (std::ranges::find(level.stops, stop) == level.stops.end()) continue;
             for (const LinkingMap::Piece& piece : map_.rings()[*level.ring].pieces) {
                 const Edge& edge = model_[piece.edge];
                 if (edge.from == net_.stops[stop].vertex || edge.to == net_.stops[stop].vertex)
@@ -259,7 +241,7 @@ private:
 
     void make_columns()
     {
-        Groups groups(net_.stops.size());
+        geometry::UnionFind groups(net_.stops.size());
         for (const WallNet::LongEdge& edge : net_.long_edges) {
             for (const std::size_t end : {edge.low, edge.high}) {
                 if (!on_line_.contains(net_.stops[end].vertex)) continue;
@@ -268,19 +250,18 @@ private:
                                  "column of nodes can follow only one of them; let it start on "
                                  "the rim or on an edge around the walls, or merge the two faces");
             }
-            groups.join(edge.low, edge.high);
+            groups.unite(edge.high, edge.low);
         }
         std::map<std::size_t, std::size_t> of_line;
         for (std::size_t i = 0; i < net_.stops.size(); ++i) {
             const auto line = on_line_.find(net_.stops[i].vertex);
-            if (line != on_line_.end()) groups.join(of_line.try_emplace(line->second, i).first->second, i);
+            if (line != on_line_.end()) groups.unite(i, of_line.try_emplace(line->second, i).first->second);
         }
         std::map<std::size_t, std::vector<std::size_t>> members;
-        for (std::size_t i = 0; i < net_.stops.size(); ++i) members[groups.of(i)].push_back(i);
+        for (std::size_t i = 0; i < net_.stops.size(); ++i) members[groups.find(i)].push_back(i);
         std::vector<std::pair<WallNet::Column, std::vector<std::size_t>>> made;
         for (const auto& [root, stops] : members) made.emplace_back(column_of(stops), stops);
-        std::stable_sort(made.begin(), made.end(),
-                         [](const auto& a, const auto& b) { return a.first.at < b.first.at; });
+        std::ranges::stable_sort(made, [](const auto& a, const auto& b) { return a.first.at < b.first.at; });
         for (auto& [column, stops] : made) {
             for (const std::size_t stop : stops) net_.stops[stop].column = net_.columns.size();
             net_.columns.push_back(column);
@@ -341,9 +322,7 @@ private:
     {
         std::vector<std::size_t> order(net_.levels.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return net_.levels[a].height < net_.levels[b].height;
-        });
+        std::ranges::stable_sort(order, {}, [&](std::size_t level) { return net_.levels[level].height; });
         std::vector<WallNet::Level> sorted;
         std::vector<int> place(order.size());
         for (std::size_t k = 0; k < order.size(); ++k) {
@@ -371,8 +350,7 @@ private:
 bool WallNet::over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const
 {
     for (const std::size_t line : levels[a].lines) {
-        if (std::find(levels[b].lines.begin(), levels[b].lines.end(), line) != levels[b].lines.end())
-            return true;
+        if (std::ranges::find(levels[b].lines, line) != levels[b].lines.end()) return true;
     }
     for (const std::size_t i : levels[a].stops) {
         for (const std::size_t j : levels[b].stops) {
@@ -394,6 +372,26 @@ bool WallNet::over_each_other(const LinkingMap& map, std::size_t a, std::size_t 
         }
     }
     return false;
+}
+
+std::vector<std::vector<std::size_t>> WallNet::levels_below(const LinkingMap& map) const
+{
+    std::vector<std::vector<std::size_t>> below(levels.size());
+    for (std::size_t b = 0; b < levels.size(); ++b) {
+        for (std::size_t a = 0; a < b; ++a) {
+            if (over_each_other(map, a, b)) below[b].push_back(a);
+        }
+    }
+    return below;
+}
+
+int most_levels(const std::vector<std::vector<std::size_t>>& below)
+{
+    std::vector<int> depth(below.size(), 1);
+    for (std::size_t b = 0; b < below.size(); ++b) {
+        for (const std::size_t a : below[b]) depth[b] = std::max(depth[b], depth[a] + 1);
+    }
+    return depth.empty() ? 0 : *std::ranges::max_element(depth);
 }
 
 WallNet wall_net(const Model& model, const LinkingSurface& link, const LinkingMap& map)

@@ -2,7 +2,6 @@
 #include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
@@ -10,9 +9,9 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/follow_rows.h>
 #include <lacuna/surface/detail/strip_grid.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -45,13 +44,11 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
             if (walls.contains(use.face)) faces.push_back(use.face);
         }
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            for (const Loop& loop : model[faces[i]].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    if (borders.contains(use.edge)) continue;
-                    for (const FaceUse& other : uses[use.edge.index()]) {
-                        const bool known = std::find(faces.begin(), faces.end(), other.face) != faces.end();
-                        if (!known && walls.contains(other.face)) faces.push_back(other.face);
-                    }
+            for (const EdgeUse& use : all_uses(model[faces[i]])) {
+                if (borders.contains(use.edge)) continue;
+                for (const FaceUse& other : uses[use.edge.index()]) {
+                    const bool known = std::ranges::find(faces, other.face) != faces.end();
+                    if (!known && walls.contains(other.face)) faces.push_back(other.face);
                 }
             }
         }
@@ -106,12 +103,11 @@ private:
     {
         mesh_ = begun_.mesh;
         set_row(0, link_.source.points(nodes_.source_at));
-        set_row(layers_, link_.target.points(wrapped(nodes_.target_at, link_.target.length())));
+        set_row(layers_, target_points(link_, nodes_));
         if (begun_.given.has_all(0, count_)) return std::move(mesh_);
         const auto panels = panel_faces(model_, link_);
         const bool simple = !panels.empty() &&
-                            std::all_of(panels.begin(), panels.end(),
-                                        [&](const auto& faces) { return is_simple(faces); });
+                            std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
             map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
@@ -137,12 +133,6 @@ private:
         }
         check_stops();
         return std::move(mesh_);
-    }
-
-    static std::vector<double> wrapped(std::vector<double> at, double length)
-    {
-        for (double& x : at) x = x >= length ? x - length : x;
-        return at;
     }
 
     [[nodiscard]] Vec3& point(std::size_t layer, std::size_t node)
@@ -196,8 +186,7 @@ private:
     {
         const auto found = grid_.on_edge.find(layer * count_ + node);
         if (found == grid_.on_edge.end()) return std::nullopt;
-        const double at[] = {found->second.share};
-        return edge_points(model_, found->second.edge, at).front();
+        return edge_points(model_, found->second.edge, std::array{found->second.share}).front();
     }
 
     void mesh_lines()
@@ -239,10 +228,12 @@ private:
         const Face& f = model_[face];
         if (f.kind != "plane" && !inside.empty()) {
             const std::vector<Vec3> patch = inside;
-            if (exact_)
+            if (exact_) {
                 Projector(model_, {face}).project(inside, context_);
-            else
-                put_on_facets(face, inside);
+            } else {
+                const geometry::FacetTree tree(model_.points, f.triangles);
+                for (Vec3& p : inside) p = tree.closest(p).point;
+            }
             double moved = 0;
             for (std::size_t i = 0; i < inside.size(); ++i)
                 moved = std::max(moved, (inside[i] - patch[i]).norm());
@@ -259,12 +250,6 @@ private:
         }
         set_faces(face, first, last);
         return f.origin != Origin::given || !folds(first, last);
-    }
-
-    void put_on_facets(FaceId face, std::span<Vec3> points) const
-    {
-        const geometry::FacetTree tree(model_.points, model_[face].triangles);
-        for (Vec3& p : points) p = tree.closest(p).point;
     }
 
     /// Whether a quad between two columns has a corner that is inverted against the quad's normal.
@@ -285,7 +270,8 @@ private:
 
     void mesh_by_map(std::size_t first, std::size_t last)
     {
-        std::map<FaceId, std::pair<std::vector<FacetPosition>, std::vector<std::size_t>>> on_face;
+        std::vector<WallPosition> places;
+        std::vector<std::size_t> nodes;
         for (std::size_t i = first; i < last; ++i) {
             for (std::size_t k = 1; k < layers_ && line_of_[i] < 0; ++k) {
                 if (begun_.given.has_node(k, i)) continue;
@@ -294,9 +280,8 @@ private:
                     continue;
                 }
                 const Vec2& at = grid_.place[k * count_ + i];
-                const WallPosition place = map_->locate(at.x(), at.y());
-                on_face[place.face].first.push_back(place.at);
-                on_face[place.face].second.push_back(k * count_ + i);
+                places.push_back(map_->locate(at.x(), at.y()));
+                nodes.push_back(k * count_ + i);
             }
             for (std::size_t k = 0; k < layers_; ++k) {
                 if (begun_.given.side[k * count_ + i] != 0) continue;
@@ -307,12 +292,8 @@ private:
                 mesh_.face[k * count_ + i] = map_->locate(at.x(), at.y()).face;
             }
         }
-        for (const auto& [face, work] : on_face) {
-            const Face& f = model_[face];
-            const std::vector<Vec3> points = points_at(
-                {model_.points, f.triangles, f.uv, exact_ ? f.surface.get() : nullptr}, work.first);
-            for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[work.second[j]] = points[j];
-        }
+        const std::vector<Vec3> points = points_at(model_, places, exact_);
+        for (std::size_t j = 0; j < points.size(); ++j) mesh_.points[nodes[j]] = points[j];
     }
 
     const OpenVolume& volume_;
@@ -354,11 +335,16 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vect
     return nodes;
 }
 
-namespace {
+std::vector<Vec3> target_points(const LinkingSurface& link, const LinkingNodes& nodes)
+{
+    std::vector<double> at = nodes.target_at;
+    for (double& x : at) x = link.target.wrapped(x);
+    return link.target.points(at);
+}
 
-std::vector<WallMesh> walls_of(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                               std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                               std::span<const GivenColumns> columns, bool exact, const RunContext& context)
+std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
+                                 std::span<const GivenColumns> columns, const RunContext& context, bool exact)
 {
     const GivenColumns none;
     std::vector<WallMesh> meshes;
@@ -375,22 +361,6 @@ std::vector<WallMesh> walls_of(const OpenVolume& volume, std::span<const Linking
     if (!followed.empty())
         follow_rows(meshes, volume.model, nodes, followed, heights.size() - 1, exact, context);
     return meshes;
-}
-
-} // namespace
-
-std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                 std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                                 std::span<const GivenColumns> columns, const RunContext& context)
-{
-    return walls_of(volume, links, nodes, heights, columns, true, context);
-}
-
-std::vector<WallMesh> mesh_walls_on_facets(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                           std::span<const LinkingNodes> nodes,
-                                           std::span<const double> heights, const RunContext& context)
-{
-    return walls_of(volume, links, nodes, heights, {}, false, context);
 }
 
 } // namespace lacuna::surface

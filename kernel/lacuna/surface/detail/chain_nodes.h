@@ -3,6 +3,8 @@
 
 #include <lacuna/surface/shared/edge_nodes.h>
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 namespace lacuna::surface {
@@ -32,6 +34,15 @@ std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& ch
         }
     }
     return nodes;
+}
+
+/// The node at a running length of a closed chain, up to rounding; -1 if there is none.
+inline Index node_at(std::span<const ChainNode> nodes, const Chain& chain, double place)
+{
+    const double slack = kSamePlace * chain.length();
+    if (place >= chain.length() - slack) place -= chain.length();
+    const auto next = std::ranges::lower_bound(nodes, place - slack, {}, &ChainNode::at);
+    return next != nodes.end() && next->at <= place + slack ? static_cast<Index>(next - nodes.begin()) : -1;
 }
 
 /// Points of a closed chain in order.

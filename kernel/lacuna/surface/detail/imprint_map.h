@@ -11,11 +11,10 @@
 
 namespace lacuna::surface {
 
-/// A position on the facets of a source face, and its point in space.
+/// A source face and a point on its facets.
 struct SourcePlace {
     FaceId face;
-    FacetPosition at;
-    Vec3 point = Vec3::Zero(); ///< on the facets
+    Vec3 point = Vec3::Zero();
 };
 
 /// Closed edges of both ends that are swept to each other.
@@ -39,8 +38,8 @@ public:
     [[nodiscard]] const Vec2& source(Index point) const { return source_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] const Vec2& target(Index point) const { return target_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] SourcePlace on_source(const Vec2& place) const;
-    /// The same, restricted to one face.
-    [[nodiscard]] SourcePlace on_face(FaceId face, const Vec2& place) const;
+    /// The position on the facets of one face.
+    [[nodiscard]] FacetPosition on_face(FaceId face, const Vec2& place) const;
 
 private:
     void lay_source();
@@ -49,8 +48,7 @@ private:
 
     const topology::OpenVolume& volume_;
     std::vector<Vec2> source_, target_; ///< of each model point
-    std::vector<FaceId> face_of_;       ///< of each source facet
-    std::vector<Index> number_;         ///< in its face
+    FacetSet source_facets_;
     geometry::PlanarLocator locator_;
     std::map<FaceId, geometry::PlanarLocator> face_locator_;
     bool one_to_one_ = true;

@@ -4,6 +4,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <span>
 #include <vector>
@@ -17,6 +18,10 @@ namespace lacuna::surface {
 /// @throw NotSweepable "surface.not_imprinted"  the rim cannot be split there.
 std::vector<RimPair> pair_rims(topology::Model& model, std::span<const LinkingSurface> links,
                                std::span<const EdgeId> inner, const SizeField& size);
+
+/// Split an edge. @param because  the inner edge of the target that requires it
+/// @throw NotSweepable "surface.not_imprinted"  the edge cannot be split there.
+topology::EdgeSplit split_at(topology::Model& model, EdgeId edge, double fraction, EdgeId because);
 
 /// The linking surfaces after the rims were paired; those without a pair keep their rotation.
 std::vector<LinkingSurface> link_anew(const topology::OpenVolume& volume,

@@ -6,6 +6,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/projector.h>
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct WallPosition {
     FaceId face;
     FacetPosition at;
 };
+
+/// Points of the exact faces at positions, or of the facets, with one request for each face: exact surfaces
+/// lie in another process.
+std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
+                            bool exact = true);
 
 /// A linking surface mapped onto a strip: s runs around it from 0 to 1 and is periodic, t increases from 0 on
 /// the source rim to 1 on the target rim.
@@ -94,8 +100,7 @@ private:
                     const std::vector<std::array<Vec2, 3>>& corners, bool void_edges);
 
     Eigen::MatrixXd strip_; ///< (s, t) of every model point
-    std::vector<FaceId> face_of_;
-    std::vector<Index> triangle_of_;
+    FacetSet facets_;
     std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree
     double width_ = 1, height_ = 1;
     double branch_ = 0;

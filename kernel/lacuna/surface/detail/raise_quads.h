@@ -5,7 +5,6 @@
 #include <lacuna/topology/model.h>
 
 #include <map>
-#include <span>
 #include <vector>
 
 /// Improvement of the worst quads across several faces, in space. Internal to this folder.

@@ -56,7 +56,7 @@ private:
 
     void add_loop(const topology::Loop& loop, const std::vector<Index>& facet_of_side);
     [[nodiscard]] Clearance clearance_of(Index triangle) const;
-    void measure_clearance() const;
+
     [[nodiscard]] bool is_clear(const Projected& point, bool measured) const;
     [[nodiscard]] bool is_near(const Projected& point, Near& near) const;
     void settle(std::span<const Projected> points, std::span<Near> near) const;

@@ -53,7 +53,13 @@ struct WallNet {
 
     /// Whether two levels overlap along the rim, so that they need two layers.
     [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
+
+    /// Of each level, the lower ones that need layers of their own.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> levels_below(const LinkingMap& map) const;
 };
+
+/// The most levels above each other. @param below  from `WallNet::levels_below()`
+int most_levels(const std::vector<std::vector<std::size_t>>& below);
 
 /// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted, or
 ///        with an end on a rim or between two side lines where it must not end.

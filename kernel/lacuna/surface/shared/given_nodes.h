@@ -20,17 +20,20 @@ struct GivenStub {
     std::vector<FaceId> faces; ///< wall of each quad up to the next stub around the ring, starting at the rim
 };
 
-/// Columns of given nodes on the walls of a linking surface, from the source rim to the target rim. Between
-/// column c and the next one around the ring there are given quads if `faces[c]` names their walls; otherwise
-/// the column is a side line.
+/// Given nodes from the source rim to the target rim.
+struct GivenColumn {
+    double source_at = 0;      ///< running length on the source chain
+    double target_at = 0;      ///< running length on the target chain, modulo its length
+    std::vector<Index> points; ///< rows + 1 model points, from the source
+    std::vector<FaceId> faces; ///< wall of each quad up to the next column around the ring; empty: none there
+};
+
+/// Columns of given nodes on the walls of a linking surface. A column without quads is a side line.
 struct GivenColumns {
-    int rows = 0;                           ///< quads in every column; 0: there are no columns
-    bool quads = false;                     ///< some columns have quads between them
-    std::vector<double> source_at;          ///< running lengths on the source chain, increasing
-    std::vector<double> target_at;          ///< running lengths on the target chain, modulo its length
-    std::vector<std::vector<Index>> points; ///< rows + 1 model points of each column, from the source
-    std::vector<std::vector<FaceId>> faces; ///< wall of each quad up to the next column; empty: none there
-    std::vector<GivenStub> stubs;           ///< in order of their running lengths, the source's first
+    int rows = 0;                   ///< quads in every column; 0: there are no columns
+    bool quads = false;             ///< some columns have quads between them
+    std::vector<GivenColumn> whole; ///< in order of their running lengths on the source chain
+    std::vector<GivenStub> stubs;   ///< in order of their running lengths, the source's first
 };
 
 /// Read the meshes of given walls as rows and columns, by walking from each side of the source rim over

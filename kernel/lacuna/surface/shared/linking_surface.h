@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lacuna::surface {
@@ -44,6 +45,12 @@ struct LinkingSurface {
     /// as a number of turns around the ring. Not set if corresponding vertices of both rims are given.
     std::optional<double> branch{};
 };
+
+/// The part of its source edge that a segment covers: fractions of the edge's length, in its direction.
+std::pair<double, double> edge_part(const LinkingSurface& link, const RimSegment& segment);
+
+/// The use of the target's rim that a segment is swept to, by its middle.
+topology::EdgeUse target_use(const LinkingSurface& link, const RimSegment& segment);
 
 /// How linking surfaces without side lines rotate between source and target.
 enum class Turning {

@@ -17,6 +17,15 @@ struct FacetPosition {
     Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
 
+/// The facets of several faces together.
+struct FacetSet {
+    std::vector<Triangle> triangles;
+    std::vector<FaceId> face;  ///< of each facet
+    std::vector<Index> number; ///< of each facet in its face
+};
+
+FacetSet facets_of(const topology::Model& model, std::span<const FaceId> faces);
+
 /// Facets and the surface from which they were cut.
 struct FacetView {
     std::span<const Vec3> points;
@@ -29,6 +38,9 @@ struct FacetView {
 std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places);
 /// The same for one face.
 std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
+
+/// A point of a face's facets.
+Vec3 point_on_facets(const topology::Model& model, FaceId face, const FacetPosition& place);
 
 class Trimming;
 
@@ -47,8 +59,7 @@ public:
 
 private:
     const topology::Model* model_;
-    std::vector<FaceId> face_of_;    ///< of each triangle in the tree
-    std::vector<Index> triangle_of_; ///< number of each triangle in its face
+    FacetSet facets_;
     geometry::FacetTree tree_;
     std::map<FaceId, Trimming> trimmed_; ///< of the faces with exact geometry
 };

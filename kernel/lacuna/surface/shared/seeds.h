@@ -50,8 +50,10 @@ struct SeedPiece {
     /// Nodes near the start and the end where rows of boundary layers end, as fractions of the edge.
     std::vector<double> low{}, high{};
 
+    /// Number of rows that end on it.
+    [[nodiscard]] int rows() const { return static_cast<int>(low.size() + high.size()); }
     /// Number of sides between `low` and `high`, or the ends.
-    [[nodiscard]] int between() const { return count - static_cast<int>(low.size() + high.size()); }
+    [[nodiscard]] int between() const { return count - rows(); }
     /// Fractions of the edge at the piece's nodes, its start included, its end not.
     [[nodiscard]] std::vector<double> fractions() const;
     /// Relative positions of the piece's nodes in the direction of an edge use, from 0, below 1.

@@ -43,6 +43,8 @@ struct WallMesh {
 /// @param nodes    of each linking surface.
 /// @param columns  of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
+/// @param exact    false: nodes on the facets of given walls and near void ones: faster, and accurate enough
+///                 to find the directions of columns.
 /// @throw NotSweepable "surface.too_few_layers"  more edges around the walls than layers; names one, and a
 ///        sufficient number of layers. "surface.wall_edge": an edge between two walls that neither a layer
 ///        nor a column can follow.
@@ -50,13 +52,10 @@ struct WallMesh {
 ///        rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                                  std::span<const LinkingNodes> nodes, std::span<const double> heights,
-                                 std::span<const GivenColumns> columns = {}, const RunContext& context = {});
+                                 std::span<const GivenColumns> columns = {}, const RunContext& context = {},
+                                 bool exact = true);
 
-/// The same with nodes on the facets of given walls and near void ones: faster, and accurate enough to find
-/// the directions of columns.
-std::vector<WallMesh> mesh_walls_on_facets(const topology::OpenVolume& volume,
-                                           std::span<const LinkingSurface> links,
-                                           std::span<const LinkingNodes> nodes,
-                                           std::span<const double> heights, const RunContext& context = {});
+/// Points of the nodes on the target's rim.
+std::vector<Vec3> target_points(const LinkingSurface& link, const LinkingNodes& nodes);
 
 } // namespace lacuna::surface

@@ -7,6 +7,15 @@
 
 namespace lacuna::topology {
 
+/// Every use of a face's loops, one loop after the other.
+std::vector<EdgeUse> all_uses(const Face& face);
+
+/// The use of the same edge in the other direction.
+constexpr EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
+
+/// Summed length of the edges [model length].
+double length_of(const Model& model, const std::vector<EdgeUse>& uses);
+
 /// Points along consecutive uses, both ends included; a point where two uses meet is listed once.
 /// `use_points()` of model.h does this for a single use.
 /// @pre  uses is not empty.
