@@ -175,20 +175,21 @@ private:
         check_cells(all, context_);
     }
 
+    /// Volumes of the assembler's own, which it may split.
+    void copy_volumes()
+    {
+        if (!imprinted_.empty()) return;
+        for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
+        for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+    }
+
     /// Faces that are shared in part are split first.
     void find_shared()
     {
         FacesInCommon found = faces_in_common(members_, context_);
         if (!found.partly.empty()) {
-            std::vector<std::string> regions;
-            std::vector<bool> fixed;
-            for (const AssemblyMember& member : members_) {
-                imprinted_.push_back(*member.volume);
-                regions.push_back(member.region);
-                fixed.push_back(member.fixed != nullptr);
-            }
-            notes_ = imprint_faces(imprinted_, regions, fixed, found.partly, context_);
-            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+            copy_volumes();
+            notes_ = imprint_faces(imprinted_, members_, found.partly, context_);
             found = faces_in_common(members_, context_);
             refuse_partly_shared(found);
         }
@@ -203,10 +204,7 @@ private:
     /// Split ends along lines that neighbours need. @return  whether there are any
     bool carry_lines()
     {
-        if (imprinted_.empty()) {
-            for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
-            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
-        }
+        copy_volumes();
         std::vector<std::string> lines;
         try {
             const std::vector<std::size_t> before = faces_of_fixed();
@@ -239,11 +237,6 @@ private:
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
-    }
-
-    [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
-    {
-        return members_[m].volume->model[face].origin == Origin::made_void;
     }
 
     /// In the plan's order; where a member cannot keep what others have made, it goes before them.
@@ -336,23 +329,38 @@ private:
         return found;
     }
 
+    [[nodiscard]] std::set<FaceId> shared_faces_of(std::size_t m) const
+    {
+        std::set<FaceId> shared;
+        for (const Neighbour& n : shared_with(m, std::vector<char>(members_.size(), 1))) shared.insert(n.own);
+        return shared;
+    }
+
     /// Faces whose rim alone says what their mesh is are left to the member itself, which is checked; meshes
     /// of others are handed on to it, and so are all where it came to another mesh.
     void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
                    const std::vector<std::size_t>& touching)
     {
         const AssemblyMember& member = members_[m];
-        if (member.fixed != nullptr) return take_fixed(m, neighbours, touching);
+        if (member.fixed != nullptr)
+            result_.parts[m] = *member.fixed;
+        else
+            sweep_beside(m, neighbours, touching);
+        check_kept(m, neighbours);
+        if (member.options.order > 1) keep_middles(m, touching);
+    }
+
+    void sweep_beside(std::size_t m, const std::vector<Neighbour>& neighbours,
+                      const std::vector<std::size_t>& touching)
+    {
+        const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole is worked out anew
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(touching, options.second_order);
-        for (const SharedFace& face : result_.shared) {
-            if (face.a == m) options.beside.between.insert(face.face_a);
-            if (face.b == m) options.beside.between.insert(face.face_b);
-        }
+        options.beside.between = shared_faces_of(m);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
             return settle(m, alike, skin, faces);
         };
@@ -365,7 +373,8 @@ private:
             for (const auto& [own, other, from] : handed) {
                 hand_on(result_.parts[other], from, volume, own);
                 // Where the face is void, what the neighbour has there is the shape.
-                if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
+                if (volume.model[own].origin == Origin::made_void)
+                    hand_on(result_.parts[other], from, sealed, own);
             }
             // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
             if (!plan_.nodes[m].empty() || !handed.empty()) options.beside.shape = &sealed;
@@ -379,16 +388,6 @@ private:
             handed = neighbours;
             sweep_it();
         }
-        check_kept(m, neighbours);
-        if (options.order > 1) keep_middles(m, touching);
-    }
-
-    void take_fixed(std::size_t m, const std::vector<Neighbour>& neighbours,
-                    const std::vector<std::size_t>& touching)
-    {
-        result_.parts[m] = *members_[m].fixed;
-        check_kept(m, neighbours);
-        if (members_[m].options.order > 1) keep_middles(m, touching);
     }
 
     /// Members that are there and may touch another, by their boxes.
@@ -444,11 +443,7 @@ private:
     void keep_middles(std::size_t m, const std::vector<std::size_t>& from_members)
     {
         const Swept& part = result_.parts[m];
-        std::set<FaceId> shared;
-        for (const SharedFace& face : result_.shared) {
-            if (face.a == m) shared.insert(face.face_a);
-            if (face.b == m) shared.insert(face.face_b);
-        }
+        const std::set<FaceId> shared = shared_faces_of(m);
         middles_[m].emplace(part.mesh,
                             [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
         for (const std::size_t other : from_members) {

@@ -4,6 +4,7 @@
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -198,10 +199,7 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
         lowest = std::min(lowest, best[k] - best[k - 1]);
         highest = std::max(highest, best[k] - best[k - 1]);
     }
-    if (volume.turned_round) {
-        std::ranges::reverse(best);
-        for (double& height : best) height = 1 - height;
-    }
+    if (volume.turned_round) reverse_heights(best);
     best.erase(best.begin());
     const std::string count = std::to_string(layers);
     return DrawnLayers{std::move(best),

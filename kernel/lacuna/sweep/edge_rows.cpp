@@ -5,6 +5,7 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 
 #include <algorithm>
 #include <map>
@@ -36,10 +37,7 @@ void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tab
         std::vector<double> places = surface::row_places(volume.model, edge, at_end, end, heights);
         if (places.size() < heights.size()) continue;
         const double length = edge_length(volume.model, edge);
-        if (at_end) {
-            std::ranges::reverse(places);
-            for (double& place : places) place = 1 - place;
-        }
+        if (at_end) reverse_heights(places);
         for (double& place : places) place *= length;
         add(rows, edge, at_end, std::move(places), end.wall);
     }

@@ -4,6 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/gaps.h>
 
@@ -46,26 +48,11 @@ std::string name_in(const AssemblyMember& member, EdgeId edge)
     return name_of(member.volume->model, edge) + " of " + member.region;
 }
 
-std::vector<Vec3> line_of(const Model& model, EdgeId edge)
-{
-    std::vector<Vec3> line;
-    for (const Index p : model[edge].points) line.push_back(model.at(p));
-    return line;
-}
-
-std::set<EdgeId> edges_of(const Model& model, FaceId face)
-{
-    std::set<EdgeId> edges;
-    for (const Loop& loop : border_loops(model, face))
-        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-    return edges;
-}
-
 /// Vertices of a face's rim that are more than the starts of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {
     std::vector<Vec3> corners;
-    for (const EdgeId id : edges_of(model, face)) {
+    for (const EdgeId id : rim_edges(model, face)) {
         const Edge& edge = model[id];
         if (edge.from == edge.to) continue;
         corners.push_back(model.at(model[edge.from].point));
@@ -77,11 +64,11 @@ std::vector<Vec3> corners_of(const Model& model, FaceId face)
 /// Whether two faces have an edge in common, within a tolerance.
 bool have_common_edge(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double tolerance)
 {
-    for (const EdgeId e : edges_of(a, face_a)) {
-        const std::vector<Vec3> p = line_of(a, e);
+    for (const EdgeId e : rim_edges(a, face_a)) {
+        const std::vector<Vec3> p = surface::edge_line(a, e);
         const double slack = tolerance + geometry::sag(p);
-        for (const EdgeId f : edges_of(b, face_b)) {
-            const std::vector<Vec3> q = line_of(b, f);
+        for (const EdgeId f : rim_edges(b, face_b)) {
+            const std::vector<Vec3> q = surface::edge_line(b, f);
             const auto near = [&](const Vec3& u, const Vec3& v) { return (u - v).norm() <= slack; };
             if (!(near(p.front(), q.front()) && near(p.back(), q.back())) &&
                 !(near(p.front(), q.back()) && near(p.back(), q.front())))
@@ -237,7 +224,7 @@ private:
         const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             check_cancelled(context);
-            const std::vector<Vec3> line = line_of(model, EdgeId(e));
+            const std::vector<Vec3> line = surface::edge_line(model, EdgeId(e));
             Eigen::AlignedBox3d own_box;
             for (const Vec3& p : line) own_box.extend(p);
             if (!box.intersects(own_box) || uses[e].empty()) continue;

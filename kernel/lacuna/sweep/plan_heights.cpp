@@ -179,14 +179,17 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     }
     spec.count -= taken;
     std::vector<double> heights = layer_heights(spec);
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
+    if (volume.turned_round) reverse_heights(heights);
     return heights;
 }
 
 } // namespace
+
+void reverse_heights(std::vector<double>& heights)
+{
+    std::ranges::reverse(heights);
+    for (double& height : heights) height = 1 - height;
+}
 
 PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,

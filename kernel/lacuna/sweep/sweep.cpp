@@ -12,6 +12,7 @@
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
@@ -82,10 +83,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
+    if (volume.turned_round) reverse_heights(heights);
     report_progress(context, "linking surfaces");
     const std::vector<surface::LinkingSurface> links = known.of(volume, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
