@@ -64,7 +64,7 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 
 } // namespace
 
-void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNodes>> shared)
+void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared)
 {
     std::vector<PartNode> by_place;
     std::vector<std::vector<Index>> on_border(assembly.parts.size()); // rising
@@ -79,16 +79,14 @@ void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNod
         if (mesh.order() > 1) add_middles(mesh, p, by_place);
     }
     std::vector<std::pair<PartNode, PartNode>> same = in_same_places(assembly, by_place);
-    for (const std::vector<SharedNodes>& faces : shared) {
-        for (const SharedNodes& face : faces) {
-            for (const NodePair& pair : face.pairs) {
-                PartNode a{face.own, pair.own}, b{face.other, pair.other};
-                if (std::ranges::binary_search(on_border[a.part], a.node) &&
-                    std::ranges::binary_search(on_border[b.part], b.node))
-                    continue;
-                if (a < b) std::swap(a, b);
-                same.emplace_back(a, b);
-            }
+    for (const SharedNodes& face : shared) {
+        for (const NodePair& pair : face.pairs) {
+            PartNode a{face.own, pair.own}, b{face.other, pair.other};
+            if (std::ranges::binary_search(on_border[a.part], a.node) &&
+                std::ranges::binary_search(on_border[b.part], b.node))
+                continue;
+            if (a < b) std::swap(a, b);
+            same.emplace_back(a, b);
         }
     }
     std::sort(same.begin(), same.end());

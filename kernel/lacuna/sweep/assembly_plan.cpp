@@ -434,16 +434,16 @@ private:
     void find_rows()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
-            for (EdgeRows& rows : edge_rows(members_[m])) {
-                const std::size_t e = number(m, rows.edge);
+            for (auto& [edge, rows] : edge_rows(members_[m])) {
+                const std::size_t e = number(m, edge);
                 if (edges_[e].closed || kept_[e] == Kept::quads) continue; // its nodes are there
-                if (!runs_along(e)) std::swap(rows.end[0], rows.end[1]);
+                if (!runs_along(e)) std::swap(rows[0], rows[1]);
                 std::array<RowsHere, 2>& here = rows_[same_.find(e)];
                 for (std::size_t k = 0; k < 2; ++k) {
-                    if (rows.end[k].places.empty()) continue;
-                    if (!here[k].places.empty() && !are_alike(here[k].places, rows.end[k].places))
-                        refuse_rows(here[k], m, rows.end[k].face, e);
-                    if (here[k].places.empty()) here[k] = {rows.end[k].places, m, rows.end[k].face};
+                    if (rows[k].places.empty()) continue;
+                    if (!here[k].places.empty() && !are_alike(here[k].places, rows[k].places))
+                        refuse_rows(here[k], m, rows[k].face, e);
+                    if (here[k].places.empty()) here[k] = {rows[k].places, m, rows[k].face};
                 }
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());

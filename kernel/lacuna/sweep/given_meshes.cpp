@@ -4,12 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/given_target.h>
 #include <lacuna/sweep/detail/place_order.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 namespace lacuna::sweep {
 

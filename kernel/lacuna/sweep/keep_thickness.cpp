@@ -95,7 +95,7 @@ private:
     }
     [[nodiscard]] const std::vector<double>& heights_of(int table) const
     {
-        return tables_.heights[static_cast<std::size_t>(table)];
+        return tables_.heights[index(table)];
     }
 
     // --- what there is ------------------------------------------------------------------------------

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 
 namespace lacuna::sweep {
 
@@ -23,7 +22,7 @@ namespace {
 /// Mean over the columns of the part of their length that lies below each layer.
 std::vector<double> mean_heights(const RimColumns& columns)
 {
-    const auto layers = static_cast<std::size_t>(columns.layers);
+    const auto layers = index(columns.layers);
     std::vector<double> heights(layers + 1, 0.0);
     std::vector<double> length(layers + 1, 0.0);
     std::size_t counted = 0;
@@ -68,7 +67,7 @@ void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, cons
 std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions& options)
 {
     if (options.heights.empty()) return mean_heights(columns);
-    if (options.heights.size() != static_cast<std::size_t>(columns.layers) + 1) {
+    if (options.heights.size() != index(columns.layers) + 1) {
         throw InvalidInput("sweep.layer_heights", "columns of " + std::to_string(columns.layers) +
                                                       " layers need one height more than layers, found " +
                                                       std::to_string(options.heights.size()));
@@ -96,7 +95,7 @@ LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> tar
 void LayerPlacer::fit_straight(std::span<const double> heights)
 {
     for (int l = 1; l < columns_.layers; ++l) {
-        const double height = heights[static_cast<std::size_t>(l)];
+        const double height = heights[index(l)];
         maps_.push_back(
             {(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(), Vec3::Zero()});
     }
@@ -113,7 +112,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     const double low_size = radius(low);
     const double side_by_radius = low_size > 0 ? shortest_side(source_.quads, source_.nodes) / low_size : 0;
 
-    const auto inner = static_cast<std::size_t>(std::max(columns_.layers - 1, 0));
+    const auto inner = index(std::max(columns_.layers - 1, 0));
     maps_.resize(inner);
     residuals_.resize(inner * low.size());
     struct Fitted {
@@ -180,7 +179,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
 {
     const std::size_t nodes = source_.nodes.size(), rim = columns_.rim.size();
-    const auto at = [&](int l) { return out.data() + static_cast<std::size_t>(l - first) * nodes; };
+    const auto at = [&](int l) { return out.data() + index(l - first) * nodes; };
     if (first == 0) std::copy(source_.nodes.begin(), source_.nodes.end(), at(0));
     if (last == columns_.layers + 1) std::copy(target_.begin(), target_.end(), at(columns_.layers));
     const int low_inner = std::max(first, 1), high_inner = std::min(last, columns_.layers);
@@ -189,8 +188,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
     const auto each_group = [&](std::size_t begin, std::size_t end, const auto& visit) {
         for (auto group = static_cast<int>(begin); group < static_cast<int>(end); ++group) {
             const int low = low_inner + group * kGroup;
-            const auto count = static_cast<std::size_t>(std::min(kGroup, high_inner - low));
-            visit(at(low), static_cast<std::size_t>(low - 1), count);
+            const auto count = index(std::min(kGroup, high_inner - low));
+            visit(at(low), index(low - 1), count);
         }
     };
     const auto map = [&](Vec3* layer, std::size_t i, std::size_t count, std::size_t begin, std::size_t end,
@@ -199,7 +198,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
                   residuals, layer, nodes);
     };
     if (spread_) {
-        parallel_for(context, static_cast<std::size_t>(groups), 1, [&](std::size_t begin, std::size_t end) {
+        parallel_for(context, index(groups), 1, [&](std::size_t begin, std::size_t end) {
             each_group(begin, end, [&](Vec3* layer, std::size_t i, std::size_t count) {
                 const HarmonicSpread::Fields residuals = spread_->spread(
                     std::span(residuals_).subspan(i * rim, count * rim));
@@ -210,21 +209,19 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
         // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
         constexpr std::size_t kChunk = 512;
         parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
-            each_group(0, static_cast<std::size_t>(groups),
-                       [&](Vec3* layer, std::size_t i, std::size_t count) {
-                           map(layer, i, count, begin, end, nullptr);
-                       });
+            each_group(0, index(groups), [&](Vec3* layer, std::size_t i, std::size_t count) {
+                map(layer, i, count, begin, end, nullptr);
+            });
         });
     }
     constexpr std::size_t kRows = 16; // of the rim, that are worth a thread: a choice
-    parallel_for(context, static_cast<std::size_t>(last - first), kRows,
-                 [&](std::size_t begin, std::size_t end) {
-                     for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
-                         const std::span<const Vec3> row = columns_.row(l);
-                         Vec3* layer = at(l);
-                         for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
-                     }
-                 });
+    parallel_for(context, index(last - first), kRows, [&](std::size_t begin, std::size_t end) {
+        for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
+            const std::span<const Vec3> row = columns_.row(l);
+            Vec3* layer = at(l);
+            for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+        }
+    });
 }
 
 std::string LayerPlacer::report() const
@@ -243,7 +240,7 @@ LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> targ
 {
     check_ends(source, target, columns);
     LayerNodes result;
-    const std::size_t count = (static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size();
+    const std::size_t count = (index(columns.layers) + 1) * source.nodes.size();
     reserve_large(result.nodes, count);
     result.nodes.resize(count);
     const LayerPlacer placer(source, target, columns, options, context, result.nodes);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/morph.h>
 
-#include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -108,7 +106,7 @@ std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns&
 std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<char> on_rim(source.nodes.size(), 0);
-    for (const Index node : columns.rim) on_rim[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : columns.rim) on_rim[index(node)] = 1;
     std::vector<Index> result;
     for (std::size_t i = 0; i < on_rim.size(); ++i) {
         if (on_rim[i] == 0) result.push_back(static_cast<Index>(i));

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ private:
         if (row.table < 0)
             row.table = tables_.at(parts_.wall_at(b, static_cast<std::size_t>(parts_.layers) - 1, i));
         if (row.table < 0) return row;
-        const std::size_t rows = tables_.heights[static_cast<std::size_t>(row.table)].size();
+        const std::size_t rows = tables_.heights[index(row.table)].size();
         auto from = static_cast<Index>(parts_.rim_node(b, i));
         Index side = static_cast<Index>(
             side_of_.at(edge_key(from, static_cast<Index>(parts_.rim_node(b, i + 1)))));
@@ -172,9 +173,7 @@ std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>
                                                          const std::map<std::size_t, double>& place)
 {
     const std::size_t sides = line.size() - 1;
-    std::vector<double> lengths{0};
-    for (std::size_t i = 0; i < sides; ++i)
-        lengths.push_back(lengths.back() + (line[i + 1] - line[i]).norm());
+    const std::vector<double> lengths = geometry::arc_lengths(line);
     const auto length_at = [&](double x) {
         const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
         return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);

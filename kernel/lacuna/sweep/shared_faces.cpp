@@ -186,11 +186,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
-    NearMiss miss;
-    miss.a = faces.a;
-    miss.b = faces.b;
-    miss.face_a = faces.face_a;
-    miss.face_b = faces.face_b;
+    NearMiss miss{faces.a, faces.b, faces.face_a, faces.face_b};
     miss.tag_a = a.volume->model[faces.face_a].tag;
     miss.tag_b = b.volume->model[faces.face_b].tag;
     miss.least = miss.width = common.apart;
@@ -275,6 +271,7 @@ std::string name_in(const AssemblyMember& member, FaceId face)
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context)
 {
     std::vector<std::vector<Side>> sides(members.size());
+    std::vector<std::vector<double>> sag(members.size());
     std::vector<Eigen::AlignedBox3d> box(members.size());
     for (std::size_t m = 0; m < members.size(); ++m) {
         const OpenVolume& volume = *members[m].volume;
@@ -284,12 +281,9 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                 for (const Index p : t) side.box.extend(volume.model.at(p));
             }
             box[m].extend(side.box);
+            sag[m].push_back(side.sag);
             sides[m].push_back(std::move(side));
         }
-    }
-    std::vector<std::vector<double>> sag(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        for (const Side& side : sides[m]) sag[m].push_back(side.sag);
     }
     FacesInCommon found;
     std::string same_side;

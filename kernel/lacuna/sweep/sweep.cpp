@@ -3,7 +3,6 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>

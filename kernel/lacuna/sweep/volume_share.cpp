@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
