@@ -36,7 +36,7 @@ std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& a
     std::vector<Placed> placed;
     placed.reserve(nodes.size());
     for (const PartNode& node : nodes) placed.push_back({assembly.parts[node.part].skin()[node.node], node});
-    std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
+    std::ranges::sort(placed, [&](const Placed& a, const Placed& b) {
         if (before(a.place, b.place)) return true;
         if (before(b.place, a.place)) return false;
         return a.node < b.node;
@@ -89,7 +89,7 @@ void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared)
             same.emplace_back(a, b);
         }
     }
-    std::sort(same.begin(), same.end());
+    std::ranges::sort(same);
     Index next = 0;
     auto twin = same.begin();
     const bool held = std::ranges::none_of(assembly.parts,

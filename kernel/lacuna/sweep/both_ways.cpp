@@ -26,7 +26,7 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
     if (options.quads == Quads::keep) return true;
     const std::vector<FaceId> source = volume.faces(Role::source);
     const bool any = options.quads == Quads::automatic && options.rows == 0;
-    return std::any_of(source.begin(), source.end(), [&](FaceId face) {
+    return std::ranges::any_of(source, [&](FaceId face) {
         const Face& f = volume.model[face];
         return (any || options.beside.handed.contains(face)) &&
                (!f.given_quads.empty() || has_cells_to_keep(f, options.wedges));

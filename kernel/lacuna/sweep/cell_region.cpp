@@ -131,7 +131,7 @@ void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
     }
     for (std::size_t c = 0; c < taken.size(); ++c) {
         const Hex hex = mesh.hex(c);
-        taken[c] = std::any_of(hex.begin(), hex.end(), [&](Index n) { return touched[index(n)] != 0; });
+        taken[c] = std::ranges::any_of(hex, [&](Index n) { return touched[index(n)] != 0; });
     }
 }
 
@@ -186,7 +186,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
     CellRegion region;
     const std::vector<char> locked = locked_nodes(mesh, sliding);
     std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
-    if (std::none_of(taken.begin(), taken.end(), [](char c) { return c != 0; })) return region;
+    if (std::ranges::none_of(taken, [](char c) { return c != 0; })) return region;
     for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
 
     // Nodes that cells outside use stay, so that the region meets the rest as it was.
@@ -309,7 +309,7 @@ double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 void RegionEnergy::set_planes(const Eigen::VectorXd& x)
 {
     put(x);
-    std::fill(normal_.begin(), normal_.end(), Vec3::Zero());
+    std::ranges::fill(normal_, Vec3::Zero());
     for (const Hex& cell : region_.cells) {
         for (const Quad& side : mesh::kHexSides) {
             std::array<std::size_t, 4> node{};

@@ -17,6 +17,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -195,7 +196,7 @@ private:
         };
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             const Quad& quad = quads_[q];
-            if (std::none_of(quad.begin(), quad.end(), on_border)) continue;
+            if (std::ranges::none_of(quad, on_border)) continue;
             border.push_back(q);
             for (std::size_t k = 0; k < 4; ++k) {
                 const Index next = quad[(k + 1) % 4];
@@ -491,7 +492,7 @@ private:
             std::size_t next = quad;
             for (const Index other : round.of(index(from))) {
                 const Quad& o = quads_[index(other)];
-                if (index(other) != quad && std::find(o.begin(), o.end(), to) != o.end()) next = index(other);
+                if (index(other) != quad && std::ranges::find(o, to) != o.end()) next = index(other);
             }
             if (next == quad) break;
             quad = next;
@@ -578,8 +579,7 @@ private:
     [[nodiscard]] double allowed(const Sample& sample) const
     {
         constexpr double kReach = 2; // sides from the tip; a choice, not a measurement
-        const bool at_tip = limit_.length == 0 &&
-                            std::any_of(tips_.begin(), tips_.end(), [&](const Vec3& tip) {
+        const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
         const double share = at_tip ? limit_.at_tip : limit_.share;
@@ -657,31 +657,18 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // All nodes of the first layer and the last are numbered through, and those of the rim between, in the
-    // mesh's order.
-    const Index row = mesh.nodes_per_layer, top = mesh.layers * row;
-    std::vector<Index> place(index(row), -1), rim;
-    for (const Segment& side : mesh.rim) {
-        for (const Index n : side) place[index(n)] = 0;
-    }
-    for (Index n = 0; n < row; ++n) {
-        if (place[index(n)] < 0) continue;
-        place[index(n)] = static_cast<Index>(rim.size());
-        rim.push_back(n);
-    }
-    const auto width = static_cast<Index>(rim.size());
-    const Index last = row + std::max(mesh.layers - 1, 0) * width;
-    const auto number = [&](Index n) {
-        if (n < row) return n;
-        if (n >= top) return last + n - top;
-        return row + (n / row - 1) * width + place[index(n % row)];
-    };
-    skin.node.reserve(index(last + row));
+    // All nodes of the first layer and the last, and those of the rim between, in the mesh's order.
+    const Index row = mesh.nodes_per_layer;
+    std::set<Index> rim;
+    for (const Segment& side : mesh.rim) rim.insert(side.begin(), side.end());
     for (Index n = 0; n < row; ++n) skin.node.push_back(n);
     for (Index layer = 1; layer < mesh.layers; ++layer) {
         for (const Index n : rim) skin.node.push_back(layer * row + n);
     }
-    for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
+    for (Index n = 0; n < row; ++n) skin.node.push_back(mesh.layers * row + n);
+    const auto number = [&](Index n) {
+        return static_cast<Index>(std::ranges::lower_bound(skin.node, n) - skin.node.begin());
+    };
     skin.points.resize(skin.node.size());
     parallel_for(context, skin.node.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)

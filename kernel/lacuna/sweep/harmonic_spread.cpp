@@ -44,7 +44,7 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
     std::vector<double> weights(graph.items.size(), 0.0);
     const auto add = [&](Index from, Index to, double weight) {
         const std::span<const Index> around = graph.of(index(from));
-        const auto place = std::lower_bound(around.begin(), around.end(), to) - around.begin();
+        const auto place = std::ranges::lower_bound(around, to) - around.begin();
         weights[index(graph.begin[index(from)]) + static_cast<std::size_t>(place)] += weight;
     };
     const auto at = [&](Index node) -> const Vec3& { return nodes[index(node)]; };

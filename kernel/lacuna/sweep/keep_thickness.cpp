@@ -122,8 +122,7 @@ private:
             std::vector<char>& still = still_column_.emplace_back(n, 0);
             const auto& nodes = parts_.source.links[b];
             for (const surface::RimSegment& segment : parts_.links[b].segments) {
-                const auto found = std::lower_bound(nodes.source_at.begin(), nodes.source_at.end(),
-                                                    segment.source_from);
+                const auto found = std::ranges::lower_bound(nodes.source_at, segment.source_from);
                 if (found != nodes.source_at.end())
                     still[static_cast<std::size_t>(found - nodes.source_at.begin())] = 1;
             }
@@ -382,7 +381,7 @@ private:
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
-            const auto number = std::find(own.nodes.begin(), own.nodes.end(), static_cast<Index>(node));
+            const auto number = std::ranges::find(own.nodes, static_cast<Index>(node));
             const Vec3 along = own.tangent(parts_,
                                            [&](std::size_t n) -> const Vec3& { return at(layer, n); }),
                        normal = normal_of(own, layer);
@@ -563,8 +562,8 @@ private:
                 const auto around = quads_at_.of(node);
                 if (around.empty()) continue;
                 const FaceId face = faces[index(around.front())];
-                const bool one = std::all_of(around.begin(), around.end(),
-                                             [&](Index q) { return faces[index(q)] == face; });
+                const bool one = std::ranges::all_of(around,
+                                                     [&](Index q) { return faces[index(q)] == face; });
                 // The facets of a void end leave out what lies between them and a rim that is curved.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
@@ -607,7 +606,7 @@ private:
             const surface::LinkingSurface& link = parts_.links[b];
             const std::vector<std::size_t>& lines = parts_.source.links[b].line;
             for (std::size_t i = 0; i < parts_.size_of(b); ++i) {
-                const auto line = std::find(lines.begin(), lines.end(), i);
+                const auto line = std::ranges::find(lines, i);
                 std::optional<surface::Chain> chain;
                 if (line != lines.end())
                     chain.emplace(model_,

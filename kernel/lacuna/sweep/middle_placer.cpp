@@ -18,7 +18,7 @@ constexpr double kSpread = 1e-3;
 
 bool any(const std::vector<Vec3>& vectors)
 {
-    return std::any_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return !v.isZero(0); });
+    return std::ranges::any_of(vectors, [](const Vec3& v) { return !v.isZero(0); });
 }
 
 } // namespace

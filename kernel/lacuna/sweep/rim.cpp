@@ -139,8 +139,8 @@ RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, 
     double rim_reach = 0;
     for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
     // No node may lie further out than the rim's own farthest point again: beyond, the map extrapolates.
-    spans_inside_ = std::all_of(nodes.begin(), nodes.end(),
-                                [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
+    spans_inside_ = std::ranges::all_of(nodes,
+                                        [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
 }
 
 geometry::AffineFit RimFitter::fit(std::span<const Vec3> to, const Vec3& to_area, double negligible) const

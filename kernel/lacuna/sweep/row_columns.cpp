@@ -190,7 +190,7 @@ std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>
                              (lengths[above->first] - lengths[below->first]);
         const double length = length_at(below->second) +
                               share * (length_at(above->second) - length_at(below->second));
-        const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
+        const auto up = std::ranges::upper_bound(lengths, length);
         const std::size_t side = std::min(static_cast<std::size_t>(up - lengths.begin()) - 1, sides - 1);
         moved.emplace_back(i, static_cast<double>(side) +
                                   (length - lengths[side]) / (lengths[side + 1] - lengths[side]));

@@ -37,7 +37,7 @@ SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
 /// The least corner and the one opposite.
 SharedMiddles::Key SharedMiddles::key_of(const std::array<Vec3, 4>& corners)
 {
-    const auto least = std::min_element(corners.begin(), corners.end(), before);
+    const auto least = std::ranges::min_element(corners, before);
     const auto at = static_cast<std::size_t>(least - corners.begin());
     return key_of(corners[at], corners[(at + 2) % 4]);
 }
@@ -51,7 +51,7 @@ std::optional<Vec3> SharedMiddles::find(const Places& places, const Key& key)
 bool SharedMiddles::agree(const Places& a, const Places& b)
 {
     if (a.size() > b.size()) return agree(b, a);
-    return std::all_of(a.begin(), a.end(), [&](const auto& own) {
+    return std::ranges::all_of(a, [&](const auto& own) {
         const auto other = b.find(own.first);
         return other == b.end() || other->second == own.second;
     });

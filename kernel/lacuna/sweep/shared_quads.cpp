@@ -141,7 +141,7 @@ std::vector<Segment> patch_borders(const mesh::HexMesh& mesh)
     for (const bool target : {false, true}) {
         const std::vector<Index>& patch = target ? mesh.target_patch : mesh.source_patch;
         const auto other = [&](Index p) { return p != patch.front(); };
-        if (std::none_of(patch.begin(), patch.end(), other)) continue;
+        if (std::ranges::none_of(patch, other)) continue;
         std::unordered_map<std::uint64_t, Index> beside;
         for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
             for (std::size_t k = 0; k < 4; ++k) {

@@ -61,7 +61,7 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
     // A neighbour that pushes away lets meshes fold: then the sides' own weights are the safer choice.
-    if (std::all_of(turned.begin(), turned.end(), [](double w) { return w > 0; })) {
+    if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }
 }
@@ -196,7 +196,7 @@ std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes
             if (is_free_[index(node)] != 0) poor.push_back(index(node));
         }
     }
-    std::sort(poor.begin(), poor.end());
+    std::ranges::sort(poor);
     poor.erase(std::unique(poor.begin(), poor.end()), poor.end());
     return poor;
 }
