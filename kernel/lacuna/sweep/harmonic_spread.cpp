@@ -228,13 +228,12 @@ void HarmonicSpread::solve(std::span<Vec3> load) const
     constexpr Index width = 4; // the last stays 0
     std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * width);
     for (std::size_t i = 0; i < place_.size(); ++i) {
-        if (place_[i] < 0) continue;
-        for (int k = 0; k < 3; ++k) block[static_cast<std::size_t>(width * place_[i] + k)] = load[i][k];
+        if (place_[i] >= 0) Eigen::Map<Vec3>(&block[index(width * place_[i])]) = load[i];
     }
     substitute<width>(lower_, diagonal_, block);
     for (std::size_t i = 0; i < place_.size(); ++i) {
-        const double* row = block.data() + static_cast<std::size_t>(width * std::max(place_[i], Index{0}));
-        load[i] = place_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(row[0], row[1], row[2]);
+        load[i].setZero();
+        if (place_[i] >= 0) load[i] = Eigen::Map<const Vec3>(&block[index(width * place_[i])]);
     }
 }
 

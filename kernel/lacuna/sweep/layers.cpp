@@ -13,6 +13,7 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 namespace lacuna::sweep {
@@ -41,18 +42,6 @@ std::vector<double> mean_heights(const RimColumns& columns)
     }
     return heights;
 }
-
-/// Raises a flag on the way out, however that comes.
-class RaisedAtEnd {
-public:
-    explicit RaisedAtEnd(std::atomic<bool>& flag) : flag_(flag) {}
-    ~RaisedAtEnd() { flag_ = true; }
-    RaisedAtEnd(const RaisedAtEnd&) = delete;
-    RaisedAtEnd& operator=(const RaisedAtEnd&) = delete;
-
-private:
-    std::atomic<bool>& flag_;
-};
 
 void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns)
 {
@@ -160,20 +149,16 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         clear_pages(room.data(), room.size_bytes(), enough);
         return true;
     });
-    const RaisedAtEnd raise(enough);
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
     // Of both ends together, so that it does not matter which of them is called the source.
-    std::vector<double> weights, target_weights;
+    const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
+    std::array<std::vector<double>, 2> weights;
     parallel_for(context, 2, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t which = begin; which < end; ++which) {
-            if (which == 0)
-                weights = side_weights(graph, source_.quads, source_.nodes);
-            else
-                target_weights = side_weights(graph, source_.quads, target_);
-        }
+        for (std::size_t e = begin; e < end; ++e) weights[e] = side_weights(graph, source_.quads, ends[e]);
     });
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] += target_weights[k];
-    spread_.emplace(graph, weights, columns_.rim, context);
+    for (std::size_t k = 0; k < weights[0].size(); ++k) weights[0][k] += weights[1][k];
+    spread_.emplace(graph, weights[0], columns_.rim, context);
+    enough = true;
 }
 
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
