@@ -191,7 +191,6 @@ struct SideOfPair {
     bool fixed = false; ///< the skin of a mesh that stays as it is
 
     [[nodiscard]] Model& model() const { return volume->model; }
-    [[nodiscard]] double size() const { return std::sqrt(face_area(model(), face)); }
 };
 
 /// Make the place of a rim closest to a point a vertex, if it is near enough.
