@@ -8,7 +8,6 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace lacuna::sweep {
