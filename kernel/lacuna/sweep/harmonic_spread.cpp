@@ -228,12 +228,12 @@ void HarmonicSpread::solve(std::span<Vec3> load) const
     constexpr Index width = 4; // the last stays 0
     std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * width);
     for (std::size_t i = 0; i < place_.size(); ++i) {
-        if (place_[i] >= 0) Eigen::Map<Vec3>(&block[index(width * place_[i])]) = load[i];
+        if (place_[i] >= 0) Vec3::Map(&block[index(width * place_[i])]) = load[i];
     }
     substitute<width>(lower_, diagonal_, block);
     for (std::size_t i = 0; i < place_.size(); ++i) {
         load[i].setZero();
-        if (place_[i] >= 0) load[i] = Eigen::Map<const Vec3>(&block[index(width * place_[i])]);
+        if (place_[i] >= 0) load[i] = Vec3::Map(&block[index(width * place_[i])]);
     }
 }
 
