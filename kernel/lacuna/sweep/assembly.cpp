@@ -476,7 +476,7 @@ private:
             const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,
                                           quads_of(n.other, n.there), within);
             if (!pairs)
-                throw UnlikeNeighbour("assembly.unlike", named(m, n.own) +
+                throw UnlikeNeighbour("assembly.unlike", name_in(members_[m], n.own) +
                                                              " is meshed unlike its neighbour; that mesh is "
                                                              "handed on to it");
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
@@ -541,10 +541,6 @@ private:
         patch.groups = std::move(groups);
     }
 
-    [[nodiscard]] std::string named(std::size_t member, FaceId face) const
-    {
-        return name_in(members_[member], face);
-    }
     /// The quads of a part on a face.
     [[nodiscard]] std::vector<Quad> quads_of(std::size_t m, FaceId face) const
     {
@@ -562,17 +558,18 @@ private:
             const std::vector<Quad> a = quads_of(m, own), b = quads_of(other, there);
             if (auto pairs = same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
                 pairs_.push_back({m, other, std::move(*pairs)});
-                lines.push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +
-                                std::to_string(a.size()) + (a.size() == 1 ? " quad" : " quads"));
+                lines.push_back("shared: " + name_in(members_[other], there) + " and " +
+                                name_in(members_[m], own) + ", " + std::to_string(a.size()) +
+                                (a.size() == 1 ? " quad" : " quads"));
                 continue;
             }
             std::string why;
             for (const std::string& line : part.report)
                 if (line.find("not kept") != std::string::npos) why += "; " + line;
-            throw NotSweepable("assembly.not_shared", named(m, own) + " and " + named(other, there) +
-                                                          " are one face, and their meshes differ on it: " +
-                                                          std::to_string(a.size()) + " quads and " +
-                                                          std::to_string(b.size()) + why);
+            throw NotSweepable("assembly.not_shared",
+                               name_in(members_[m], own) + " and " + name_in(members_[other], there) +
+                                   " are one face, and their meshes differ on it: " +
+                                   std::to_string(a.size()) + " quads and " + std::to_string(b.size()) + why);
         }
     }
 

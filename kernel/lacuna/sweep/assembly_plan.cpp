@@ -193,7 +193,7 @@ private:
                         stacked_.insert(same_.find(number(m, use.edge)));
                     continue;
                 }
-                sides_[m].push_back({line.line.uses.front().edge, line.line.uses.front().reversed});
+                sides_[m].push_back(line.line.uses.front());
                 classes_.unite(number(m, sides_[m].front().edge), number(m, sides_[m].back().edge));
             }
         }
@@ -468,7 +468,7 @@ private:
         throw NotSweepable("assembly.layers_differ",
                            "boundary layers of " + name_in(members_[there.member], there.face) + " and of " +
                                name_in(own, face) + " are unlike and both end on " +
-                               name_of(model(m), edges_[e].edge) + " of " + own.region +
+                               name_in(own, edges_[e].edge) +
                                ", which is an edge of both; give both faces one table");
     }
 
@@ -493,13 +493,13 @@ private:
             const int taken = beside_rows(e).first, count = count_.at(classes_.find(e));
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
-            throw NotSweepable(
-                "assembly.layers_rows",
-                "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
-                    std::to_string(taken) + " sides of " + name_of(model(edges_[e].member), edges_[e].edge) +
-                    " of " + members_[edges_[e].member].region + ", which has " + std::to_string(count) +
-                    " by the layers or nodes asked for or given; ask for fewer rows or more "
-                    "layers");
+            throw NotSweepable("assembly.layers_rows",
+                               "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
+                                   std::to_string(taken) + " sides of " +
+                                   name_in(members_[edges_[e].member], edges_[e].edge) + ", which has " +
+                                   std::to_string(count) +
+                                   " by the layers or nodes asked for or given; ask for fewer rows or more "
+                                   "layers");
         }
     }
 

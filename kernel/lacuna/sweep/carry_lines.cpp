@@ -33,12 +33,7 @@ class FaceCopier {
 public:
     /// @param whole  one face, or the parts of one.
     FaceCopier(const Model& from, std::vector<FaceId> parts, OpenVolume& to, std::vector<FaceId> whole)
-        : from_(from),
-          parts_(std::move(parts)),
-          to_(to.model),
-          role_(to.role),
-          whole_(std::move(whole)),
-          near_(from.tolerance)
+        : from_(from), parts_(std::move(parts)), to_(to.model), role_(to.role), whole_(std::move(whole))
     {
     }
 
@@ -234,7 +229,7 @@ private:
     Model& to_;
     std::vector<Role>& role_;
     std::vector<FaceId> whole_;
-    double near_;
+    const double near_ = from_.tolerance;
     std::map<Index, Index> place_; ///< of points of the parts
 };
 
@@ -245,7 +240,6 @@ public:
         : members_(members),
           volumes_(volumes),
           context_(context),
-          shared_(shared_faces(members, context)),
           known_(members.size()),
           pairs_(members.size())
     {
@@ -407,7 +401,7 @@ private:
     std::span<const AssemblyMember> members_;
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
-    std::vector<SharedFace> shared_;
+    std::vector<SharedFace> shared_ = shared_faces(members_, context_);
     std::vector<std::vector<surface::KnownLine>> known_; ///< of each member, by its source and target
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;

@@ -37,14 +37,7 @@ class Improver {
 public:
     Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
              const Sliding& sliding, const RunContext& context)
-        : mesh_(mesh),
-          region_(region),
-          options_(options),
-          sliding_(sliding),
-          context_(context),
-          energy_(region, places_of(mesh, region), context),
-          best_(places_of(mesh, region)),
-          best_quality_(measure(region, best_, context))
+        : mesh_(mesh), region_(region), options_(options), sliding_(sliding), context_(context)
     {
         share_deadline(options_);
     }
@@ -196,9 +189,9 @@ private:
     ImproveOptions options_;
     const Sliding& sliding_;
     const RunContext& context_;
-    RegionEnergy energy_;
-    std::vector<Vec3> best_;
-    RegionQuality best_quality_;
+    RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
+    std::vector<Vec3> best_ = places_of(mesh_, region_);
+    RegionQuality best_quality_ = measure(region_, best_, context_);
     double work_ = 0; ///< cells evaluated
 };
 

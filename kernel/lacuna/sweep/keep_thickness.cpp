@@ -38,12 +38,10 @@ public:
     ThicknessKeeper(const SweptParts& parts, const surface::LayerTables& tables, std::vector<Vec3>& nodes,
                     const RunContext& context)
         : parts_(parts),
-          model_(parts.volume.model),
+
           tables_(tables),
           nodes_(nodes),
-          context_(context),
-          count_(parts.source.quads.nodes.size()),
-          layers_(index(parts.layers))
+          context_(context)
     {
         for (std::size_t b = 0; b < parts.links.size(); ++b) rim_ += parts.size_of(b);
         for (const auto& [edge, chain] : parts.source.on_edge) {
@@ -626,11 +624,11 @@ private:
     }
 
     const SweptParts& parts_;
-    const Model& model_;
+    const Model& model_ = parts_.volume.model;
     const surface::LayerTables& tables_;
     std::vector<Vec3>& nodes_;
     const RunContext& context_;
-    std::size_t count_, layers_;
+    const std::size_t count_ = parts_.source.quads.nodes.size(), layers_ = index(parts_.layers);
     std::size_t rim_ = 0;   ///< source nodes on the rim: they come first
     std::set<Index> inner_; ///< source nodes on edges between faces of the source
     std::vector<RowColumn> columns_;

@@ -66,12 +66,8 @@ private:
 
 MiddlePlacer::MiddlePlacer(const mesh::SkinNodes& corners, std::span<const Vec3> skin,
                            const RunContext& context)
-    : mesh_(corners.mesh),
-      corners_(corners),
+    : corners_(corners),
       skin_(skin),
-      places_(corners.mesh),
-      at_skin_(corners.mesh),
-      blend_(corners.mesh),
       rim_side_(corners.mesh.middles.sides.size(), 0),
       rim_node_(index(corners.mesh.nodes_per_layer), 0)
 {

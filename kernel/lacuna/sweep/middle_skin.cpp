@@ -145,15 +145,7 @@ class SkinPlacer {
 public:
     SkinPlacer(const OpenVolume& volume, const mesh::SkinNodes& corners, const std::vector<FaceId>& faces,
                const SecondOrderOptions& options, const RunContext& context)
-        : model_(volume.model),
-          mesh_(corners.mesh),
-          corners_(corners),
-          places_(corners.mesh),
-          faces_(faces),
-          options_(options),
-          context_(context),
-          sides_(skin_sides(corners.mesh)),
-          skin_(corners.mesh)
+        : model_(volume.model), corners_(corners), faces_(faces), options_(options), context_(context)
     {
     }
 
@@ -430,14 +422,14 @@ private:
     }
 
     const Model& model_;
-    const mesh::HexMesh& mesh_;
     const mesh::SkinNodes& corners_;
-    mesh::MiddlePlaces places_;
+    const mesh::HexMesh& mesh_ = corners_.mesh;
+    const mesh::MiddlePlaces places_{mesh_};
     const std::vector<FaceId>& faces_;
     const SecondOrderOptions& options_;
     const RunContext& context_;
-    std::vector<SkinSide> sides_;
-    SkinMiddles skin_;
+    const std::vector<SkinSide> sides_ = skin_sides(mesh_);
+    SkinMiddles skin_{mesh_};
     SkinCounts counts_;
 };
 

@@ -43,11 +43,6 @@ constexpr double kWhole = 0.98;
 /// Places an edge is asked at.
 constexpr int kAsked = 64;
 
-std::string name_in(const AssemblyMember& member, EdgeId edge)
-{
-    return name_of(member.volume->model, edge) + " of " + member.region;
-}
-
 /// Vertices of a face's rim that are more than the starts of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {

@@ -263,11 +263,6 @@ double facet_sag(const Model& model, const Face& face)
     return sag;
 }
 
-std::string name_in(const AssemblyMember& member, FaceId face)
-{
-    return name_of(member.volume->model, face) + " of " + member.region;
-}
-
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context)
 {
     std::vector<std::vector<Side>> sides(members.size());
