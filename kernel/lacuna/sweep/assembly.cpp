@@ -469,7 +469,6 @@ private:
                         const std::vector<FaceId>& faces)
     {
         SettledNodes settled;
-
         const double within = kRounding * coordinates_of(m);
         for (const Neighbour& n : alike) {
             const mesh::SkinNodes theirs = result_.parts[n.other].skin();

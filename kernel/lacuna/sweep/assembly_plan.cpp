@@ -538,7 +538,6 @@ private:
                                                  : taken + std::max(1.0, std::round(wanted(edges_[e]) * left /
                                                                                     edges_[e].length)));
         }
-
         for (const auto& [of, sides] : most) {
             if (!(sides < std::numeric_limits<Index>::max() / 16.0))
                 throw InvalidInput("sweep.too_many",

@@ -122,7 +122,6 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
                  (one.usable() ? "least scaled Jacobian " + in_short(one.result->swept.min_scaled_jacobian)
                                : one.why()) +
                  "; the other way is tried");
-
     Outcome other = outcome_of(second, options, sweep_one_way);
     const bool swap = other.usable() && (!one.usable() || other.result->swept.min_scaled_jacobian >
                                                               one.result->swept.min_scaled_jacobian);

@@ -251,11 +251,7 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
 }
 
 RegionEnergy::RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context)
-    : region_(region),
-      context_(context),
-      places_(std::move(places)),
-      slopes_(8 * region.cells.size()),
-      normal_(region.free, Vec3::Zero())
+    : region_(region), context_(context), places_(std::move(places)), slopes_(8 * region.cells.size())
 {
 }
 
@@ -309,7 +305,7 @@ double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 void RegionEnergy::set_planes(const Eigen::VectorXd& x)
 {
     put(x);
-    std::ranges::fill(normal_, Vec3::Zero());
+    normal_.assign(region_.free, Vec3::Zero());
     for (const Hex& cell : region_.cells) {
         for (const Quad& side : mesh::kHexSides) {
             std::array<std::size_t, 4> node{};

@@ -37,11 +37,7 @@ class ThicknessKeeper {
 public:
     ThicknessKeeper(const SweptParts& parts, const surface::LayerTables& tables, std::vector<Vec3>& nodes,
                     const RunContext& context)
-        : parts_(parts),
-
-          tables_(tables),
-          nodes_(nodes),
-          context_(context)
+        : parts_(parts), tables_(tables), nodes_(nodes), context_(context)
     {
         for (std::size_t b = 0; b < parts.links.size(); ++b) rim_ += parts.size_of(b);
         for (const auto& [edge, chain] : parts.source.on_edge) {

@@ -129,9 +129,7 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
       spread_(spread),
       free_nodes_(free_nodes),
       project_(project),
-      weights_(weights.begin(), weights.end()),
-      quads_at_(mesh::quads_at_nodes(model.quads, model.nodes.size())),
-      is_free_(model.nodes.size(), 0)
+      weights_(weights.begin(), weights.end())
 {
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
     for (const Index node : free_nodes) {
