@@ -20,8 +20,8 @@ struct NodePair {
     Index own = -1, other = -1;
 };
 
-/// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a distance of
-/// one of the other's, and a one to one map of the quads. Nothing if they differ.
+/// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a distance
+/// of one of the other's, and a one to one map of the quads. Nothing if they differ.
 ///
 /// Nodes are sorted along an oblique line, so that few have similar keys.
 /// @param within  >= 0; 0: bit-identical [model length].
