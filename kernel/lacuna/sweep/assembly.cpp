@@ -12,7 +12,6 @@
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
@@ -33,17 +32,10 @@ namespace {
 /// Hand a face's mesh on to the volume behind it.
 void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
 {
-    std::vector<Quad> quads = quads_on(part.mesh, part.faces, from);
-    std::map<Index, Index> number;
+    const QuadsAlone mesh = quads_alone(quads_on(part.mesh, part.faces, from));
     std::vector<Vec3> nodes;
-    for (Quad& quad : quads) {
-        for (Index& n : quad) {
-            const auto [place, fresh] = number.try_emplace(n, static_cast<Index>(nodes.size()));
-            if (fresh) nodes.push_back(part.skin()[n]);
-            n = place->second;
-        }
-    }
-    give_mesh(volume, to, nodes, quads);
+    for (const Index n : mesh.nodes) nodes.push_back(part.skin()[n]);
+    give_mesh(volume, to, nodes, mesh.quads);
 }
 
 /// Two meshes of a shared face are the same where their nodes are apart by no more than this part of the
@@ -78,7 +70,7 @@ struct UnlikeNeighbour : Error {
     using Error::Error;
 };
 
-/// A member could not be swept.
+/// A member could not be swept, alone or where others had been before it.
 struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, const std::string& code, const std::string& why)
         : NotSweepable(code, why), member(which)
@@ -87,10 +79,15 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// A member that could not be swept where others had been before it.
-struct Failed {
-    std::size_t member;
-    std::string code, why;
+/// What a part came out of: the neighbours that were there, and how often each had been swept.
+using Inputs = std::vector<std::pair<std::size_t, int>>;
+
+/// What is known of a part besides its mesh.
+struct PartState {
+    std::optional<Inputs> inputs;         ///< of a part that is there
+    int times_swept = 0;                  ///< tries that failed too
+    std::vector<std::string> shared;      ///< lines of the report
+    std::optional<SharedMiddles> middles; ///< at order 2
 };
 
 class Assembler {
@@ -175,20 +172,21 @@ private:
         check_cells(all, context_);
     }
 
+    /// Volumes of the assembler's own, which it may split.
+    void copy_volumes()
+    {
+        if (!imprinted_.empty()) return;
+        for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
+        for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+    }
+
     /// Faces that are shared in part are split first.
     void find_shared()
     {
         FacesInCommon found = faces_in_common(members_, context_);
         if (!found.partly.empty()) {
-            std::vector<std::string> regions;
-            std::vector<bool> fixed;
-            for (const AssemblyMember& member : members_) {
-                imprinted_.push_back(*member.volume);
-                regions.push_back(member.region);
-                fixed.push_back(member.fixed != nullptr);
-            }
-            notes_ = imprint_faces(imprinted_, regions, fixed, found.partly, context_);
-            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
+            copy_volumes();
+            notes_ = imprint_faces(imprinted_, members_, found.partly, context_);
             found = faces_in_common(members_, context_);
             refuse_partly_shared(found);
         }
@@ -203,10 +201,7 @@ private:
     /// Split ends along lines that neighbours need. @return  whether there are any
     bool carry_lines()
     {
-        if (imprinted_.empty()) {
-            for (const AssemblyMember& member : members_) imprinted_.push_back(*member.volume);
-            for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
-        }
+        copy_volumes();
         std::vector<std::string> lines;
         try {
             const std::vector<std::size_t> before = faces_of_fixed();
@@ -235,37 +230,32 @@ private:
         SweptAssembly again;
         again.near_misses = std::move(result_.near_misses);
         result_ = std::move(again);
-        inputs_.clear();
+        for (PartState& state : states_) state.inputs.reset();
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
-    }
-
-    [[nodiscard]] bool is_void(std::size_t m, FaceId face) const
-    {
-        return members_[m].volume->model[face].origin == Origin::made_void;
     }
 
     /// In the plan's order; where a member cannot keep what others have made, it goes before them.
     void sweep_all()
     {
         std::vector<std::size_t> first;
-        std::optional<Failed> reason;
+        std::optional<MemberFailed> reason;
         for (std::size_t attempt = 0; attempt <= members_.size(); ++attempt) {
             const std::vector<std::size_t> order = order_members(members_, result_.shared, before_, first);
             if (!first.empty() && order == order_) break;
             order_ = order;
-            const std::optional<Failed> failed = sweep_in_order();
+            const std::optional<MemberFailed> failed = sweep_in_order();
             if (!failed) {
                 note_order(order);
                 return;
             }
             if (!reason) reason = failed;
             if (std::ranges::find(first, failed->member) != first.end()) break;
-            log_line(context_, failed->why);
+            log_line(context_, failed->what());
             first.insert(first.begin(), failed->member);
         }
-        throw MemberFailed(reason->member, reason->code, reason->why);
+        throw MemberFailed(*reason);
     }
 
     void note_order(const std::vector<std::size_t>& order)
@@ -275,16 +265,10 @@ private:
         result_.report.push_back("meshed in this order: " + full_list(order, name));
     }
 
-    /// What a part came out of: the neighbours that were there, and how often each had been swept.
-    using Inputs = std::vector<std::pair<std::size_t, int>>;
-
-    std::optional<Failed> sweep_in_order()
+    std::optional<MemberFailed> sweep_in_order()
     {
         result_.parts.resize(members_.size());
-        inputs_.resize(members_.size());
-        times_swept_.resize(members_.size(), 0);
-        middles_.resize(members_.size());
-        shared_lines_.resize(members_.size());
+        states_.resize(members_.size());
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
@@ -293,13 +277,14 @@ private:
             const std::vector<std::size_t> touching = members_[m].options.order > 1
                                                           ? touching_before(m, done)
                                                           : std::vector<std::size_t>{};
+            PartState& state = states_[m];
             Inputs inputs;
-            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, times_swept_[n.other]);
-            for (const std::size_t other : touching) inputs.emplace_back(other, times_swept_[other]);
+            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, states_[n.other].times_swept);
+            for (const std::size_t other : touching) inputs.emplace_back(other, states_[other].times_swept);
             done[m] = 1;
-            if (inputs_[m] == inputs) continue;
-            ++times_swept_[m];
-            inputs_[m].reset();
+            if (state.inputs == inputs) continue;
+            ++state.times_swept;
+            state.inputs.reset();
             try {
                 sweep_one(m, neighbours, touching);
             } catch (const Cancelled&) {
@@ -307,15 +292,15 @@ private:
             } catch (const Error& error) {
                 const std::string why = came_with_mesh(members_[m]) ? error.what()
                                                                     : without_load_hint(error.what());
-                Failed failed{m, error.code(), members_[m].region + ": " + why};
+                MemberFailed failed(m, error.code(), members_[m].region + ": " + why);
                 if (!neighbours.empty()) return failed;
-                throw MemberFailed(m, failed.code, failed.why);
+                throw failed;
             }
-            inputs_[m] = std::move(inputs);
+            state.inputs = std::move(inputs);
         }
         result_.report = notes_;
         for (const std::size_t m : order_)
-            result_.report.insert(result_.report.end(), shared_lines_[m].begin(), shared_lines_[m].end());
+            result_.report.insert(result_.report.end(), states_[m].shared.begin(), states_[m].shared.end());
         return std::nullopt;
     }
 
@@ -336,23 +321,38 @@ private:
         return found;
     }
 
+    [[nodiscard]] std::set<FaceId> shared_faces_of(std::size_t m) const
+    {
+        std::set<FaceId> shared;
+        for (const Neighbour& n : shared_with(m, std::vector<char>(members_.size(), 1))) shared.insert(n.own);
+        return shared;
+    }
+
     /// Faces whose rim alone says what their mesh is are left to the member itself, which is checked; meshes
     /// of others are handed on to it, and so are all where it came to another mesh.
     void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
                    const std::vector<std::size_t>& touching)
     {
         const AssemblyMember& member = members_[m];
-        if (member.fixed != nullptr) return take_fixed(m, neighbours, touching);
+        if (member.fixed != nullptr)
+            result_.parts[m] = *member.fixed;
+        else
+            sweep_beside(m, neighbours, touching);
+        check_kept(m, neighbours);
+        if (member.options.order > 1) keep_middles(m, touching);
+    }
+
+    void sweep_beside(std::size_t m, const std::vector<Neighbour>& neighbours,
+                      const std::vector<std::size_t>& touching)
+    {
+        const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole is worked out anew
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(touching, options.second_order);
-        for (const SharedFace& face : result_.shared) {
-            if (face.a == m) options.beside.between.insert(face.face_a);
-            if (face.b == m) options.beside.between.insert(face.face_b);
-        }
+        options.beside.between = shared_faces_of(m);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
             return settle(m, alike, skin, faces);
         };
@@ -365,7 +365,8 @@ private:
             for (const auto& [own, other, from] : handed) {
                 hand_on(result_.parts[other], from, volume, own);
                 // Where the face is void, what the neighbour has there is the shape.
-                if (is_void(m, own)) hand_on(result_.parts[other], from, sealed, own);
+                if (volume.model[own].origin == Origin::made_void)
+                    hand_on(result_.parts[other], from, sealed, own);
             }
             // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
             if (!plan_.nodes[m].empty() || !handed.empty()) options.beside.shape = &sealed;
@@ -379,16 +380,6 @@ private:
             handed = neighbours;
             sweep_it();
         }
-        check_kept(m, neighbours);
-        if (options.order > 1) keep_middles(m, touching);
-    }
-
-    void take_fixed(std::size_t m, const std::vector<Neighbour>& neighbours,
-                    const std::vector<std::size_t>& touching)
-    {
-        result_.parts[m] = *members_[m].fixed;
-        check_kept(m, neighbours);
-        if (members_[m].options.order > 1) keep_middles(m, touching);
     }
 
     /// Members that are there and may touch another, by their boxes.
@@ -413,30 +404,24 @@ private:
     void give_middles(const std::vector<std::size_t>& from_members, SecondOrderOptions& options) const
     {
         const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-        const auto first_of = [this, &from_members](const auto& find) {
-            std::optional<Vec3> found;
-            for (const std::size_t m : from_members) {
-                if (!found && middles_[m]) found = find(*middles_[m]);
+        const auto with_known = [this, from_members](std::vector<Vec3> middles, const auto& find) {
+            for (std::size_t i = 0; i < middles.size(); ++i) {
+                std::optional<Vec3> known;
+                for (const std::size_t m : from_members)
+                    if (!known && states_[m].middles) known = find(*states_[m].middles, i);
+                if (known) middles[i] = *known;
             }
-            return found;
+            return middles;
         };
         options.given_all_over = true;
         options.given = [=, decks = options.given](std::span<const Vec3> from, std::span<const Vec3> to) {
-            std::vector<Vec3> middles = decks ? decks(from, to) : std::vector<Vec3>(from.size(), none);
-            for (std::size_t i = 0; i < from.size(); ++i) {
-                const auto known = first_of([&](const SharedMiddles& m) { return m.side(from[i], to[i]); });
-                if (known) middles[i] = *known;
-            }
-            return middles;
+            return with_known(decks ? decks(from, to) : std::vector<Vec3>(from.size(), none),
+                              [&](const SharedMiddles& m, std::size_t i) { return m.side(from[i], to[i]); });
         };
         options.given_centres = [=,
                                  decks = options.given_centres](std::span<const std::array<Vec3, 4>> quads) {
-            std::vector<Vec3> middles = decks ? decks(quads) : std::vector<Vec3>(quads.size(), none);
-            for (std::size_t i = 0; i < quads.size(); ++i) {
-                const auto known = first_of([&](const SharedMiddles& m) { return m.centre(quads[i]); });
-                if (known) middles[i] = *known;
-            }
-            return middles;
+            return with_known(decks ? decks(quads) : std::vector<Vec3>(quads.size(), none),
+                              [&](const SharedMiddles& m, std::size_t i) { return m.centre(quads[i]); });
         };
     }
 
@@ -444,15 +429,11 @@ private:
     void keep_middles(std::size_t m, const std::vector<std::size_t>& from_members)
     {
         const Swept& part = result_.parts[m];
-        std::set<FaceId> shared;
-        for (const SharedFace& face : result_.shared) {
-            if (face.a == m) shared.insert(face.face_a);
-            if (face.b == m) shared.insert(face.face_b);
-        }
-        middles_[m].emplace(part.mesh,
-                            [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
+        const std::set<FaceId> shared = shared_faces_of(m);
+        const SharedMiddles& own = states_[m].middles.emplace(
+            part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
         for (const std::size_t other : from_members) {
-            if (middles_[m]->agrees(*middles_[other])) continue;
+            if (own.agrees(*states_[other].middles)) continue;
             throw NotSweepable("assembly.not_shared", members_[m].region + " and " + members_[other].region +
                                                           " have middle nodes in different places on what "
                                                           "they share");
@@ -474,9 +455,8 @@ private:
             if (planned == plan_.nodes[m].end()) return false;
             sides[k] = planned->nodes.size() - 1;
         }
-        const Swept& part = result_.parts[n.other];
         return sides[0] == sides[2] && sides[1] == sides[3] &&
-               quads_on(part.mesh, part.faces, n.there).size() == sides[0] * sides[1];
+               quads_of(n.other, n.there).size() == sides[0] * sides[1];
     }
     static bool is_flat(const Model& model, FaceId face)
     {
@@ -484,32 +464,22 @@ private:
                face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
     }
 
-    /// What was found where a member's nodes were laid onto a neighbour's.
-    struct Settled {
-        std::vector<Quad> quads; ///< of the member
-        std::vector<NodePair> pairs;
-    };
-
     /// The neighbours' nodes that a member's nodes on faces are to be laid onto.
     SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const mesh::SkinNodes& skin,
                         const std::vector<FaceId>& faces)
     {
         SettledNodes settled;
-        settled_.clear();
         const double within = kRounding * coordinates_of(m);
         for (const Neighbour& n : alike) {
-            const Swept& part = result_.parts[n.other];
-            const mesh::SkinNodes theirs = part.skin();
-            std::vector<Quad> own = quads_on(skin.mesh, faces, n.own);
-            auto pairs = same_quads_.pairs(skin, own, theirs, quads_on(part.mesh, part.faces, n.there),
-                                           within);
+            const mesh::SkinNodes theirs = result_.parts[n.other].skin();
+            const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,
+                                          quads_of(n.other, n.there), within);
             if (!pairs)
-                throw UnlikeNeighbour("assembly.unlike", named(m, n.own) +
+                throw UnlikeNeighbour("assembly.unlike", name_in(members_[m], n.own) +
                                                              " is meshed unlike its neighbour; that mesh is "
                                                              "handed on to it");
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
-            settled_.insert_or_assign(n.own, Settled{std::move(own), std::move(*pairs)});
         }
         return settled;
     }
@@ -570,52 +540,35 @@ private:
         patch.groups = std::move(groups);
     }
 
-    [[nodiscard]] std::string named(std::size_t member, FaceId face) const
+    /// The quads of a part on a face.
+    [[nodiscard]] std::vector<Quad> quads_of(std::size_t m, FaceId face) const
     {
-        return name_of(members_[member].volume->model, face) + " of " + members_[member].region;
-    }
-
-    /// Pairs of nodes in one place to the bit, as found when the face was settled if that is the mesh.
-    std::optional<std::vector<NodePair>> pairs_on(const Swept& part, FaceId own,
-                                                  const std::vector<Quad>& quads, const Swept& beside,
-                                                  FaceId there)
-    {
-        const auto settled = settled_.find(own);
-        if (settled != settled_.end() && settled->second.quads == quads &&
-            std::ranges::all_of(settled->second.pairs, [&](const NodePair& pair) {
-                return part.skin()[pair.own] == beside.skin()[pair.other];
-            }))
-            return std::move(settled->second.pairs);
-        return same_quads_.pairs(part.skin(), quads, beside.skin(),
-                                 quads_on(beside.mesh, beside.faces, there), 0);
+        return quads_on(result_.parts[m].mesh, result_.parts[m].faces, face);
     }
 
     /// The quads of faces that members before this one have too are theirs, to the bit.
     void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const Swept& part = result_.parts[m];
-        pairs_.resize(members_.size());
-        pairs_[m].clear();
-        shared_lines_[m].clear();
+        std::vector<std::string>& lines = states_[m].shared;
+        lines.clear();
+        std::erase_if(pairs_, [&](const SharedNodes& face) { return face.own == m; });
         for (const auto& [own, other, there] : neighbours) {
-            const std::vector<Quad> a = quads_on(part.mesh, part.faces, own);
-            if (auto pairs = pairs_on(part, own, a, result_.parts[other], there)) {
-                pairs_[m].push_back({m, other, std::move(*pairs)});
-                shared_lines_[m].push_back("shared: " + named(other, there) + " and " + named(m, own) + ", " +
-                                           std::to_string(a.size()) + (a.size() == 1 ? " quad" : " quads"));
+            const std::vector<Quad> a = quads_of(m, own), b = quads_of(other, there);
+            if (auto pairs = same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
+                pairs_.push_back({m, other, std::move(*pairs)});
+                lines.push_back("shared: " + name_in(members_[other], there) + " and " +
+                                name_in(members_[m], own) + ", " + std::to_string(a.size()) +
+                                (a.size() == 1 ? " quad" : " quads"));
                 continue;
             }
             std::string why;
             for (const std::string& line : part.report)
                 if (line.find("not kept") != std::string::npos) why += "; " + line;
-            throw NotSweepable(
-                "assembly.not_shared",
-                named(m, own) + " and " + named(other, there) +
-                    " are one face, and their meshes differ on it: " + std::to_string(a.size()) +
-                    " quads and " +
-                    std::to_string(
-                        quads_on(result_.parts[other].mesh, result_.parts[other].faces, there).size()) +
-                    why);
+            throw NotSweepable("assembly.not_shared",
+                               name_in(members_[m], own) + " and " + name_in(members_[other], there) +
+                                   " are one face, and their meshes differ on it: " +
+                                   std::to_string(a.size()) + " quads and " + std::to_string(b.size()) + why);
         }
     }
 
@@ -626,14 +579,9 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< of each member, those that must come before it
     std::vector<std::size_t> order_;
-    std::vector<std::optional<Inputs>> inputs_;          ///< of each part that is there
-    std::vector<int> times_swept_;                       ///< of each part, tries that failed too
-    std::vector<std::vector<std::string>> shared_lines_; ///< of the report, for each part
-    std::vector<std::vector<SharedNodes>> pairs_;        ///< of each part with those before it
-    std::vector<std::optional<SharedMiddles>> middles_;  ///< of each part, at order 2
-    std::vector<Eigen::AlignedBox3d> boxes_;             ///< of each member, at order 2
-    std::map<FaceId, Settled> settled_;                  ///< faces of the member being swept
-    SameQuads same_quads_;
+    std::vector<PartState> states_;          ///< of each part
+    std::vector<SharedNodes> pairs_;         ///< of each part with those before it
+    std::vector<Eigen::AlignedBox3d> boxes_; ///< of each member, at order 2
     SweptAssembly result_;
 };
 

@@ -5,6 +5,8 @@
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/split_edge.h>
@@ -14,7 +16,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -25,40 +26,6 @@ namespace {
 
 /// Chords that cross at less than this sine run along each other: ends of either are what counts then.
 constexpr double kAlong = 1e-6;
-
-/// Edges of a face's rim, each once.
-std::vector<EdgeId> rim_of(const Model& model, FaceId face)
-{
-    std::set<EdgeId> edges;
-    for (const Loop& loop : border_loops(model, face)) {
-        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-    }
-    return {edges.begin(), edges.end()};
-}
-
-std::vector<Vec3> line_of(const Model& model, EdgeId edge)
-{
-    std::vector<Vec3> line;
-    for (const Index p : model[edge].points) line.push_back(model.at(p));
-    return line;
-}
-
-/// The place of a chain closest to a point.
-struct OnLine {
-    double at = 0, distance = std::numeric_limits<double>::infinity();
-};
-OnLine closest_on(const std::vector<Vec3>& line, const Vec3& p)
-{
-    OnLine best;
-    double before = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const double f = fraction_along(p, line[i], line[i + 1]), length = (line[i + 1] - line[i]).norm();
-        const double distance = (p - ((1 - f) * line[i] + f * line[i + 1])).norm();
-        if (distance < best.distance) best = {before + f * length, distance};
-        before += length;
-    }
-    return best;
-}
 
 /// Where two chords cross, half way between them; nothing where they run along each other or are apart.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
@@ -224,15 +191,14 @@ struct SideOfPair {
     bool fixed = false; ///< the skin of a mesh that stays as it is
 
     [[nodiscard]] Model& model() const { return volume->model; }
-    [[nodiscard]] double size() const { return std::sqrt(face_area(model(), face)); }
 };
 
 /// Make the place of a rim closest to a point a vertex, if it is near enough.
 void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
 {
     Model& model = side.model();
-    for (const EdgeId edge : rim_of(model, side.face)) {
-        const std::vector<Vec3> line = line_of(model, edge);
+    for (const EdgeId edge : rim_edges(model, side.face)) {
+        const std::vector<Vec3> line = surface::edge_line(model, edge);
         const OnLine place = closest_on(line, p);
         const double length = geometry::length(line);
         if (place.distance > within) continue;
@@ -248,7 +214,7 @@ void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
 std::vector<Vec3> corners_of(const SideOfPair& side)
 {
     std::vector<Vec3> corners;
-    for (const EdgeId edge : rim_of(side.model(), side.face)) {
+    for (const EdgeId edge : rim_edges(side.model(), side.face)) {
         for (const VertexId v : {side.model()[edge].from, side.model()[edge].to})
             corners.push_back(side.model().at(side.model()[v].point));
     }
@@ -260,10 +226,11 @@ std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPa
 {
     const geometry::FacetTree facets(on.model().points, on.model()[on.face].triangles);
     std::vector<std::vector<Vec3>> rim, lines;
-    for (const EdgeId edge : rim_of(on.model(), on.face)) rim.push_back(line_of(on.model(), edge));
+    for (const EdgeId edge : rim_edges(on.model(), on.face))
+        rim.push_back(surface::edge_line(on.model(), edge));
     const double near_rim = std::max(limit, on.model().tolerance);
-    for (const EdgeId edge : rim_of(of.model(), of.face)) {
-        std::vector<Vec3> line = line_of(of.model(), edge);
+    for (const EdgeId edge : rim_edges(of.model(), of.face)) {
+        std::vector<Vec3> line = surface::edge_line(of.model(), edge);
         bool inside = true;
         for (std::size_t i = 0; i + 1 < line.size() && inside; ++i) {
             const Vec3 middle = (line[i] + line[i + 1]) / 2;
@@ -321,10 +288,10 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
     std::vector<Vec3> stops = corners_of(a);
     const std::vector<Vec3> others = corners_of(b);
     stops.insert(stops.end(), others.begin(), others.end());
-    for (const EdgeId e : rim_of(a.model(), a.face)) {
-        const std::vector<Vec3> p = line_of(a.model(), e);
-        for (const EdgeId f : rim_of(b.model(), b.face)) {
-            const std::vector<Vec3> q = line_of(b.model(), f);
+    for (const EdgeId e : rim_edges(a.model(), a.face)) {
+        const std::vector<Vec3> p = surface::edge_line(a.model(), e);
+        for (const EdgeId f : rim_edges(b.model(), b.face)) {
+            const std::vector<Vec3> q = surface::edge_line(b.model(), f);
             for (std::size_t i = 0; i + 1 < p.size(); ++i)
                 for (std::size_t j = 0; j + 1 < q.size(); ++j)
                     if (const auto at = crossing(p[i], p[i + 1], q[j], q[j + 1], within))
@@ -360,9 +327,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
 
 } // namespace
 
-std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const std::string> regions,
-                                       const std::vector<bool>& fixed, std::span<const PartlyShared> pairs,
-                                       const RunContext& context)
+std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
+                                       std::span<const PartlyShared> pairs, const RunContext& context)
 {
     std::map<std::pair<std::size_t, FaceId>, std::vector<FaceId>> parts_of;
     const auto parts = [&](std::size_t m, FaceId face) -> std::vector<FaceId>& {
@@ -372,16 +338,17 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
     for (const PartlyShared& pair : pairs) {
         check_cancelled(context);
         const SharedFace& faces = pair.faces;
-        const std::string names = name_of(volumes[faces.a].model, faces.face_a) + " of " + regions[faces.a] +
-                                  " and " + name_of(volumes[faces.b].model, faces.face_b) + " of " +
-                                  regions[faces.b];
+        const std::string names = name_in(members[faces.a], faces.face_a) + " and " +
+                                  name_in(members[faces.b], faces.face_b);
+        const auto side = [&](std::size_t m, FaceId face) {
+            return SideOfPair{&volumes[m], face, members[m].fixed != nullptr};
+        };
         // Parts made on the way are met by those of the other.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);
             for (std::size_t j = 0; j < all_b.size(); ++j) {
-                const Parts made = imprint_pair({&volumes[faces.a], all_a[i], fixed[faces.a]},
-                                                {&volumes[faces.b], all_b[j], fixed[faces.b]}, pair.limit,
+                const Parts made = imprint_pair(side(faces.a, all_a[i]), side(faces.b, all_b[j]), pair.limit,
                                                 names, context);
                 all_a.insert(all_a.end(), made.a.begin() + 1, made.a.end());
                 all_b.insert(all_b.end(), made.b.begin() + 1, made.b.end());

@@ -36,7 +36,7 @@ std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& a
     std::vector<Placed> placed;
     placed.reserve(nodes.size());
     for (const PartNode& node : nodes) placed.push_back({assembly.parts[node.part].skin()[node.node], node});
-    std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
+    std::ranges::sort(placed, [&](const Placed& a, const Placed& b) {
         if (before(a.place, b.place)) return true;
         if (before(b.place, a.place)) return false;
         return a.node < b.node;
@@ -64,7 +64,7 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 
 } // namespace
 
-void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNodes>> shared)
+void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared)
 {
     std::vector<PartNode> by_place;
     std::vector<std::vector<Index>> on_border(assembly.parts.size()); // rising
@@ -79,19 +79,17 @@ void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNod
         if (mesh.order() > 1) add_middles(mesh, p, by_place);
     }
     std::vector<std::pair<PartNode, PartNode>> same = in_same_places(assembly, by_place);
-    for (const std::vector<SharedNodes>& faces : shared) {
-        for (const SharedNodes& face : faces) {
-            for (const NodePair& pair : face.pairs) {
-                PartNode a{face.own, pair.own}, b{face.other, pair.other};
-                if (std::ranges::binary_search(on_border[a.part], a.node) &&
-                    std::ranges::binary_search(on_border[b.part], b.node))
-                    continue;
-                if (a < b) std::swap(a, b);
-                same.emplace_back(a, b);
-            }
+    for (const SharedNodes& face : shared) {
+        for (const NodePair& pair : face.pairs) {
+            PartNode a{face.own, pair.own}, b{face.other, pair.other};
+            if (std::ranges::binary_search(on_border[a.part], a.node) &&
+                std::ranges::binary_search(on_border[b.part], b.node))
+                continue;
+            if (a < b) std::swap(a, b);
+            same.emplace_back(a, b);
         }
     }
-    std::sort(same.begin(), same.end());
+    std::ranges::sort(same);
     Index next = 0;
     auto twin = same.begin();
     const bool held = std::ranges::none_of(assembly.parts,

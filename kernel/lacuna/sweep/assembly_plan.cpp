@@ -10,6 +10,7 @@
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -21,6 +22,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -77,8 +79,7 @@ public:
     AssemblyPlan run()
     {
         find_same();
-        classes_ = geometry::UnionFind(edges_.size());
-        for (std::size_t e = 0; e < edges_.size(); ++e) classes_.unite(same_.find(e), e);
+        classes_ = same_;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             check_cancelled(context_);
             if (members_[m].fixed == nullptr) join_by_sweep(m);
@@ -90,9 +91,7 @@ public:
         find_rows();
         count();
         make_even();
-        AssemblyPlan plan;
-        set_nodes(plan);
-        return plan;
+        return nodes_and_layers();
     }
 
 private:
@@ -109,12 +108,9 @@ private:
     [[nodiscard]] MemberEdge read(std::size_t m, EdgeId id) const
     {
         const Edge& edge = model(m)[id];
-        std::vector<Vec3> line;
+        const std::vector<Vec3> line = surface::edge_line(model(m), id);
         MemberEdge result;
-        for (const Index p : edge.points) {
-            line.push_back(model(m).at(p));
-            result.box.extend(line.back());
-        }
+        for (const Vec3& p : line) result.box.extend(p);
         const std::vector<double> arc = geometry::arc_lengths(line);
         result.member = m;
         result.edge = id;
@@ -149,7 +145,8 @@ private:
     void find_same()
     {
         std::vector<std::size_t> order(edges_.size());
-        for (std::size_t e = 0; e < order.size(); ++e) order[e] = e;
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        common_.assign(edges_.size(), false);
         std::ranges::sort(order, {}, [&](std::size_t e) { return edges_[e].box.min().x(); });
         same_ = geometry::UnionFind(edges_.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
@@ -157,14 +154,11 @@ private:
             const double reach = a.box.min().x() + model(a.member).tolerance + kSameMiddle * a.length;
             for (std::size_t k = i + 1; k < order.size() && edges_[order[k]].box.min().x() <= reach; ++k) {
                 const MemberEdge& b = edges_[order[k]];
-                if (a.member != b.member && is_same(a, b))
-                    same_.unite(std::min(order[i], order[k]), std::max(order[i], order[k]));
+                if (a.member == b.member || !is_same(a, b)) continue;
+                same_.unite(std::min(order[i], order[k]), std::max(order[i], order[k]));
+                common_[order[i]] = common_[order[k]] = true;
             }
         }
-        std::map<std::size_t, std::set<std::size_t>> members;
-        for (std::size_t e = 0; e < edges_.size(); ++e) members[same_.find(e)].insert(edges_[e].member);
-        common_.assign(edges_.size(), false);
-        for (std::size_t e = 0; e < edges_.size(); ++e) common_[e] = members.at(same_.find(e)).size() > 1;
     }
 
     /// Edges that one sweep gives the same number.
@@ -199,7 +193,7 @@ private:
                         stacked_.insert(same_.find(number(m, use.edge)));
                     continue;
                 }
-                sides_[m].push_back({line.line.uses.front().edge, line.line.uses.front().reversed});
+                sides_[m].push_back(line.line.uses.front());
                 classes_.unite(number(m, sides_[m].front().edge), number(m, sides_[m].back().edge));
             }
         }
@@ -368,14 +362,12 @@ private:
     /// Sides an edge wants by its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
-        const Edge& e = model(edge.member)[edge.edge];
+        const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
         double sides = 0, turn = 0;
-        for (std::size_t i = 0; i + 1 < e.points.size(); ++i) {
-            const Vec3 &a = model(edge.member).at(e.points[i]), &b = model(edge.member).at(e.points[i + 1]);
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const Vec3 &a = line[i], &b = line[i + 1];
             sides += (b - a).norm() / size(edge.member, (a + b) / 2);
-            if (i == 0) continue;
-            const Vec3 before = a - model(edge.member).at(e.points[i - 1]);
-            turn += geometry::angle_between(before, b - a);
+            if (i > 0) turn += geometry::angle_between(a - line[i - 1], b - a);
         }
         const std::size_t own = number(edge.member, edge.edge);
         if (const auto followed = followed_.find(same_.find(own)); followed != followed_.end())
@@ -430,27 +422,28 @@ private:
         }
     }
 
-    /// Whether a member's edge runs as the one that stands for it does.
-    [[nodiscard]] bool runs_along(std::size_t e) const
+    /// Whether the same edge runs the same way in two members.
+    static bool run_alike(const MemberEdge& a, const MemberEdge& b)
     {
-        const MemberEdge &own = edges_[e], &first = edges_[same_.find(e)];
-        return (own.from - first.from).norm() <= (own.from - first.to).norm();
+        return (a.from - b.from).norm() <= (a.from - b.to).norm();
     }
+    /// Whether a member's edge runs as the one that stands for it does.
+    [[nodiscard]] bool runs_along(std::size_t e) const { return run_alike(edges_[e], edges_[same_.find(e)]); }
 
     /// Where rows of boundary layers end on edges: one of several members has them for all.
     void find_rows()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
-            for (EdgeRows& rows : edge_rows(members_[m])) {
-                const std::size_t e = number(m, rows.edge);
+            for (auto& [edge, rows] : edge_rows(members_[m])) {
+                const std::size_t e = number(m, edge);
                 if (edges_[e].closed || kept_[e] == Kept::quads) continue; // its nodes are there
-                if (!runs_along(e)) std::swap(rows.end[0], rows.end[1]);
+                if (!runs_along(e)) std::swap(rows[0], rows[1]);
                 std::array<RowsHere, 2>& here = rows_[same_.find(e)];
                 for (std::size_t k = 0; k < 2; ++k) {
-                    if (rows.end[k].places.empty()) continue;
-                    if (!here[k].places.empty() && !are_alike(here[k].places, rows.end[k].places))
-                        refuse_rows(here[k], m, rows.end[k].face, e);
-                    if (here[k].places.empty()) here[k] = {rows.end[k].places, m, rows.end[k].face};
+                    if (rows[k].places.empty()) continue;
+                    if (!here[k].places.empty() && !are_alike(here[k].places, rows[k].places))
+                        refuse_rows(here[k], m, rows[k].face, e);
+                    if (here[k].places.empty()) here[k] = {rows[k].places, m, rows[k].face};
                 }
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
@@ -475,7 +468,7 @@ private:
         throw NotSweepable("assembly.layers_differ",
                            "boundary layers of " + name_in(members_[there.member], there.face) + " and of " +
                                name_in(own, face) + " are unlike and both end on " +
-                               name_of(model(m), edges_[e].edge) + " of " + own.region +
+                               name_in(own, edges_[e].edge) +
                                ", which is an edge of both; give both faces one table");
     }
 
@@ -500,13 +493,13 @@ private:
             const int taken = beside_rows(e).first, count = count_.at(classes_.find(e));
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
-            throw NotSweepable(
-                "assembly.layers_rows",
-                "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
-                    std::to_string(taken) + " sides of " + name_of(model(edges_[e].member), edges_[e].edge) +
-                    " of " + members_[edges_[e].member].region + ", which has " + std::to_string(count) +
-                    " by the layers or nodes asked for or given; ask for fewer rows or more "
-                    "layers");
+            throw NotSweepable("assembly.layers_rows",
+                               "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
+                                   std::to_string(taken) + " sides of " +
+                                   name_in(members_[edges_[e].member], edges_[e].edge) + ", which has " +
+                                   std::to_string(count) +
+                                   " by the layers or nodes asked for or given; ask for fewer rows or more "
+                                   "layers");
         }
     }
 
@@ -530,25 +523,20 @@ private:
         for (const auto& [of, m] : asked)
             if (const auto other = intervals_.find(of); other != intervals_.end())
                 ask_class(of, {layers_asked(m), members_[m].region + ": its layers"});
-        std::map<std::size_t, Kept> kept; // of the edges that say a class's number
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            Kept& of = kept[classes_.find(e)];
+            Kept& of = kept_of_class_[classes_.find(e)];
             of = std::max(of, kept_[e]);
         }
         std::map<std::size_t, double> most;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             const std::size_t of = classes_.find(e);
             double& sides = most[of];
-            if (asked.contains(of) || kept_[e] != kept.at(of)) continue;
+            if (asked.contains(of) || kept_[e] != kept_of_class_.at(of)) continue;
             const auto [taken, left] = beside_rows(e);
             sides = std::max(sides, kept_[e] != Kept::no ? sides_of(e)
                                     : taken == 0         ? wanted(edges_[e])
                                                  : taken + std::max(1.0, std::round(wanted(edges_[e]) * left /
                                                                                     edges_[e].length)));
-        }
-        for (const auto& [of, how] : kept) {
-            if (how == Kept::quads) asked_.insert(of);
-            if (how == Kept::rim) rims_.insert(of);
         }
         for (const auto& [of, sides] : most) {
             if (!(sides < std::numeric_limits<Index>::max() / 16.0))
@@ -562,7 +550,7 @@ private:
             asked_.insert(of);
         }
         for (const auto& [of, sides] : intervals_) {
-            if (kept.at(of) == Kept::quads) continue; // the sweep says how many there are
+            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep says how many there are
             count_[of] = sides.count;
             asked_.insert(of);
         }
@@ -604,12 +592,12 @@ private:
         if (sides % 2 == 0) return false;
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
-            if (times % 2 == 0 || asked_.contains(of)) continue;
+            if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
             // Later rounds take the next one, so that ends do not chase each other; nodes that came with a
             // shape give way last.
             const auto before = [&](std::size_t a, std::size_t b) {
-                return std::tuple(!rims_.contains(a), -bumps_[a], count_.at(a)) >
-                       std::tuple(!rims_.contains(b), -bumps_[b], count_.at(b));
+                return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
+                       std::tuple(kept_of_class_.at(b) != Kept::rim, -bumps_[b], count_.at(b));
             };
             if (best == edges_.size() || before(of, best)) best = of;
         }
@@ -623,12 +611,8 @@ private:
     [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
     {
         const MemberEdge& edge = edges_[e];
-        if (kept_[e] != Kept::no && sides_of(e) == count) {
-            std::vector<Vec3> own;
-            for (const Index p : model(edge.member)[edge.edge].points)
-                own.push_back(model(edge.member).at(p));
-            return own;
-        }
+        if (kept_[e] != Kept::no && sides_of(e) == count)
+            return surface::edge_line(model(edge.member), edge.edge);
         if (const auto found = followed_.find(same_.find(e)); found != followed_.end()) {
             const auto& [own, ends] = found->second;
             if (static_cast<std::size_t>(count) + 1 >= ends.size())
@@ -647,19 +631,13 @@ private:
                 LayerSpec whole = spec;
                 if (whole.heights.empty()) whole.count = count;
                 at = layer_heights(whole);
-                if (members_[m].volume->turned_round) turn_round(at);
-                const bool along = (edges_[own].from - edge.from).norm() <=
-                                   (edges_[own].from - edge.to).norm();
-                if (side.reversed == along) turn_round(at);
+                if (members_[m].volume->turned_round) reverse_heights(at);
+                if (side.reversed == run_alike(edges_[own], edge)) reverse_heights(at);
             }
         }
         if (const auto found = bias_.find(same_.find(e)); found != bias_.end() && !edge.closed) {
-            const MemberEdge& own = edges_[found->second.first];
-            LayerSpec spec;
-            spec.count = count;
-            spec.bias = found->second.second;
-            at = layer_heights(spec);
-            if ((own.from - edge.from).norm() > (own.from - edge.to).norm()) turn_round(at);
+            at = layer_heights({.count = count, .bias = found->second.second});
+            if (!run_alike(edges_[found->second.first], edge)) reverse_heights(at);
         }
         if (const auto found = rows_.find(same_.find(e)); found != rows_.end())
             at = with_rows(found->second, edge.length, runs_along(e), count);
@@ -679,14 +657,10 @@ private:
         at.push_back(1);
         return at;
     }
-    static void turn_round(std::vector<double>& at)
-    {
-        std::ranges::reverse(at);
-        for (double& h : at) h = 1 - h;
-    }
 
-    void set_nodes(AssemblyPlan& plan)
+    AssemblyPlan nodes_and_layers()
     {
+        AssemblyPlan plan;
         double all = 0;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (common_[e]) all += count_.at(classes_.find(e));
@@ -698,10 +672,11 @@ private:
         plan.nodes.resize(members_.size());
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;
+        const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             // What bounds a mere shape gives way where the members' number is not its own.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
-            if (!(common_[e] || gives_way) || !is_on_frame(e)) continue;
+            if (!(common_[e] || gives_way) || !on_frame[e]) continue;
             auto found = nodes.find(same_.find(e));
             if (found == nodes.end())
                 found = nodes.emplace(same_.find(e), places(exact_one(e), count_.at(classes_.find(e)))).first;
@@ -718,22 +693,22 @@ private:
                 sides, [&, m = m](const EdgeUse& side) { return common_[number(m, side.edge)]; });
             if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
         }
+        return plan;
     }
 
-    /// Whether an edge is on the rim of an end or a side line: others, round the walls, follow from those.
-    [[nodiscard]] bool is_on_frame(std::size_t e)
+    /// Edges on the rim of an end, and side lines: others, round the walls, follow from those.
+    [[nodiscard]] std::vector<bool> find_frame() const
     {
-        const std::size_t m = edges_[e].member;
-        if (frame_.empty()) frame_.resize(members_.size());
-        if (frame_[m].empty()) {
-            const std::vector<std::vector<FaceUse>> uses = edge_uses(model(m));
-            for (const std::vector<FaceUse>& users : uses)
-                frame_[m].push_back(std::ranges::any_of(users, [&](const FaceUse& user) {
+        std::vector<bool> frame;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            for (const std::vector<FaceUse>& users : edge_uses(model(m)))
+                frame.push_back(std::ranges::any_of(users, [&](const FaceUse& user) {
                     return members_[m].volume->role[user.face.index()] != Role::wall;
                 }));
-            for (const EdgeUse& side : sides_[m]) frame_[m][side.edge.index()] = true;
         }
-        return frame_[m][edges_[e].edge.index()];
+        for (const auto& [m, sides] : sides_)
+            for (const EdgeUse& side : sides) frame[number(m, side.edge)] = true;
+        return frame;
     }
 
     /// The place of a vertex, the same to the bit for all edges and members that meet there.
@@ -771,9 +746,7 @@ private:
                                                       [&](const Vec3& p) { return (p - edge.from).norm(); });
         std::ranges::rotate(nodes, nearest);
         // The way round: the node that follows is on the first half of the edge.
-        const Edge& e = model(edge.member)[edge.edge];
-        std::vector<Vec3> line;
-        for (const Index p : e.points) line.push_back(model(edge.member).at(p));
+        const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
         const std::vector<double> arc = geometry::arc_lengths(line);
         const Vec3 quarter = geometry::point_at(line, arc, arc.back() / static_cast<double>(nodes.size()));
         if ((nodes.back() - quarter).norm() < (nodes[1] - quarter).norm())
@@ -790,9 +763,9 @@ private:
     /// What stays of the nodes an edge came with: none, the rim of a shape, that of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
     std::vector<Kept> kept_;                              ///< of each edge
+    std::map<std::size_t, Kept> kept_of_class_;           ///< of the edges that say its number
     std::map<std::size_t, std::array<RowsHere, 2>> rows_; ///< of the same edges, as the first of them runs
     std::map<std::size_t, std::size_t> kept_one_;         ///< of the same edges, one that came with nodes
-    std::set<std::size_t> rims_;                          ///< classes whose number is that of a shape's rim
     std::vector<bool> common_;                            ///< of each edge: other members have it too
     std::map<std::size_t, std::vector<EdgeUse>> sides_;   ///< of each member: side lines of one edge
     std::map<std::size_t, int> count_;                    ///< of each class
@@ -802,12 +775,11 @@ private:
     std::map<std::size_t, SidesOfClass> intervals_;           ///< of each class that intervals are about
     /// Of the same edges, the one that a bias was asked for, and that as it runs.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    std::set<std::size_t> stacked_;        ///< edges that are parts of side lines in some member, by `same_`
-    std::set<std::size_t> asked_;          ///< classes whose number a person asked for
-    std::map<std::size_t, int> bumps_;     ///< how often a class got more
-    std::vector<std::vector<bool>> frame_; ///< of each member's edges
-    std::vector<Vec3> corners_;            ///< where edges of several members end
-    mutable std::vector<double> spacing_;  ///< of each member's rim
+    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member, by `same_`
+    std::set<std::size_t> asked_;         ///< classes whose number a person asked for
+    std::map<std::size_t, int> bumps_;    ///< how often a class got more
+    std::vector<Vec3> corners_;           ///< where edges of several members end
+    mutable std::vector<double> spacing_; ///< of each member's rim
 };
 
 } // namespace

@@ -26,7 +26,7 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
     if (options.quads == Quads::keep) return true;
     const std::vector<FaceId> source = volume.faces(Role::source);
     const bool any = options.quads == Quads::automatic && options.rows == 0;
-    return std::any_of(source.begin(), source.end(), [&](FaceId face) {
+    return std::ranges::any_of(source, [&](FaceId face) {
         const Face& f = volume.model[face];
         return (any || options.beside.handed.contains(face)) &&
                (!f.given_quads.empty() || has_cells_to_keep(f, options.wedges));
@@ -56,6 +56,14 @@ Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const 
         outcome.refusal = error;
     }
     return outcome;
+}
+
+/// Take the mesh, whose report begins with the way it was swept.
+ProvedSweep taken(Outcome& outcome, const std::string& way)
+{
+    std::vector<std::string>& report = outcome.result->swept.report;
+    report.insert(report.begin(), way);
+    return std::move(*outcome.result);
 }
 
 std::string how_it_was(const Outcome& outcome)
@@ -92,45 +100,34 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
 {
     if (keeps_quads(volume, options)) return sweep_one_way(volume, options, Outline::source);
     // A target that came with quads is swept from where the source did not.
-    if (const OpenVolume back = turned_round(volume); keeps_quads(back, options)) {
-        Outcome kept = outcome_of(back, options, sweep_one_way);
-        if (kept.usable()) {
-            kept.result->swept.report.insert(kept.result->swept.report.begin(),
-                                             "swept from the " + end_of(back) +
-                                                 ", which came with quads; the " + end_of(volume) +
-                                                 " did not");
-            return std::move(*kept.result);
-        }
+    const OpenVolume turned = turned_round(volume);
+    if (keeps_quads(turned, options)) {
+        Outcome kept = outcome_of(turned, options, sweep_one_way);
+        if (kept.usable())
+            return taken(kept, "swept from the " + end_of(turned) + ", which came with quads; the " +
+                                   end_of(volume) + " did not");
         if (kept.refusal && kept.refusal->code() == "surface.given_triangles") throw *kept.refusal;
-        log_line(context, "swept from the " + end_of(back) + ", to keep its quads: " + kept.why());
+        log_line(context, "swept from the " + end_of(turned) + ", to keep its quads: " + kept.why());
     }
     const bool turned_first = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
                               surface::inner_edges(volume, Role::source).empty();
-    std::optional<OpenVolume> turned;
-    if (turned_first) turned = turned_round(volume);
-    const OpenVolume& first = turned_first ? *turned : volume;
+    const OpenVolume &first = turned_first ? turned : volume, &second = turned_first ? volume : turned;
     Outcome one = outcome_of(first, options, sweep_one_way);
-    if (one.good()) {
-        if (turned_first) {
-            one.result->swept.report.insert(one.result->swept.report.begin(),
-                                            "swept from the " + end_of(first) +
-                                                ", whose faces meet in edges; the " + end_of(volume) +
-                                                " is one face");
-        }
-        return std::move(*one.result);
-    }
+    if (one.good() && turned_first)
+        return taken(one, "swept from the " + end_of(first) + ", whose faces meet in edges; the " +
+                              end_of(volume) + " is one face");
+    if (one.good()) return std::move(*one.result);
     log_line(context,
              "swept from the " + end_of(first) + ": " +
                  (one.usable() ? "least scaled Jacobian " + in_short(one.result->swept.min_scaled_jacobian)
                                : one.why()) +
                  "; the other way is tried");
-    if (!turned_first) turned = turned_round(volume);
-    const OpenVolume& second = turned_first ? volume : *turned;
     Outcome other = outcome_of(second, options, sweep_one_way);
     const bool swap = other.usable() && (!one.usable() || other.result->swept.min_scaled_jacobian >
                                                               one.result->swept.min_scaled_jacobian);
     const Outcome* better = swap ? &other : &one;
     Outcome mean;
+    std::string mean_from;
     // Laid out between both outlines, from either end, where it was the cells that were poor.
     const bool poor_cells = one.result || other.result;
     for (const OpenVolume* way : {&first, &second}) {
@@ -141,20 +138,16 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
         if (!between.usable() || (better->usable() && between.result->swept.min_scaled_jacobian <=
                                                           better->result->swept.min_scaled_jacobian))
             continue;
-        between.result->swept.report.insert(between.result->swept.report.begin(),
-                                            "laid out between the outlines of both ends and swept from the " +
-                                                end_of(*way) + "; from one outline alone " +
-                                                how_it_was(swap ? other : one));
         mean = std::move(between);
         better = &mean;
+        mean_from = end_of(*way);
     }
-    if (better == &mean) return std::move(*mean.result);
-    if (swap) {
-        other.result->swept.report.insert(other.result->swept.report.begin(),
-                                          "swept from the " + end_of(second) + "; from the " + end_of(first) +
-                                              " " + how_it_was(one));
-        return std::move(*other.result);
-    }
+    if (better == &mean)
+        return taken(mean, "laid out between the outlines of both ends and swept from the " + mean_from +
+                               "; from one outline alone " + how_it_was(swap ? other : one));
+    if (swap)
+        return taken(other, "swept from the " + end_of(second) + "; from the " + end_of(first) + " " +
+                                how_it_was(one));
     if (one.usable()) return std::move(*one.result);
     // What went wrong first says more than what goes wrong second.
     if (one.refusal) {

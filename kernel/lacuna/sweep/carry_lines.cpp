@@ -4,11 +4,13 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/surface/shared/imprint.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/topology/shared/split_edge.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <map>
@@ -31,12 +33,7 @@ class FaceCopier {
 public:
     /// @param whole  one face, or the parts of one.
     FaceCopier(const Model& from, std::vector<FaceId> parts, OpenVolume& to, std::vector<FaceId> whole)
-        : from_(from),
-          parts_(std::move(parts)),
-          to_(to.model),
-          role_(to.role),
-          whole_(std::move(whole)),
-          near_(from.tolerance)
+        : from_(from), parts_(std::move(parts)), to_(to.model), role_(to.role), whole_(std::move(whole))
     {
     }
 
@@ -83,11 +80,7 @@ private:
     void copy_rim()
     {
         for (const Rim& rim : rims(from_, parts_)) {
-            std::vector<Index> walk;
-            for (const EdgeUse& use : rim.uses) {
-                const std::vector<Index> points = use_points(from_, use);
-                walk.insert(walk.end(), points.begin(), points.end() - 1);
-            }
+            std::vector<Index> walk = loop_points(from_, rim.uses);
             for (const Index p : walk) {
                 if (const Index there = on_rim(from_.at(p)); there >= 0) place_[p] = there;
             }
@@ -112,9 +105,7 @@ private:
 
     [[nodiscard]] std::vector<double> arc_of(EdgeId edge) const
     {
-        std::vector<Vec3> line;
-        for (const Index p : to_[edge].points) line.push_back(to_.at(p));
-        return geometry::arc_lengths(line);
+        return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
     /// A point between the one before it, which is there, and the next that is.
@@ -238,7 +229,7 @@ private:
     Model& to_;
     std::vector<Role>& role_;
     std::vector<FaceId> whole_;
-    double near_;
+    const double near_ = from_.tolerance;
     std::map<Index, Index> place_; ///< of points of the parts
 };
 
@@ -249,7 +240,6 @@ public:
         : members_(members),
           volumes_(volumes),
           context_(context),
-          shared_(shared_faces(members, context)),
           known_(members.size()),
           pairs_(members.size())
     {
@@ -329,16 +319,19 @@ private:
         return true;
     }
 
+    static void swap_ends(surface::KnownLine& line)
+    {
+        std::swap(line.source, line.target);
+        std::swap(line.source_from, line.target_from);
+        std::swap(line.source_to, line.target_to);
+    }
+
     /// Lines of a member's ends that go with each other, and vertices, seen from the end that is split.
     [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
     {
         std::vector<surface::KnownLine> lines = known_[m];
         if (end == Role::source) return lines;
-        for (surface::KnownLine& line : lines) {
-            std::swap(line.source, line.target);
-            std::swap(line.source_from, line.target_from);
-            std::swap(line.source_to, line.target_to);
-        }
+        for (surface::KnownLine& line : lines) swap_ends(line);
         return lines;
     }
 
@@ -379,11 +372,7 @@ private:
                 };
                 if (std::ranges::none_of(pairs_[m], same)) pairs_[m].push_back(pair);
             }
-            if (end == Role::target) {
-                std::swap(line.source, line.target);
-                std::swap(line.source_from, line.target_from);
-                std::swap(line.source_to, line.target_to);
-            }
+            if (end == Role::target) swap_ends(line);
             known_[m].push_back(std::move(line));
         }
     }
@@ -412,7 +401,7 @@ private:
     std::span<const AssemblyMember> members_;
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
-    std::vector<SharedFace> shared_;
+    std::vector<SharedFace> shared_ = shared_faces(members_, context_);
     std::vector<std::vector<surface::KnownLine>> known_; ///< of each member, by its source and target
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;

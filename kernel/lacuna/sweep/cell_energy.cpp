@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_energy.h>
 
+#include <lacuna/mesh/hex_mesh.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +16,7 @@ namespace {
 constexpr double kVolumeShare = 1.0 / 128;
 
 /// Ends of the four edges along each of u, v, w.
-constexpr std::array<std::array<std::array<int, 2>, 4>, 3> kEdges{{
+constexpr std::array<std::array<std::array<std::size_t, 2>, 4>, 3> kEdges{{
     {{{0, 1}, {3, 2}, {4, 5}, {7, 6}}},
     {{{0, 3}, {1, 2}, {4, 7}, {5, 6}}},
     {{{0, 4}, {1, 5}, {2, 6}, {3, 7}}},
@@ -30,27 +32,20 @@ Edges edges_of(const std::array<Vec3, 8>& corners)
     Edges edges;
     for (std::size_t d = 0; d < 3; ++d) {
         for (std::size_t e = 0; e < 4; ++e) {
-            edges[d][e] = corners[static_cast<std::size_t>(kEdges[d][e][1])] -
-                          corners[static_cast<std::size_t>(kEdges[d][e][0])];
+            edges[d][e] = corners[kEdges[d][e][1]] - corners[kEdges[d][e][0]];
         }
     }
     return edges;
 }
-
-/// Corners of a wedge's two triangles, and the edges along its height.
-constexpr std::array<std::array<std::size_t, 3>, 2> kTriangles{{{0, 1, 2}, {4, 5, 6}}};
 
 /// Call `visit(corner, after, before, above)` for the six corners of a wedge; the three edges that lead from
 /// the first to the others are right-handed.
 template <class Visit>
 void each_wedge_corner(const Visit& visit)
 {
-    for (std::size_t level = 0; level < 2; ++level) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto& own = kTriangles[level];
-            const std::size_t after = own[(i + 1) % 3], before = own[(i + 2) % 3];
-            visit(own[i], level == 0 ? after : before, level == 0 ? before : after, kTriangles[1 - level][i]);
-        }
+    for (const std::size_t corner : {0, 1, 2, 4, 5, 6}) {
+        const auto& [after, before, above] = mesh::kWedgeNeighbours[corner];
+        visit(corner, after, before, above);
     }
 }
 
@@ -187,8 +182,8 @@ double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners,
     slope.fill(Vec3::Zero());
     for (std::size_t d = 0; d < 3; ++d) {
         for (std::size_t e = 0; e < 4; ++e) {
-            slope[static_cast<std::size_t>(kEdges[d][e][1])] += by_edge[d][e];
-            slope[static_cast<std::size_t>(kEdges[d][e][0])] -= by_edge[d][e];
+            slope[kEdges[d][e][1]] += by_edge[d][e];
+            slope[kEdges[d][e][0]] -= by_edge[d][e];
         }
     }
     return sum;

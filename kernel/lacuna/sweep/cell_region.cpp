@@ -19,7 +19,7 @@ constexpr std::size_t kChunk = 512;
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
 {
     std::array<Vec3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) corners[i] = places[static_cast<std::size_t>(hex[i])];
+    for (std::size_t i = 0; i < 8; ++i) corners[i] = places[index(hex[i])];
     return corners;
 }
 
@@ -29,8 +29,7 @@ std::vector<char> locked_nodes(const mesh::HexMesh& mesh, const Sliding& sliding
     locked.resize(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         for (const Index n : mesh::skin_quad(mesh, i).nodes) {
-            const auto node = static_cast<std::size_t>(n);
-            if (sliding.surface.empty() || sliding.surface[node] < 0) locked[node] = 1;
+            if (sliding.surface.empty() || sliding.surface[index(n)] < 0) locked[index(n)] = 1;
         }
     }
     return locked;
@@ -84,8 +83,7 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     const double best = mesh::is_wedge(hex) ? 2 * std::numbers::inv_sqrt3 : 1;
     const auto stays = [&](std::size_t corner) { return locked[index(hex[corner])] != 0; };
     for (std::size_t c = 0; c < 8; ++c) {
-        if (!stays(c) || !stays(neighbours[c][0]) || !stays(neighbours[c][1]) || !stays(neighbours[c][2]))
-            continue;
+        if (!stays(c) || !std::ranges::all_of(neighbours[c], stays)) continue;
         const Vec3 u = corners[neighbours[c][0]] - corners[c], v = corners[neighbours[c][1]] - corners[c],
                    w = corners[neighbours[c][2]] - corners[c];
         const double lengths = u.norm() * v.norm() * w.norm();
@@ -129,12 +127,11 @@ void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
     std::vector<char> touched(mesh.nodes.size(), 0);
     for (std::size_t c = 0; c < taken.size(); ++c) {
         if (taken[c] == 0) continue;
-        for (const Index n : mesh.hex(c)) touched[static_cast<std::size_t>(n)] = 1;
+        for (const Index n : mesh.hex(c)) touched[index(n)] = 1;
     }
     for (std::size_t c = 0; c < taken.size(); ++c) {
         const Hex hex = mesh.hex(c);
-        taken[c] = std::any_of(hex.begin(), hex.end(),
-                               [&](Index n) { return touched[static_cast<std::size_t>(n)] != 0; });
+        taken[c] = std::ranges::any_of(hex, [&](Index n) { return touched[index(n)] != 0; });
     }
 }
 
@@ -189,14 +186,14 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
     CellRegion region;
     const std::vector<char> locked = locked_nodes(mesh, sliding);
     std::vector<char> taken = poor_cells(mesh, locked, options.good_enough, context);
-    if (std::none_of(taken.begin(), taken.end(), [](char c) { return c != 0; })) return region;
+    if (std::ranges::none_of(taken, [](char c) { return c != 0; })) return region;
     for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
 
     // Nodes that cells outside use stay, so that the region meets the rest as it was.
     std::vector<char> held = locked;
     std::vector<char> inside(mesh.nodes.size(), 0);
     for (std::size_t c = 0; c < taken.size(); ++c) {
-        for (const Index n : mesh.hex(c)) (taken[c] != 0 ? inside : held)[static_cast<std::size_t>(n)] = 1;
+        for (const Index n : mesh.hex(c)) (taken[c] != 0 ? inside : held)[index(n)] = 1;
     }
     std::vector<Index> number(mesh.nodes.size(), -1);
     const auto number_those = [&](char wanted) {
@@ -211,12 +208,12 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
     number_those(1);
     region.surface.assign(region.free, -1);
     for (std::size_t i = 0; i < region.free && !sliding.surface.empty(); ++i)
-        region.surface[i] = sliding.surface[static_cast<std::size_t>(region.node[i])];
+        region.surface[i] = sliding.surface[index(region.node[i])];
     for (std::size_t c = 0; c < taken.size(); ++c) {
         if (taken[c] == 0) continue;
         const Hex hex = mesh.hex(c);
         Hex local{};
-        for (std::size_t k = 0; k < 8; ++k) local[k] = number[static_cast<std::size_t>(hex[k])];
+        for (std::size_t k = 0; k < 8; ++k) local[k] = number[index(hex[k])];
         region.cells.push_back(local);
         const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
         region.box.push_back(mean_edges(corners, kind_of(hex)));
@@ -254,18 +251,13 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
 }
 
 RegionEnergy::RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context)
-    : region_(region),
-      context_(context),
-      places_(std::move(places)),
-      slopes_(8 * region.cells.size()),
-      normal_(region.free, Vec3::Zero())
+    : region_(region), context_(context), places_(std::move(places)), slopes_(8 * region.cells.size())
 {
 }
 
 void RegionEnergy::put(const Eigen::VectorXd& x)
 {
-    for (std::size_t i = 0; i < region_.free; ++i)
-        places_[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+    Eigen::Map<Eigen::VectorXd>(places_.front().data(), x.size()) = x;
 }
 
 double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
@@ -297,28 +289,27 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
 double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 {
     put(x);
-    std::vector<double> part((region_.cells.size() + kChunk - 1) / kChunk,
-                             std::numeric_limits<double>::infinity());
-    parallel_for(context_, region_.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            double& least = part[begin / kChunk];
-            const Hex& cell = region_.cells[c];
-            least = std::min(
-                least, sweep::least_determinant(corners_of(places_, cell), region_.box[c], kind_of(cell)));
-        }
-    });
-    return *std::min_element(part.begin(), part.end());
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return parallel_min(
+        context_, region_.cells.size(), kChunk, kNone, [&](std::size_t begin, std::size_t end) {
+            double least = kNone;
+            for (std::size_t c = begin; c < end; ++c) {
+                const Hex& cell = region_.cells[c];
+                least = std::min(least, sweep::least_determinant(corners_of(places_, cell), region_.box[c],
+                                                                 kind_of(cell)));
+            }
+            return least;
+        });
 }
 
 void RegionEnergy::set_planes(const Eigen::VectorXd& x)
 {
     put(x);
-    std::fill(normal_.begin(), normal_.end(), Vec3::Zero());
+    normal_.assign(region_.free, Vec3::Zero());
     for (const Hex& cell : region_.cells) {
         for (const Quad& side : mesh::kHexSides) {
             std::array<std::size_t, 4> node{};
-            for (std::size_t k = 0; k < 4; ++k)
-                node[k] = static_cast<std::size_t>(cell[static_cast<std::size_t>(side[k])]);
+            for (std::size_t k = 0; k < 4; ++k) node[k] = index(cell[index(side[k])]);
             const Vec3 area =
                 (places_[node[2]] - places_[node[0]]).cross(places_[node[3]] - places_[node[1]]);
             // Sides within the region are met twice, from both: they cancel. What is left is the skin.
@@ -327,10 +318,7 @@ void RegionEnergy::set_planes(const Eigen::VectorXd& x)
             }
         }
     }
-    for (Vec3& normal : normal_) {
-        const double length = normal.norm();
-        normal = length > 0 ? Vec3(normal / length) : Vec3::Zero();
-    }
+    for (Vec3& normal : normal_) normal.normalize(); // zero stays
 }
 
 } // namespace lacuna::sweep

@@ -17,6 +17,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -52,38 +53,34 @@ struct Tally {
     Vec3 place = Vec3::Zero();
     Sample worst;       ///< the one furthest over what is allowed there; a turned one before all
     double allowed = 0; ///< there
-    bool turned = false;
 
     void add(const Sample& sample, double most)
     {
-        area += sample.area;
-        sum += sample.area * sample.distance;
-        if (sample.distance > max_distance) {
-            max_distance = sample.distance;
-            place = sample.point;
-        }
-        keep_worst(sample, most, sample.turned);
+        add_distance(sample.area, sample.area * sample.distance, sample.distance, sample.point);
+        keep_worst(sample, most);
     }
     /// Take in those that came after.
     void add(const Tally& later)
     {
-        area += later.area;
-        sum += later.sum;
-        if (later.max_distance > max_distance) {
-            max_distance = later.max_distance;
-            place = later.place;
-        }
-        if (later.allowed > 0) keep_worst(later.worst, later.allowed, later.turned);
+        add_distance(later.area, later.sum, later.max_distance, later.place);
+        if (later.allowed > 0) keep_worst(later.worst, later.allowed);
     }
 
 private:
-    void keep_worst(const Sample& sample, double most, bool is_turned)
+    void add_distance(double more_area, double more, double distance, const Vec3& at)
     {
-        if (turned) return;
-        if (!is_turned && allowed > 0 && sample.distance * allowed <= worst.distance * most) return;
+        area += more_area;
+        sum += more;
+        if (distance <= max_distance) return;
+        max_distance = distance;
+        place = at;
+    }
+    void keep_worst(const Sample& sample, double most)
+    {
+        if (worst.turned) return;
+        if (!sample.turned && allowed > 0 && sample.distance * allowed <= worst.distance * most) return;
         worst = sample;
         allowed = most;
-        turned = is_turned;
     }
 };
 
@@ -163,27 +160,22 @@ private:
     bool find_plane()
     {
         if (shape_.triangles.empty()) return false;
-        Vec3 area = Vec3::Zero(), low = shape_.points.front(), high = low;
+        Vec3 area = Vec3::Zero();
+        Eigen::AlignedBox3d box;
         for (const Triangle& t : shape_.triangles) {
             const Vec3& a = shape_.points[index(t[0])];
             area += (shape_.points[index(t[1])] - a).cross(shape_.points[index(t[2])] - a);
         }
-        for (const Vec3& p : shape_.points) {
-            low = low.cwiseMin(p);
-            high = high.cwiseMax(p);
-        }
-        origin_ = (low + high) / 2;
+        for (const Vec3& p : shape_.points) box.extend(p);
+        origin_ = (box.min() + box.max()) / 2;
         normal_ = area.stableNormalized();
-        const double slack = kInPlane * ((high - low).norm() + origin_.cwiseAbs().maxCoeff());
+        const double slack = kInPlane * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
         const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
         origin_ = shape_.points[index(shape_.triangles.front()[0])];
-        if (std::any_of(shape_.points.begin(), shape_.points.end(), off)) return false;
-        for (const std::array<Vec3, 3>& bulges : shape_.bulge) {
-            for (const Vec3& bulge : bulges) {
-                if (std::abs(normal_.dot(bulge)) > slack) return false;
-            }
-        }
-        return true;
+        const auto bends = [&](const Vec3& bulge) { return std::abs(normal_.dot(bulge)) > slack; };
+        return std::ranges::none_of(shape_.points, off) &&
+               std::ranges::none_of(shape_.bulge,
+                                    [&](const auto& bulges) { return std::ranges::any_of(bulges, bends); });
     }
 
     /// On a plane no quad that is in it and faces its way is off inside, so that only borders are compared.
@@ -200,13 +192,11 @@ private:
         Tally tally;
         Index facet = -1;
         const auto add = [&](const Vec3& point, double side, std::size_t quad) {
-            Sample sample{point, 0, side, quad, 0, false};
-            facet = compare_with_face(walk, facet, Vec3::Zero(), sample);
-            tally.add(sample, allowed(sample));
+            facet = add_compared(walk, facet, Vec3::Zero(), {point, 0, side, quad}, tally);
         };
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             const Quad& quad = quads_[q];
-            if (std::none_of(quad.begin(), quad.end(), on_border)) continue;
+            if (std::ranges::none_of(quad, on_border)) continue;
             border.push_back(q);
             for (std::size_t k = 0; k < 4; ++k) {
                 const Index next = quad[(k + 1) % 4];
@@ -224,7 +214,7 @@ private:
     {
         const std::array<Vec3, 4> c = corners(q);
         const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
-        Sample sample{c[0], across.norm(), side_[q], q, 0, false};
+        Sample sample{c[0], across.norm(), side_[q], q};
         sample.turned = limit_.folds && sign_ * across.dot(normal_) < 0;
         for (std::size_t k = 0; k < 4; ++k) {
             const double off = std::abs(normal_.dot(c[k] - origin_));
@@ -248,8 +238,7 @@ private:
                 w[static_cast<Eigen::Index>(k)] = w[static_cast<Eigen::Index>(next)] = 0.5;
                 const Vec3 &from = shape_.points[index(t[k])], &to = shape_.points[index(t[next])];
                 for (const Vec3& point : {from, Vec3((from + to) / 2 + shape_.bulge_at(i, w))}) {
-                    const Sample sample = compare_by_tree(tree, point, 0);
-                    tally.add(sample, allowed(sample));
+                    add_compared(tree, point, 0, tally);
                 }
             }
         }));
@@ -285,9 +274,8 @@ private:
         return in_blocks(first.size(), [&](std::size_t i, Tally& tally) {
             const auto [n, q] = first[i];
             const Index hint = i % kBlock == 0 ? -1 : facet_of_node_[index(first[i - 1].first)];
-            Sample sample{node(n), 0, side_[index(q)], index(q), 0, false};
-            facet_of_node_[index(n)] = compare_with_face(walk, hint, Vec3::Zero(), sample);
-            tally.add(sample, allowed(sample));
+            facet_of_node_[index(n)] = add_compared(walk, hint, Vec3::Zero(),
+                                                    {node(n), 0, side_[index(q)], index(q)}, tally);
         });
     }
 
@@ -302,22 +290,21 @@ private:
         for (std::size_t k = 0; k < 4; ++k) {
             if (quad[k] >= quad[(k + 1) % 4]) continue;
             const Vec3 &a = c[k], &b = c[(k + 1) % 4];
-            Sample sample{(a + b) / 2, area / 4, (b - a).norm(), q, 0, false};
-            compare_with_face(walk, facet_of_node_[index(quad[k])], Vec3::Zero(), sample);
-            tally.add(sample, allowed(sample));
+            add_compared(walk, facet_of_node_[index(quad[k])], Vec3::Zero(),
+                         {(a + b) / 2, area / 4, (b - a).norm(), q}, tally);
         }
         const Vec3 centre = mesh::is_triangle(quad) ? Vec3((c[0] + c[1] + c[2]) / 3)
                                                     : Vec3((c[0] + c[1] + c[2] + c[3]) / 4);
-        Sample sample{centre, area / 2, side_[q], q, 0, false};
-        const Index facet = compare_with_face(walk, facet_of_node_[index(quad[0])], across, sample);
-        tally.add(sample, allowed(sample));
-        return facet;
+        return add_compared(walk, facet_of_node_[index(quad[0])], across, {centre, area / 2, side_[q], q},
+                            tally);
     }
 
+    /// Compare a place with the face, and add it.
     /// @param hint    a facet near by, or -1.
     /// @param across  area vector of the quad, where it is to face the same way.
     /// @return the nearest facet.
-    Index compare_with_face(const FacetWalk& walk, Index hint, const Vec3& across, Sample& sample) const
+    Index add_compared(const FacetWalk& walk, Index hint, const Vec3& across, Sample sample,
+                       Tally& tally) const
     {
         std::size_t facet = 0;
         const auto foot = walk.over(sample.point, hint);
@@ -334,6 +321,7 @@ private:
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
+        tally.add(sample, allowed(sample));
         return found;
     }
 
@@ -414,8 +402,7 @@ private:
         std::iota(all.begin(), all.end(), std::size_t{0});
         const QuadTree tree = tree_of(all);
         take(in_blocks(rest.size(), [&](std::size_t i, Tally& tally) {
-            const Sample sample = compare_by_tree(tree, rest[i].point, rest[i].area);
-            tally.add(sample, allowed(sample));
+            add_compared(tree, rest[i].point, rest[i].area, tally);
         }));
     }
 
@@ -478,7 +465,7 @@ private:
                 }
             }
         }
-        const Sample sample{point, area, side_[quad], quad, std::sqrt(best), false};
+        const Sample sample{point, area, side_[quad], quad, std::sqrt(best)};
         if (sample.distance > kFar * sample.side) return std::nullopt;
         return sample;
     }
@@ -505,7 +492,7 @@ private:
             std::size_t next = quad;
             for (const Index other : round.of(index(from))) {
                 const Quad& o = quads_[index(other)];
-                if (index(other) != quad && std::find(o.begin(), o.end(), to) != o.end()) next = index(other);
+                if (index(other) != quad && std::ranges::find(o, to) != o.end()) next = index(other);
             }
             if (next == quad) break;
             quad = next;
@@ -515,10 +502,9 @@ private:
 
     [[nodiscard]] double distance2_to_box(const Vec3& point, std::size_t quad) const
     {
-        const std::array<Vec3, 4> c = corners(quad);
-        const Vec3 low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]);
-        const Vec3 high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]);
-        return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
+        Eigen::AlignedBox3d box;
+        for (const Vec3& corner : corners(quad)) box.extend(corner);
+        return box.squaredExteriorDistance(point);
     }
 
     /// @param over  whether the foot is no further from the place than from the quad's sides, so that no
@@ -565,11 +551,12 @@ private:
         return result;
     }
 
-    [[nodiscard]] Sample compare_by_tree(const QuadTree& tree, const Vec3& point, double area) const
+    void add_compared(const QuadTree& tree, const Vec3& point, double area, Tally& tally) const
     {
         const auto hit = tree.tree.closest(point);
         const std::size_t quad = tree.quad[index(hit.triangle)];
-        return {point, area, side_[quad], quad, std::sqrt(hit.distance2), false};
+        const Sample sample{point, area, side_[quad], quad, std::sqrt(hit.distance2)};
+        tally.add(sample, allowed(sample));
     }
 
     // --- what is kept ---------------------------------------------------------------------------------
@@ -592,8 +579,7 @@ private:
     [[nodiscard]] double allowed(const Sample& sample) const
     {
         constexpr double kReach = 2; // sides from the tip; a choice, not a measurement
-        const bool at_tip = limit_.length == 0 &&
-                            std::any_of(tips_.begin(), tips_.end(), [&](const Vec3& tip) {
+        const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
         const double share = at_tip ? limit_.at_tip : limit_.share;
@@ -608,16 +594,16 @@ private:
             result_.place = tally.place;
         }
         if (tally.area > 0) result_.mean_distance = std::max(result_.mean_distance, tally.sum / tally.area);
-        if (tally.allowed == 0 || result_.misfit == Misfit::folded) return;
         const Sample& worst = tally.worst;
+        if (tally.allowed == 0 || result_.misfit == Misfit::folded) return;
         const bool worse = worst.distance * result_.allowed > result_.found * tally.allowed;
-        if (!tally.turned && !worse && result_.allowed > 0) return;
+        if (!worst.turned && !worse && result_.allowed > 0) return;
         result_.found = worst.distance;
         result_.allowed = tally.allowed;
         result_.found_at = worst.point;
         result_.side = worst.side;
         worst_ = worst.quad;
-        if (tally.turned)
+        if (worst.turned)
             result_.misfit = Misfit::folded;
         else if (worst.distance > tally.allowed)
             result_.misfit = Misfit::cut;
@@ -671,31 +657,18 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // All nodes of the first layer and the last are numbered through, and those of the rim between, in the
-    // mesh's order.
-    const Index row = mesh.nodes_per_layer, top = mesh.layers * row;
-    std::vector<Index> place(index(row), -1), rim;
-    for (const Segment& side : mesh.rim) {
-        for (const Index n : side) place[index(n)] = 0;
-    }
-    for (Index n = 0; n < row; ++n) {
-        if (place[index(n)] < 0) continue;
-        place[index(n)] = static_cast<Index>(rim.size());
-        rim.push_back(n);
-    }
-    const auto width = static_cast<Index>(rim.size());
-    const Index last = row + std::max(mesh.layers - 1, 0) * width;
-    const auto number = [&](Index n) {
-        if (n < row) return n;
-        if (n >= top) return last + n - top;
-        return row + (n / row - 1) * width + place[index(n % row)];
-    };
-    skin.node.reserve(index(last + row));
+    // All nodes of the first layer and the last, and those of the rim between, in the mesh's order.
+    const Index row = mesh.nodes_per_layer;
+    std::set<Index> rim;
+    for (const Segment& side : mesh.rim) rim.insert(side.begin(), side.end());
     for (Index n = 0; n < row; ++n) skin.node.push_back(n);
     for (Index layer = 1; layer < mesh.layers; ++layer) {
         for (const Index n : rim) skin.node.push_back(layer * row + n);
     }
-    for (Index n = 0; n < row; ++n) skin.node.push_back(top + n);
+    for (Index n = 0; n < row; ++n) skin.node.push_back(mesh.layers * row + n);
+    const auto number = [&](Index n) {
+        return static_cast<Index>(std::ranges::lower_bound(skin.node, n) - skin.node.begin());
+    };
     skin.points.resize(skin.node.size());
     parallel_for(context, skin.node.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)

@@ -4,6 +4,7 @@
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
@@ -136,13 +137,6 @@ std::vector<double> drawn_heights(const Way& way, int layers, double pull)
     return heights;
 }
 
-std::vector<double> even_heights(int layers)
-{
-    std::vector<double> heights;
-    for (int k = 0; k <= layers; ++k) heights.push_back(static_cast<double>(k) / layers);
-    return heights;
-}
-
 /// Length of the way that flat sections of one area, across it at the heights, have between them: their
 /// volume over the area, exactly where the way turns in a plane.
 double length_between(const Way& way, const std::vector<double>& heights)
@@ -179,11 +173,11 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
     constexpr double kStraight = 1e-3; // [radian]
     if (!(way.turned.back() > kStraight)) return std::nullopt;
     const int layers = options.layers.count;
-    const double whole = length_between(way, even_heights(static_cast<int>(kSteps)));
+    const double whole = length_between(way, layer_heights({.count = kSteps}));
     const auto loss_of = [&](const std::vector<double>& heights) {
         return 1 - length_between(way, heights) / whole;
     };
-    double least = loss_of(even_heights(layers));
+    double least = loss_of(layer_heights({.count = layers}));
     std::vector<double> best;
     for (const double pull : kPulls) {
         std::vector<double> heights = drawn_heights(way, layers, pull);
@@ -198,10 +192,7 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
         lowest = std::min(lowest, best[k] - best[k - 1]);
         highest = std::max(highest, best[k] - best[k - 1]);
     }
-    if (volume.turned_round) {
-        std::ranges::reverse(best);
-        for (double& height : best) height = 1 - height;
-    }
+    if (volume.turned_round) reverse_heights(best);
     best.erase(best.begin());
     const std::string count = std::to_string(layers);
     return DrawnLayers{std::move(best),

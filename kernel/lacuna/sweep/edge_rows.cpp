@@ -5,9 +5,9 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -16,14 +16,10 @@ using namespace topology;
 
 namespace {
 
-using RowsOfEdges = std::map<EdgeId, EdgeRows>;
-
 /// Places from the start of an edge, or from its end, are asked for there.
 void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
 {
-    EdgeRows& own = rows[edge];
-    own.edge = edge;
-    own.end[at_end ? 1 : 0] = {std::move(places), face};
+    rows[edge][at_end ? 1 : 0] = {std::move(places), face};
 }
 
 /// Rows along walls, on the edges of the source.
@@ -32,14 +28,11 @@ void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tab
     const surface::RimRows rim = surface::rim_rows(volume, surface::linking_surfaces(volume), tables);
     for (const auto& [at, end] : rim.ends) {
         const auto& [edge, at_end] = at;
-        const std::vector<double>& heights = rim.heights[static_cast<std::size_t>(end.table)];
+        const std::vector<double>& heights = rim.heights[index(end.table)];
         std::vector<double> places = surface::row_places(volume.model, edge, at_end, end, heights);
         if (places.size() < heights.size()) continue;
         const double length = edge_length(volume.model, edge);
-        if (at_end) {
-            std::ranges::reverse(places);
-            for (double& place : places) place = 1 - place;
-        }
+        if (at_end) reverse_heights(places);
         for (double& place : places) place *= length;
         add(rows, edge, at_end, std::move(places), end.wall);
     }
@@ -57,7 +50,7 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
                 if (line.line.uses.size() != 1) continue;
                 const EdgeUse use = line.line.uses.front(); // it runs from source to target
                 add(rows, use.edge, use.reversed == (role == Role::source),
-                    tables.heights[static_cast<std::size_t>(found->second)], found->first);
+                    tables.heights[index(found->second)], found->first);
             }
         }
     }
@@ -65,11 +58,10 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
 
 } // namespace
 
-std::vector<EdgeRows> edge_rows(const AssemblyMember& member)
+RowsOfEdges edge_rows(const AssemblyMember& member)
 {
-    std::vector<EdgeRows> result;
-    if (member.fixed != nullptr || member.options.boundary_layers.empty()) return result;
     RowsOfEdges rows;
+    if (member.fixed != nullptr || member.options.boundary_layers.empty()) return rows;
     try {
         const surface::LayerTables tables = surface::layer_tables(*member.volume,
                                                                   member.options.boundary_layers);
@@ -79,10 +71,9 @@ std::vector<EdgeRows> edge_rows(const AssemblyMember& member)
     } catch (const Cancelled&) {
         throw;
     } catch (const Error&) {
-        return result; // the member's sweep says so, with its name
+        return {}; // the member's sweep says so, with its name
     }
-    for (auto& [edge, own] : rows) result.push_back(std::move(own));
-    return result;
+    return rows;
 }
 
 } // namespace lacuna::sweep

@@ -96,10 +96,8 @@ Eigen::AlignedBox3d box_of(const OpenVolume& volume, double margin)
         for (const Triangle& t : face.triangles)
             for (const Index p : t) box.extend(volume.model.at(p));
     }
-    if (!box.isEmpty()) {
-        box.min().array() -= margin;
-        box.max().array() += margin;
-    }
+    box.min().array() -= margin;
+    box.max().array() += margin;
     return box;
 }
 
@@ -176,24 +174,15 @@ FaceOverlaps face_overlaps(const OpenVolume& a, std::span<const double> sag_a, c
             const FaceId f = own.face[index(i)], g = others.face[index(j)];
             const double limit = tolerance + sag_a[f.index()] + sag_b[g.index()];
             const Bounds bounds{limit, std::max(limit, window), kAround * std::max(limit, window)};
-            FaceOverlap made;
             add_overlap(NearFacets::corners(a.model, own.facets[index(i)]),
-                        NearFacets::corners(b.model, others.facets[index(j)]), bounds, made);
-            if (!(made.a.around > 0 || made.a.on > 0)) return true;
-            FaceOverlap& all = overlaps[{f, g}];
-            for (const auto& [to, from] : {std::pair(&all.a, &made.a), std::pair(&all.b, &made.b)}) {
-                to->on += from->on;
-                to->same_way += from->same_way;
-                to->within += from->within;
-                to->around += from->around;
-            }
-            all.least = std::min(all.least, made.least);
-            all.gap = std::max(all.gap, made.gap);
-            all.depth = std::max(all.depth, made.depth);
-            all.box.extend(made.box);
+                        NearFacets::corners(b.model, others.facets[index(j)]), bounds, overlaps[{f, g}]);
             return true;
         },
         margin);
+    std::erase_if(overlaps, [](const auto& entry) {
+        const OverlapAreas& areas = entry.second.a;
+        return !(areas.around > 0 || areas.on > 0);
+    });
     return overlaps;
 }
 

@@ -81,25 +81,6 @@ double rounded_down(double value)
     return std::floor(value / step) * step;
 }
 
-/// What makes straight sides follow a face that bends away under them: one of the two is not 0.
-struct FinerSides {
-    int layers = 0;
-    double size = 0; ///< of the source's quads [model length]
-};
-
-/// By the sag of straight sides, a tenth below what would just do. @param layers  of the mesh.
-FinerSides finer_sides(const FaceFidelity& face, int layers, const FidelityOptions& options)
-{
-    // The sag of a straight side grows with the square of its length, its share of the side with the length.
-    // What is named is a tenth below that: sides differ a little.
-    constexpr double kBelow = 0.9;
-    const double share = kBelow * face.allowed / face.found;
-    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
-    if (face.along_layers) return {.layers = static_cast<int>(std::ceil(layers / by))};
-    const double asked = options.size ? options.size(face.found_at) : face.source_side;
-    return {.size = rounded_down(std::min(face.source_side, asked) * by)};
-}
-
 /// The face that is furthest beyond what is allowed; null: none is.
 const FaceFidelity* worst_misfit(const Fidelity& fidelity)
 {
@@ -111,15 +92,23 @@ const FaceFidelity* worst_misfit(const Fidelity& fidelity)
     return worst;
 }
 
+/// The layers, or the size, by which straight sides follow a face that bends away under them: what is named
+/// is a tenth below what would just do by their sag, as sides differ a little.
 std::string more_of_it(const FaceFidelity& face, int layers, const FidelityOptions& options)
 {
-    const FinerSides finer = finer_sides(face, layers, options);
-    if (finer.layers > 0) {
+    // The sag of a straight side grows with the square of its length, its share of the side with the length.
+    constexpr double kBelow = 0.9;
+    const double share = kBelow * face.allowed / face.found;
+    const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
+    if (face.along_layers) {
         return "The face bends there from layer to layer: by the sag of straight sides " +
-               std::to_string(finer.layers) + " layers would do instead of " + std::to_string(layers);
+               std::to_string(static_cast<int>(std::ceil(layers / by))) + " layers would do instead of " +
+               std::to_string(layers);
     }
+    const double asked = options.size ? options.size(face.found_at) : face.source_side;
     return "The face bends there and a side of " + in_short(face.side) +
-           " cannot follow: by the sag of straight sides a size of " + in_short(finer.size) + " would do";
+           " cannot follow: by the sag of straight sides a size of " +
+           in_short(rounded_down(std::min(face.source_side, asked) * by)) + " would do";
 }
 
 } // namespace
@@ -152,12 +141,10 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
             const SkinOfFace& patch = skin.faces[f];
             if (patch.quads.empty()) continue;
             const DeviationLimit limit = limit_of(model, patch.face, options);
-            if (kept.contains(patch.face)) {
-                compared[f].face = patch.face;
-                compared[f].quads = patch.quads.size();
-            } else {
+            compared[f].face = patch.face;
+            compared[f].quads = patch.quads.size();
+            if (!kept.contains(patch.face))
                 compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
-            }
         }
     });
     double area = 0;
@@ -191,30 +178,19 @@ std::string misfit_in_words(const Fidelity& fidelity, int layers, const Fidelity
                                : whole_side ? ", a quad's side there"
                                             : ", a quarter of a quad's side there");
     const std::string name = worst->name, place = at_place(worst->found_at);
-    std::string message;
-    switch (worst->misfit) {
-    case Misfit::no_quads:
-        message = "the mesh leaves out " + name + ", about " + in_short(worst->found) + " wide, at " + place +
-                  ": no quad of its skin lies on it, and only faces up to " + limit +
-                  ", may be left out. The sides of quads there are " + in_short(worst->side) + " long";
-        break;
-    case Misfit::folded:
-        message = "the skin of the mesh folds over on " + name + ": a quad at " + place +
-                  " faces into the volume";
-        break;
-    case Misfit::straight:
-        message = name + ": the skin of the mesh is " + in_short(worst->found) + " off it at " + place +
-                  ", more than " + limit + ". " + more_of_it(*worst, layers, options);
-        break;
-    case Misfit::cut:
-    case Misfit::none:
-        message = name + ": the skin of the mesh is " + in_short(worst->found) + " off it at " + place +
-                  ", more than " + limit +
-                  ". The quads there run across an edge of the face; the sides of the largest are " +
-                  in_short(worst->side) + " long";
-        break;
-    }
-    return message;
+    if (worst->misfit == Misfit::no_quads)
+        return "the mesh leaves out " + name + ", about " + in_short(worst->found) + " wide, at " + place +
+               ": no quad of its skin lies on it, and only faces up to " + limit +
+               ", may be left out. The sides of quads there are " + in_short(worst->side) + " long";
+    if (worst->misfit == Misfit::folded)
+        return "the skin of the mesh folds over on " + name + ": a quad at " + place +
+               " faces into the volume";
+    return name + ": the skin of the mesh is " + in_short(worst->found) + " off it at " + place +
+           ", more than " + limit + ". " +
+           (worst->misfit == Misfit::straight
+                ? more_of_it(*worst, layers, options)
+                : "The quads there run across an edge of the face; the sides of the largest are " +
+                      in_short(worst->side) + " long");
 }
 
 void require_volume(const Fidelity& fidelity, int layers)
@@ -238,9 +214,7 @@ std::string in_words(const Fidelity& fidelity)
                        with_digits(fidelity.sealed_volume, 6) + " sealed (" + (more < 0 ? "" : "+") +
                        with_decimals(more, 2) + " %), skin off by " + in_short(fidelity.max_distance) +
                        " at most, " + in_short(fidelity.mean_distance) + " on average";
-    const auto worst = std::max_element(
-        fidelity.faces.begin(), fidelity.faces.end(),
-        [](const FaceFidelity& a, const FaceFidelity& b) { return a.max_distance < b.max_distance; });
+    const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
     const double rounding = 1e-9 * std::cbrt(std::abs(fidelity.sealed_volume));
     if (worst != fidelity.faces.end() && worst->max_distance > rounding)
         line += "; most on " + worst->name + " at " + at_place(worst->place);

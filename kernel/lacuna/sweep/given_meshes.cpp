@@ -4,12 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/given_target.h>
 #include <lacuna/sweep/detail/place_order.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 namespace lacuna::sweep {
 
@@ -90,13 +86,12 @@ void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
                 for (const Index n : mesh::skin_quad(swept.mesh, i).nodes)
                     skin.push_back(swept.layers ? swept.layers->on_skin(n) : swept.mesh.nodes[index(n)]);
             }
-            std::sort(skin.begin(), skin.end(), before);
+            std::ranges::sort(skin, before);
         }
         const bool whole = has_cells_to_keep(face, wedges && volume.role[f] != Role::wall);
         const std::set<Index> nodes = nodes_to_keep(model, face, whole);
-        const auto found = std::count_if(nodes.begin(), nodes.end(), [&](Index point) {
-            return std::binary_search(skin.begin(), skin.end(), model.at(point), before);
-        });
+        const auto found = std::ranges::count_if(
+            nodes, [&](Index point) { return std::ranges::binary_search(skin, model.at(point), before); });
         swept.report.push_back("given: " + name_of(model, FaceId(f)) + ": " + std::to_string(found) + " of " +
                                std::to_string(nodes.size()) + (whole ? "" : " rim") + " nodes coincide");
     }

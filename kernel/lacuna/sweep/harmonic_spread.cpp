@@ -5,37 +5,13 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/core/shared/vector_code.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
 #include <vector>
 
 namespace lacuna::sweep {
-
-namespace {
-
-/// Nodes a walk along sides reaches from the fixed ones, the fixed ones included.
-std::vector<char> joined_to(const NodeGraph& graph, std::span<const Index> fixed)
-{
-    std::vector<char> joined(graph.size(), 0);
-    std::vector<Index> front;
-    for (const Index node : fixed) {
-        joined[static_cast<std::size_t>(node)] = 1;
-        front.push_back(node);
-    }
-    while (!front.empty()) {
-        const auto node = static_cast<std::size_t>(front.back());
-        front.pop_back();
-        for (const Index next : graph.of(node)) {
-            if (joined[static_cast<std::size_t>(next)] != 0) continue;
-            joined[static_cast<std::size_t>(next)] = 1;
-            front.push_back(next);
-        }
-    }
-    return joined;
-}
-
-} // namespace
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
@@ -67,11 +43,11 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
 {
     std::vector<double> weights(graph.items.size(), 0.0);
     const auto add = [&](Index from, Index to, double weight) {
-        const std::span<const Index> around = graph.of(static_cast<std::size_t>(from));
-        const auto place = std::lower_bound(around.begin(), around.end(), to) - around.begin();
-        weights[static_cast<std::size_t>(graph.begin[static_cast<std::size_t>(from)] + place)] += weight;
+        const std::span<const Index> around = graph.of(index(from));
+        const auto place = std::ranges::lower_bound(around, to) - around.begin();
+        weights[index(graph.begin[index(from)]) + static_cast<std::size_t>(place)] += weight;
     };
-    const auto at = [&](Index node) -> const Vec3& { return nodes[static_cast<std::size_t>(node)]; };
+    const auto at = [&](Index node) -> const Vec3& { return nodes[index(node)]; };
     for (const Quad& q : quads) {
         const Vec3 middle = mesh::is_triangle(q) ? Vec3((at(q[0]) + at(q[1]) + at(q[2])) / 3)
                                                  : Vec3((at(q[0]) + at(q[1]) + at(q[2]) + at(q[3])) / 4);
@@ -95,15 +71,21 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
     : fixed_count_(fixed.size())
 {
     const std::size_t nodes = graph.size();
-    const std::vector<char> joined = joined_to(graph, fixed);
+    geometry::UnionFind parts(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        for (const Index next : graph.of(i)) parts.unite(index(next), i);
+    }
     std::vector<Index> position(nodes, -1); // of fixed nodes in `fixed`
-    for (std::size_t k = 0; k < fixed.size(); ++k)
-        position[static_cast<std::size_t>(fixed[k])] = static_cast<Index>(k);
+    std::vector<char> has_fixed(nodes, 0);  // of each part, by its root
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+        position[index(fixed[k])] = static_cast<Index>(k);
+        has_fixed[parts.find(fixed[k])] = 1;
+    }
 
     place_.assign(nodes, -1);
     int unknowns = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
-        if (joined[i] != 0 && position[i] < 0) place_[i] = unknowns++;
+        if (has_fixed[parts.find(i)] != 0 && position[i] < 0) place_[i] = unknowns++;
     }
     if (unknowns == 0) return;
 
@@ -112,12 +94,11 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
     for (std::size_t i = 0; i < nodes; ++i) {
         if (place_[i] < 0) continue;
         double sum = 0;
-        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k)
-            sum += weights[static_cast<std::size_t>(k)];
+        for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) sum += weights[index(k)];
         laplacian.insert(place_[i], place_[i]) = sum;
         for (Index k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
-            const auto next = static_cast<std::size_t>(graph.items[static_cast<std::size_t>(k)]);
-            const double weight = weights[static_cast<std::size_t>(k)];
+            const auto next = index(graph.items[index(k)]);
+            const double weight = weights[index(k)];
             if (place_[next] > place_[i]) laplacian.insert(place_[next], place_[i]) = -weight;
             if (place_[next] < 0) rim_sides_.push_back({place_[i], position[next], weight});
         }
@@ -247,13 +228,12 @@ void HarmonicSpread::solve(std::span<Vec3> load) const
     constexpr Index width = 4; // the last stays 0
     std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * width);
     for (std::size_t i = 0; i < place_.size(); ++i) {
-        if (place_[i] < 0) continue;
-        for (int k = 0; k < 3; ++k) block[static_cast<std::size_t>(width * place_[i] + k)] = load[i][k];
+        if (place_[i] >= 0) Vec3::Map(&block[index(width * place_[i])]) = load[i];
     }
     substitute<width>(lower_, diagonal_, block);
     for (std::size_t i = 0; i < place_.size(); ++i) {
-        const double* row = block.data() + static_cast<std::size_t>(width * std::max(place_[i], Index{0}));
-        load[i] = place_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(row[0], row[1], row[2]);
+        load[i].setZero();
+        if (place_[i] >= 0) load[i] = Vec3::Map(&block[index(width * place_[i])]);
     }
 }
 

@@ -47,9 +47,8 @@ std::vector<double> layer_heights(const LayerSpec& spec)
     for (double& height : result) height /= total;
     result.back() = 1;
 
-    const bool rising = std::adjacent_find(result.begin(), result.end(), [](double low, double high) {
-                            return !(low < high);
-                        }) == result.end();
+    const bool rising = std::ranges::adjacent_find(
+                            result, [](double low, double high) { return !(low < high); }) == result.end();
     if (!rising) {
         throw InvalidInput("sweep.bias", "sweep: a bias of " + in_full(spec.bias) + " over " +
                                              std::to_string(spec.count) +

@@ -37,14 +37,7 @@ class Improver {
 public:
     Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
              const Sliding& sliding, const RunContext& context)
-        : mesh_(mesh),
-          region_(region),
-          options_(options),
-          sliding_(sliding),
-          context_(context),
-          energy_(region, places_of(mesh, region), context),
-          best_(places_of(mesh, region)),
-          best_quality_(measure(region, best_, context))
+        : mesh_(mesh), region_(region), options_(options), sliding_(sliding), context_(context)
     {
         share_deadline(options_);
     }
@@ -65,7 +58,7 @@ public:
         result.unfinished = out_of_time();
         result.won = is_better(best_quality_, first);
         for (std::size_t i = 0; result.won && i < region_.free; ++i)
-            mesh_.nodes[static_cast<std::size_t>(region_.node[i])] = best_[i];
+            mesh_.nodes[index(region_.node[i])] = best_[i];
         return result;
     }
 
@@ -73,16 +66,14 @@ private:
     static std::vector<Vec3> places_of(const mesh::HexMesh& mesh, const CellRegion& region)
     {
         std::vector<Vec3> places;
-        for (const Index n : region.node) places.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
+        for (const Index n : region.node) places.push_back(mesh.nodes[index(n)]);
         return places;
     }
 
     [[nodiscard]] Eigen::VectorXd variables(const std::vector<Vec3>& places) const
     {
-        Eigen::VectorXd x(3 * static_cast<Eigen::Index>(region_.free));
-        for (std::size_t i = 0; i < region_.free; ++i)
-            x.segment<3>(3 * static_cast<Eigen::Index>(i)) = places[i];
-        return x;
+        const auto size = static_cast<Eigen::Index>(3 * region_.free);
+        return Eigen::Map<const Eigen::VectorXd>(places.front().data(), size);
     }
 
     [[nodiscard]] bool out_of_time() const
@@ -130,9 +121,8 @@ private:
         for (std::size_t i = 0; i < region_.free; ++i) {
             if (region_.surface[i] >= 0) on[region_.surface[i]].push_back(i);
         }
-        std::vector<Vec3> points;
         for (const auto& [surface, nodes] : on) {
-            points.clear();
+            std::vector<Vec3> points;
             for (const std::size_t i : nodes)
                 points.emplace_back(x.segment<3>(3 * static_cast<Eigen::Index>(i)));
             sliding_.project(surface, points);
@@ -144,14 +134,8 @@ private:
     [[nodiscard]] std::vector<Vec3> places_at(const Eigen::VectorXd& x) const
     {
         std::vector<Vec3> places = best_;
-        for (std::size_t i = 0; i < region_.free; ++i)
-            places[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+        Eigen::Map<Eigen::VectorXd>(places.front().data(), x.size()) = x;
         return places;
-    }
-
-    [[nodiscard]] RegionQuality quality_at(const Eigen::VectorXd& x) const
-    {
-        return measure(region_, places_at(x), context_);
     }
 
     /// Keep `x` where it is better.
@@ -178,7 +162,7 @@ private:
             const double before = best_quality_.least;
             descend(x, -1);
             // The worst cell may be the last to open: that others do is gain too.
-            const double lacking = quality_at(x).lacking;
+            const double lacking = measure(region_, places_at(x), context_).lacking;
             const bool gain = best_quality_.least > before + kWorthIt ||
                               lacking < least_lacking * (1 - kGain);
             least_lacking = std::min(least_lacking, lacking);
@@ -205,9 +189,9 @@ private:
     ImproveOptions options_;
     const Sliding& sliding_;
     const RunContext& context_;
-    RegionEnergy energy_;
-    std::vector<Vec3> best_;
-    RegionQuality best_quality_;
+    RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
+    std::vector<Vec3> best_ = places_of(mesh_, region_);
+    RegionQuality best_quality_ = measure(region_, best_, context_);
     double work_ = 0; ///< cells evaluated
 };
 

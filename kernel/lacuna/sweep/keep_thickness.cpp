@@ -37,17 +37,12 @@ class ThicknessKeeper {
 public:
     ThicknessKeeper(const SweptParts& parts, const surface::LayerTables& tables, std::vector<Vec3>& nodes,
                     const RunContext& context)
-        : parts_(parts),
-          model_(parts.volume.model),
-          tables_(tables),
-          nodes_(nodes),
-          context_(context),
-          count_(parts.source.quads.nodes.size()),
-          layers_(static_cast<std::size_t>(parts.layers))
+        : parts_(parts), tables_(tables), nodes_(nodes), context_(context)
     {
-        link_of_.assign(count_, -1);
-        for (std::size_t b = 0; b < parts.links.size(); ++b) {
-            for (std::size_t i = 0; i < size_of(b); ++i) link_of_[rim_node(b, i)] = static_cast<int>(b);
+        for (std::size_t b = 0; b < parts.links.size(); ++b) rim_ += parts.size_of(b);
+        for (const auto& [edge, chain] : parts.source.on_edge) {
+            std::ranges::copy_if(chain, std::inserter(inner_, inner_.end()),
+                                 [&](Index node) { return index(node) >= rim_; });
         }
         columns_ = row_columns(parts, tables);
         for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -87,15 +82,6 @@ public:
 
 private:
     [[nodiscard]] const std::vector<Quad>& quads() const { return parts_.source.quads.quads; }
-    [[nodiscard]] std::size_t size_of(std::size_t link) const { return parts_.size_of(link); }
-    [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
-    {
-        return parts_.rim_node(link, i);
-    }
-    [[nodiscard]] FaceId wall_at(std::size_t link, std::size_t layer, std::size_t side) const
-    {
-        return parts_.wall_at(link, layer, side);
-    }
     [[nodiscard]] Vec3& at(std::size_t layer, std::size_t node) { return nodes_[layer * count_ + node]; }
     [[nodiscard]] const Vec3& at(std::size_t layer, std::size_t node) const
     {
@@ -103,7 +89,7 @@ private:
     }
     [[nodiscard]] const std::vector<double>& heights_of(int table) const
     {
-        return tables_.heights[static_cast<std::size_t>(table)];
+        return tables_.heights[index(table)];
     }
 
     // --- what there is ------------------------------------------------------------------------------
@@ -126,21 +112,20 @@ private:
     void find_still()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
-            const std::size_t n = size_of(b);
+            const std::size_t n = parts_.size_of(b);
             std::vector<char>& still = still_column_.emplace_back(n, 0);
             const auto& nodes = parts_.source.links[b];
             for (const surface::RimSegment& segment : parts_.links[b].segments) {
-                const auto found = std::lower_bound(nodes.source_at.begin(), nodes.source_at.end(),
-                                                    segment.source_from);
+                const auto found = std::ranges::lower_bound(nodes.source_at, segment.source_from);
                 if (found != nodes.source_at.end())
                     still[static_cast<std::size_t>(found - nodes.source_at.begin())] = 1;
             }
             for (const std::size_t i : nodes.line) still[i] = 1;
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t k = 0; k < layers_; ++k) {
-                    const FaceId left = wall_at(b, k, i + n - 1), right = wall_at(b, k, i);
+                    const FaceId left = parts_.wall_at(b, k, i + n - 1), right = parts_.wall_at(b, k, i);
                     if (left != right || has_mesh(left)) still[i] = 1;
-                    if (k > 0 && wall_at(b, k - 1, i) != right) still_layers_.insert(k);
+                    if (k > 0 && parts_.wall_at(b, k - 1, i) != right) still_layers_.insert(k);
                     if (has_mesh(right)) {
                         still_layers_.insert(k);
                         still_layers_.insert(k + 1);
@@ -165,8 +150,8 @@ private:
     /// Inward normal of the wall over a side of the rim, at one of its ends.
     [[nodiscard]] Vec3 side_normal(std::size_t b, std::size_t side, std::size_t node, std::size_t layer) const
     {
-        const Vec3 along = at(layer, rim_node(b, side + 1)) - at(layer, rim_node(b, side));
-        const std::size_t foot = rim_node(b, node);
+        const Vec3 along = at(layer, parts_.rim_node(b, side + 1)) - at(layer, parts_.rim_node(b, side));
+        const std::size_t foot = parts_.rim_node(b, node);
         Vec3 normal = Vec3::Zero();
         if (layer < layers_) normal += along.cross(at(layer + 1, foot) - at(layer, foot)).stableNormalized();
         if (layer > 0) normal += along.cross(at(layer, foot) - at(layer - 1, foot)).stableNormalized();
@@ -177,7 +162,7 @@ private:
     /// the heights over them.
     [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
     {
-        const std::size_t n = size_of(column.link);
+        const std::size_t n = parts_.size_of(column.link);
         Vec3 normal = Vec3::Zero();
         if (column.before) normal += side_normal(column.link, (column.node + n - 1) % n, column.node, layer);
         if (column.after) normal += side_normal(column.link, column.node, column.node, layer);
@@ -201,7 +186,8 @@ private:
     /// Thickness of row j over a column.
     [[nodiscard]] double thickness(const RowColumn& column, std::size_t j, std::size_t layer) const
     {
-        const std::size_t below = j > 0 ? index(column.nodes[j - 1]) : rim_node(column.link, column.node);
+        const std::size_t below = j > 0 ? index(column.nodes[j - 1])
+                                        : parts_.rim_node(column.link, column.node);
         return (at(layer, index(column.nodes[j])) - at(layer, below)).dot(normal_of(column, layer));
     }
 
@@ -245,12 +231,13 @@ private:
         const auto wanted = [&](std::size_t j) { return heights[j] - (j > 0 ? heights[j - 1] : 0); };
         for (const RowColumn& column : columns_) {
             if (column.table != table) continue;
-            const std::size_t n = size_of(column.link);
+            const std::size_t n = parts_.size_of(column.link);
             const std::size_t side = column.after ? column.node : (column.node + n - 1) % n;
             for (std::size_t k = 0; k <= layers_; ++k) {
                 for (std::size_t j = 0; j < heights.size(); ++j)
-                    reached.add(wanted(j), thickness(column, j, k), at(k, rim_node(column.link, column.node)),
-                                wall_at(column.link, std::min(k, layers_ - 1), side), j == 0);
+                    reached.add(wanted(j), thickness(column, j, k),
+                                at(k, parts_.rim_node(column.link, column.node)),
+                                parts_.wall_at(column.link, std::min(k, layers_ - 1), side), j == 0);
             }
         }
         for (std::size_t end = 0; end < 2; ++end) {
@@ -308,7 +295,7 @@ private:
         for (std::size_t k = 0; k <= layers_; ++k) {
             if (stays(k)) continue;
             for (const auto& [node, row] : row_nodes_) {
-                if (link_of_[index(node)] < 0 && !(has_edges(k) && on_inner_edge(node)))
+                if (index(node) >= rim_ && !(has_edges(k) && inner_.contains(node)))
                     move_inside(index(node), row, k);
             }
         }
@@ -334,7 +321,7 @@ private:
         std::vector<Index> fixed;
         for (std::size_t i = 0; i < count_; ++i) {
             const auto node = static_cast<Index>(i);
-            if (link_of_[i] >= 0 || row_nodes_.contains(node) || (with_edges && on_inner_edge(node)))
+            if (i < rim_ || row_nodes_.contains(node) || (with_edges && inner_.contains(node)))
                 fixed.push_back(node);
         }
         std::optional<HarmonicSpread>& spread = spread_[with_edges ? 1 : 0];
@@ -357,10 +344,10 @@ private:
     void slide_on_inner_edges()
     {
         for (const auto& [edge, chain] : parts_.source.on_edge) {
-            if (link_of_[index(chain[1 % chain.size()])] >= 0) continue;
+            if (chain.size() < 3 || index(chain[1]) < rim_) continue;
             const RowColumn* low = column_along(chain.front(), chain[1]);
             const RowColumn* high = column_along(chain.back(), chain[chain.size() - 2]);
-            if ((low == nullptr && high == nullptr) || chain.size() < 3) continue;
+            if (low == nullptr && high == nullptr) continue;
             for (const std::size_t layer : {std::size_t{0}, layers_}) {
                 if (!has_edges(layer) || stays(layer)) continue;
                 const auto image = parts_.target_edges.find(edge);
@@ -370,27 +357,10 @@ private:
                 const auto place = row_places(line, layer, low, high);
                 if (!place) continue;
                 const surface::Chain exact(model_, {{layer == 0 ? edge : image->second, false}});
-                for (const auto& [i, x] : places_along(line, *place)) {
-                    const auto side = std::min(static_cast<std::size_t>(x), line.size() - 2);
-                    const double share = x - static_cast<double>(side);
-                    at(layer, index(chain[i])) = nearest_on(
-                        model_, exact, (1 - share) * line[side] + share * line[side + 1]);
-                }
+                for (const auto& [i, x] : places_along(line, *place))
+                    at(layer, index(chain[i])) = nearest_on(model_, exact, point_at(line, x));
             }
         }
-    }
-
-    [[nodiscard]] bool on_inner_edge(Index node)
-    {
-        if (!inner_) {
-            inner_.emplace();
-            for (const auto& [edge, chain] : parts_.source.on_edge) {
-                for (const Index n : chain) {
-                    if (link_of_[index(n)] < 0) inner_->insert(n);
-                }
-            }
-        }
-        return inner_->contains(node);
     }
 
     /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on
@@ -400,12 +370,12 @@ private:
     {
         const std::size_t holds = std::min<std::size_t>(holders.size(), 2);
         const RowColumn& own = columns_[holders[0].column];
-        const Vec3& foot = at(layer, rim_node(own.link, own.node));
+        const Vec3& foot = at(layer, parts_.rim_node(own.link, own.node));
         // The quads inside the rows are the larger ones, and tell how the layer lies.
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
-            const auto number = std::find(own.nodes.begin(), own.nodes.end(), static_cast<Index>(node));
+            const auto number = std::ranges::find(own.nodes, static_cast<Index>(node));
             const Vec3 along = own.tangent(parts_,
                                            [&](std::size_t n) -> const Vec3& { return at(layer, n); }),
                        normal = normal_of(own, layer);
@@ -424,7 +394,7 @@ private:
             normal[h] = normal_of(column, layer);
             within[h] = normal[h] - up * up.dot(normal[h]);
             off[h] = holders[h].height -
-                     (at(layer, node) - at(layer, rim_node(column.link, column.node))).dot(normal[h]);
+                     (at(layer, node) - at(layer, parts_.rim_node(column.link, column.node))).dot(normal[h]);
         }
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
@@ -440,16 +410,13 @@ private:
     void slide_on_walls()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
-            const std::size_t n = size_of(b);
+            const std::size_t n = parts_.size_of(b);
             std::vector<std::size_t> corners;
             for (std::size_t i = 0; i < n; ++i) {
                 if (still_column_[b][i] != 0) corners.push_back(i);
             }
-            for (std::size_t c = 0; c < corners.size(); ++c) {
-                const std::size_t first = corners[c];
-                const std::size_t last = c + 1 < corners.size() ? corners[c + 1] : corners.front() + n;
-                slide_between(b, first, last);
-            }
+            if (!corners.empty()) corners.push_back(corners.front() + n);
+            for (std::size_t c = 0; c + 1 < corners.size(); ++c) slide_between(b, corners[c], corners[c + 1]);
         }
     }
 
@@ -458,7 +425,7 @@ private:
     {
         for (const RowColumn& column : columns_) {
             if (column.nodes.front() == next &&
-                static_cast<Index>(rim_node(column.link, column.node)) == foot)
+                static_cast<Index>(parts_.rim_node(column.link, column.node)) == foot)
                 return &column;
         }
         return nullptr;
@@ -466,53 +433,61 @@ private:
 
     void slide_between(std::size_t b, std::size_t first, std::size_t last)
     {
-        const auto node = [&](std::size_t i) { return static_cast<Index>(rim_node(b, i)); };
+        const auto node = [&](std::size_t i) { return static_cast<Index>(parts_.rim_node(b, i)); };
         const RowColumn* low = column_along(node(first), node(first + 1));
         const RowColumn* high = column_along(node(last), node(last - 1));
         if ((low == nullptr && high == nullptr) || last < first + 2) return;
         for (std::size_t k = 0; k <= layers_; ++k) {
-            if (!stays(k)) slide_row(b, first, last, k, low, high);
+            if (stays(k)) continue;
+            std::vector<Vec3> line;
+            for (std::size_t i = first; i <= last; ++i) line.push_back(at(k, parts_.rim_node(b, i)));
+            const auto place = row_places(line, k, low, high);
+            if (place) move_along(b, first, k, line, places_along(line, *place));
         }
     }
 
-    void slide_row(std::size_t b, std::size_t first, std::size_t last, std::size_t layer,
-                   const RowColumn* low, const RowColumn* high)
-    {
-        std::vector<Vec3> line;
-        for (std::size_t i = first; i <= last; ++i) line.push_back(at(layer, rim_node(b, i)));
-        const auto place = row_places(line, layer, low, high);
-        if (place) move_along(b, first, layer, line, places_along(line, *place));
-    }
+    /// Heights over one end of a line of nodes.
+    struct HeightsOver {
+        int table = -1; ///< none
+        Vec3 normal = Vec3::Zero();
+    };
+    using Places = std::map<std::size_t, double>;
 
-    /// Places on a line of nodes, in sides of it, of those that rows end on and of its ends; nothing where
-    /// there is no room, which what is reached tells.
-    [[nodiscard]] std::optional<std::map<std::size_t, double>> row_places(const std::vector<Vec3>& line,
-                                                                          std::size_t layer,
-                                                                          const RowColumn* low,
-                                                                          const RowColumn* high) const
+    /// Places on a line of nodes, in sides of it: of its ends, of nodes in `still`, and of those that are to
+    /// have heights over its start and its end; nothing where there is no room, which what is reached tells.
+    [[nodiscard]] std::optional<Places> places_at(const std::vector<Vec3>& line,
+                                                  const std::array<HeightsOver, 2>& ends,
+                                                  const std::set<std::size_t>& still = {}) const
     {
         const std::size_t sides = line.size() - 1;
-        std::map<std::size_t, double> place{{0, 0.0}, {sides, static_cast<double>(sides)}};
-        for (const bool from_end : {false, true}) {
-            const RowColumn* column = from_end ? high : low;
-            if (column == nullptr) continue;
+        Places place{{0, 0.0}, {sides, static_cast<double>(sides)}};
+        for (const std::size_t node : still) place[node] = static_cast<double>(node);
+        for (const std::size_t end : {0, 1}) {
+            if (ends[end].table < 0) continue;
             std::vector<Vec3> walk = line;
-            if (from_end) std::reverse(walk.begin(), walk.end());
-            const std::vector<double>& heights = heights_of(column->table);
-            const Vec3 normal = normal_of(*column, layer);
+            if (end == 1) std::ranges::reverse(walk);
+            const std::vector<double>& heights = heights_of(ends[end].table);
             for (std::size_t j = 0; j < heights.size() && j + 1 < sides; ++j) {
-                const std::optional<double> at = place_at(walk, normal, heights[j]);
+                const std::optional<double> at = place_at(walk, ends[end].normal, heights[j]);
                 if (!at) return std::nullopt;
-                if (from_end)
-                    place[sides - 1 - j] = static_cast<double>(sides) - *at;
-                else
-                    place[j + 1] = *at;
+                const std::size_t node = end == 0 ? j + 1 : sides - 1 - j;
+                if (!still.contains(node)) place[node] = end == 0 ? *at : static_cast<double>(sides) - *at;
             }
         }
         for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
             if (!(p->second < std::next(p)->second)) return std::nullopt;
         }
         return place;
+    }
+
+    /// Of the nodes that rows over columns at the start and at the end of a line end on.
+    [[nodiscard]] std::optional<Places> row_places(const std::vector<Vec3>& line, std::size_t layer,
+                                                   const RowColumn* low, const RowColumn* high) const
+    {
+        const auto over = [&](const RowColumn* column) {
+            return column == nullptr ? HeightsOver{} : HeightsOver{column->table, normal_of(*column, layer)};
+        };
+        return places_at(line, {over(low), over(high)});
     }
 
     /// Move the nodes between corners of the rim to new places along it.
@@ -524,9 +499,9 @@ private:
         std::map<FaceId, std::vector<std::size_t>> on_face;
         for (const auto& [i, x] : moved) {
             const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
-            const std::size_t node = rim_node(b, first + i);
+            const std::size_t node = parts_.rim_node(b, first + i);
             at(layer, node) = point_at(line, x);
-            const FaceId wall = wall_at(b, layer, first + side);
+            const FaceId wall = parts_.wall_at(b, layer, first + side);
             if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
                 on_face[wall].push_back(node);
         }
@@ -538,7 +513,7 @@ private:
                      const std::vector<std::pair<std::size_t, double>>& moved, std::size_t sides)
     {
         const bool target = layer != 0;
-        const std::size_t n = size_of(b);
+        const std::size_t n = parts_.size_of(b);
         const surface::Chain& chain = target ? parts_.links[b].target : parts_.links[b].source;
         const auto [found, fresh] = places_.try_emplace({b, target});
         std::vector<double>& own = found->second; // running length of each node
@@ -555,7 +530,7 @@ private:
         const std::vector<Vec3> points = chain.points(lengths);
         for (std::size_t m = 0; m < moved.size(); ++m) {
             own[(first + moved[m].first) % n] = lengths[m];
-            at(layer, rim_node(b, first + moved[m].first)) = points[m];
+            at(layer, parts_.rim_node(b, first + moved[m].first)) = points[m];
         }
     }
 
@@ -577,13 +552,12 @@ private:
             const std::vector<FaceId>& faces = end == 0 ? parts_.ends.source : parts_.ends.target;
             std::map<FaceId, std::vector<std::size_t>> on_face;
             for (std::size_t node = 0; node < count_; ++node) {
-                if (link_of_[node] >= 0 || (has_edges(layer) && on_inner_edge(static_cast<Index>(node))))
-                    continue;
+                if (node < rim_ || (has_edges(layer) && inner_.contains(static_cast<Index>(node)))) continue;
                 const auto around = quads_at_.of(node);
                 if (around.empty()) continue;
                 const FaceId face = faces[index(around.front())];
-                const bool one = std::all_of(around.begin(), around.end(),
-                                             [&](Index q) { return faces[index(q)] == face; });
+                const bool one = std::ranges::all_of(around,
+                                                     [&](Index q) { return faces[index(q)] == face; });
                 // The facets of a void end leave out what lies between them and a rim that is curved.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
@@ -602,82 +576,57 @@ private:
         for (std::size_t node = 0; node < count_; ++node) {
             std::vector<Vec3> line;
             for (std::size_t k = 0; k <= layers_; ++k) line.push_back(before[k * count_ + node]);
-            const std::optional<std::vector<double>> place = layer_places(node, line);
+            const auto place = places_at(line,
+                                         {HeightsOver{end_table_[0], layer_normal(node, 0)},
+                                          HeightsOver{end_table_[1], -layer_normal(node, layers_)}},
+                                         still_layers_);
             if (!place) continue;
-            for (std::size_t k = 1; k < layers_; ++k) {
-                at(k, node) = point_at(line, (*place)[k]);
+            for (auto p = place->begin(), q = std::next(p); q != place->end(); p = q++) {
+                for (std::size_t k = std::max<std::size_t>(p->first, 1); k < q->first; ++k) {
+                    const double share = static_cast<double>(k - p->first) /
+                                         static_cast<double>(q->first - p->first);
+                    at(k, node) = point_at(line, p->second + share * (q->second - p->second));
+                }
             }
         }
         put_on_walls();
     }
 
-    /// New places of a column's layers, in sides of its polyline; nothing where there is no room.
-    [[nodiscard]] std::optional<std::vector<double>> layer_places(std::size_t node,
-                                                                  const std::vector<Vec3>& line) const
-    {
-        std::map<std::size_t, double> place{{0, 0.0}, {layers_, static_cast<double>(layers_)}};
-        for (const std::size_t still : still_layers_) place[still] = static_cast<double>(still);
-        for (const std::size_t end : {0, 1}) {
-            if (end_table_[end] < 0) continue;
-            std::vector<Vec3> walk = line;
-            if (end == 1) std::reverse(walk.begin(), walk.end());
-            const std::vector<double>& heights = heights_of(end_table_[end]);
-            const Vec3 normal = layer_normal(node, end == 0 ? 0 : layers_) * (end == 0 ? 1 : -1);
-            for (std::size_t j = 0; j < heights.size() && j + 1 < layers_; ++j) {
-                const std::optional<double> at = place_at(walk, normal, heights[j]);
-                if (!at) return std::nullopt;
-                const std::size_t layer = end == 0 ? j + 1 : layers_ - 1 - j;
-                if (still_layers_.contains(layer)) continue;
-                place[layer] = end == 0 ? *at : static_cast<double>(layers_) - *at;
-            }
-        }
-        std::vector<double> result(layers_ + 1);
-        for (auto p = place.begin(); std::next(p) != place.end(); ++p) {
-            const auto q = std::next(p);
-            if (!(p->second < q->second)) return std::nullopt;
-            for (std::size_t k = p->first; k <= q->first; ++k) {
-                const double share = static_cast<double>(k - p->first) /
-                                     static_cast<double>(q->first - p->first);
-                result[k] = p->second + share * (q->second - p->second);
-            }
-        }
-        return result;
-    }
-
     /// Nodes on walls that were moved along their columns, back on the walls and on the edges between them.
     void put_on_walls()
     {
+        std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall;
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
             const surface::LinkingSurface& link = parts_.links[b];
             const std::vector<std::size_t>& lines = parts_.source.links[b].line;
-            for (std::size_t i = 0; i < size_of(b); ++i) {
-                const auto line = std::find(lines.begin(), lines.end(), i);
+            for (std::size_t i = 0; i < parts_.size_of(b); ++i) {
+                const auto line = std::ranges::find(lines, i);
                 std::optional<surface::Chain> chain;
                 if (line != lines.end())
                     chain.emplace(model_,
                                   link.lines[static_cast<std::size_t>(line - lines.begin())].line.uses);
                 for (std::size_t k = 1; k < layers_; ++k) {
                     if (still_layers_.contains(k)) continue;
-                    const std::size_t node = rim_node(b, i);
-                    const FaceId wall = wall_at(b, k, i);
+                    const std::size_t node = parts_.rim_node(b, i);
+                    const FaceId wall = parts_.wall_at(b, k, i);
                     if (chain)
                         at(k, node) = nearest_on(model_, *chain, at(k, node));
                     else if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
-                        on_wall_[{wall, k}].push_back(node);
+                        on_wall[{wall, k}].push_back(node);
                 }
             }
         }
-        for (const auto& [where, nodes] : on_wall_) project(where.first, nodes, where.second);
-        on_wall_.clear();
+        for (const auto& [where, nodes] : on_wall) project(where.first, nodes, where.second);
     }
 
     const SweptParts& parts_;
-    const Model& model_;
+    const Model& model_ = parts_.volume.model;
     const surface::LayerTables& tables_;
     std::vector<Vec3>& nodes_;
     const RunContext& context_;
-    std::size_t count_, layers_;
-    std::vector<int> link_of_; ///< of each source node; -1: inside
+    const std::size_t count_ = parts_.source.quads.nodes.size(), layers_ = index(parts_.layers);
+    std::size_t rim_ = 0;   ///< source nodes on the rim: they come first
+    std::set<Index> inner_; ///< source nodes on edges between faces of the source
     std::vector<RowColumn> columns_;
     std::map<Index, std::vector<Hold>> row_nodes_;
     std::array<int, 2> end_table_{-1, -1};
@@ -685,9 +634,7 @@ private:
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
     std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with
-    std::optional<std::set<Index>> inner_;
     std::map<std::pair<std::size_t, bool>, std::vector<double>> places_;
-    std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall_;
     std::map<FaceId, surface::Projector> projectors_;
 };
 

@@ -71,13 +71,7 @@ mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<co
 /// The cells of a plan, without nodes.
 mesh::HexMesh cells_of(const LayerPlan& plan)
 {
-    mesh::HexMesh mesh;
-    mesh.nodes_per_layer = static_cast<Index>(plan.source.nodes.size());
-    mesh.layers = plan.columns.layers;
-    mesh.quads = plan.source.quads;
-    if (!plan.middles) return mesh;
-    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
-        mesh.rim.push_back({side.from, side.to});
+    mesh::HexMesh mesh = cells_over(plan.source, plan.columns.layers);
     mesh.middles = middles_of(plan, mesh);
     return mesh;
 }
@@ -136,12 +130,22 @@ LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* 
 
 } // namespace
 
+mesh::HexMesh cells_over(const mesh::QuadMesh& source, int layers)
+{
+    mesh::HexMesh mesh;
+    mesh.nodes_per_layer = static_cast<Index>(source.nodes.size());
+    mesh.layers = layers;
+    mesh.quads = source.quads;
+    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
+        mesh.rim.push_back({side.from, side.to});
+    return mesh;
+}
+
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context)
 {
     const auto placed = std::make_shared<const Placed>(plan, context);
     PlacedLayers result;
     result.plan = std::move(plan);
-    result.placement = placed->placer.placement();
     result.report = placed->placer.report();
     result.nodes.place = [placed](int first, int last, std::span<Vec3> out, const RunContext& own) {
         placed->placer.place(first, last, out, own);

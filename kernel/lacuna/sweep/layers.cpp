@@ -13,8 +13,8 @@
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <cmath>
 
 namespace lacuna::sweep {
 
@@ -23,7 +23,7 @@ namespace {
 /// Mean over the columns of the part of their length that lies below each layer.
 std::vector<double> mean_heights(const RimColumns& columns)
 {
-    const auto layers = static_cast<std::size_t>(columns.layers);
+    const auto layers = index(columns.layers);
     std::vector<double> heights(layers + 1, 0.0);
     std::vector<double> length(layers + 1, 0.0);
     std::size_t counted = 0;
@@ -43,18 +43,6 @@ std::vector<double> mean_heights(const RimColumns& columns)
     return heights;
 }
 
-/// Raises a flag on the way out, however that comes.
-class RaisedAtEnd {
-public:
-    explicit RaisedAtEnd(std::atomic<bool>& flag) : flag_(flag) {}
-    ~RaisedAtEnd() { flag_ = true; }
-    RaisedAtEnd(const RaisedAtEnd&) = delete;
-    RaisedAtEnd& operator=(const RaisedAtEnd&) = delete;
-
-private:
-    std::atomic<bool>& flag_;
-};
-
 void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns)
 {
     if (target.size() != source.nodes.size()) {
@@ -68,7 +56,7 @@ void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, cons
 std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions& options)
 {
     if (options.heights.empty()) return mean_heights(columns);
-    if (options.heights.size() != static_cast<std::size_t>(columns.layers) + 1) {
+    if (options.heights.size() != index(columns.layers) + 1) {
         throw InvalidInput("sweep.layer_heights", "columns of " + std::to_string(columns.layers) +
                                                       " layers need one height more than layers, found " +
                                                       std::to_string(options.heights.size()));
@@ -96,7 +84,7 @@ LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> tar
 void LayerPlacer::fit_straight(std::span<const double> heights)
 {
     for (int l = 1; l < columns_.layers; ++l) {
-        const double height = heights[static_cast<std::size_t>(l)];
+        const double height = heights[index(l)];
         maps_.push_back(
             {(1 - height) * Eigen::Matrix3d::Identity(), height * Eigen::Matrix3d::Identity(), Vec3::Zero()});
     }
@@ -113,7 +101,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     const double low_size = radius(low);
     const double side_by_radius = low_size > 0 ? shortest_side(source_.quads, source_.nodes) / low_size : 0;
 
-    const auto inner = static_cast<std::size_t>(std::max(columns_.layers - 1, 0));
+    const auto inner = index(std::max(columns_.layers - 1, 0));
     maps_.resize(inner);
     residuals_.resize(inner * low.size());
     struct Fitted {
@@ -161,26 +149,22 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         clear_pages(room.data(), room.size_bytes(), enough);
         return true;
     });
-    const RaisedAtEnd raise(enough);
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
     // Of both ends together, so that it does not matter which of them is called the source.
-    std::vector<double> weights, target_weights;
+    const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
+    std::array<std::vector<double>, 2> weights;
     parallel_for(context, 2, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t which = begin; which < end; ++which) {
-            if (which == 0)
-                weights = side_weights(graph, source_.quads, source_.nodes);
-            else
-                target_weights = side_weights(graph, source_.quads, target_);
-        }
+        for (std::size_t e = begin; e < end; ++e) weights[e] = side_weights(graph, source_.quads, ends[e]);
     });
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] += target_weights[k];
-    spread_.emplace(graph, weights, columns_.rim, context);
+    for (std::size_t k = 0; k < weights[0].size(); ++k) weights[0][k] += weights[1][k];
+    spread_.emplace(graph, weights[0], columns_.rim, context);
+    enough = true;
 }
 
 void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunContext& context) const
 {
     const std::size_t nodes = source_.nodes.size(), rim = columns_.rim.size();
-    const auto at = [&](int l) { return out.data() + static_cast<std::size_t>(l - first) * nodes; };
+    const auto at = [&](int l) { return out.data() + index(l - first) * nodes; };
     if (first == 0) std::copy(source_.nodes.begin(), source_.nodes.end(), at(0));
     if (last == columns_.layers + 1) std::copy(target_.begin(), target_.end(), at(columns_.layers));
     const int low_inner = std::max(first, 1), high_inner = std::min(last, columns_.layers);
@@ -189,8 +173,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
     const auto each_group = [&](std::size_t begin, std::size_t end, const auto& visit) {
         for (auto group = static_cast<int>(begin); group < static_cast<int>(end); ++group) {
             const int low = low_inner + group * kGroup;
-            const auto count = static_cast<std::size_t>(std::min(kGroup, high_inner - low));
-            visit(at(low), static_cast<std::size_t>(low - 1), count);
+            const auto count = index(std::min(kGroup, high_inner - low));
+            visit(at(low), index(low - 1), count);
         }
     };
     const auto map = [&](Vec3* layer, std::size_t i, std::size_t count, std::size_t begin, std::size_t end,
@@ -199,7 +183,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
                   residuals, layer, nodes);
     };
     if (spread_) {
-        parallel_for(context, static_cast<std::size_t>(groups), 1, [&](std::size_t begin, std::size_t end) {
+        parallel_for(context, index(groups), 1, [&](std::size_t begin, std::size_t end) {
             each_group(begin, end, [&](Vec3* layer, std::size_t i, std::size_t count) {
                 const HarmonicSpread::Fields residuals = spread_->spread(
                     std::span(residuals_).subspan(i * rim, count * rim));
@@ -210,21 +194,19 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
         // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
         constexpr std::size_t kChunk = 512;
         parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
-            each_group(0, static_cast<std::size_t>(groups),
-                       [&](Vec3* layer, std::size_t i, std::size_t count) {
-                           map(layer, i, count, begin, end, nullptr);
-                       });
+            each_group(0, index(groups), [&](Vec3* layer, std::size_t i, std::size_t count) {
+                map(layer, i, count, begin, end, nullptr);
+            });
         });
     }
     constexpr std::size_t kRows = 16; // of the rim, that are worth a thread: a choice
-    parallel_for(context, static_cast<std::size_t>(last - first), kRows,
-                 [&](std::size_t begin, std::size_t end) {
-                     for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
-                         const std::span<const Vec3> row = columns_.row(l);
-                         Vec3* layer = at(l);
-                         for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
-                     }
-                 });
+    parallel_for(context, index(last - first), kRows, [&](std::size_t begin, std::size_t end) {
+        for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
+            const std::span<const Vec3> row = columns_.row(l);
+            Vec3* layer = at(l);
+            for (std::size_t k = 0; k < rim; ++k) layer[columns_.rim[k]] = row[k];
+        }
+    });
 }
 
 std::string LayerPlacer::report() const
@@ -243,7 +225,7 @@ LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> targ
 {
     check_ends(source, target, columns);
     LayerNodes result;
-    const std::size_t count = (static_cast<std::size_t>(columns.layers) + 1) * source.nodes.size();
+    const std::size_t count = (index(columns.layers) + 1) * source.nodes.size();
     reserve_large(result.nodes, count);
     result.nodes.resize(count);
     const LayerPlacer placer(source, target, columns, options, context, result.nodes);

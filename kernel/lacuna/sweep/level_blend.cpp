@@ -3,7 +3,6 @@
 #include <lacuna/sweep/detail/middle_skin.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::sweep {
 

@@ -18,7 +18,7 @@ constexpr double kSpread = 1e-3;
 
 bool any(const std::vector<Vec3>& vectors)
 {
-    return std::any_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return !v.isZero(0); });
+    return std::ranges::any_of(vectors, [](const Vec3& v) { return !v.isZero(0); });
 }
 
 } // namespace
@@ -66,12 +66,8 @@ private:
 
 MiddlePlacer::MiddlePlacer(const mesh::SkinNodes& corners, std::span<const Vec3> skin,
                            const RunContext& context)
-    : mesh_(corners.mesh),
-      corners_(corners),
+    : corners_(corners),
       skin_(skin),
-      places_(corners.mesh),
-      at_skin_(corners.mesh),
-      blend_(corners.mesh),
       rim_side_(corners.mesh.middles.sides.size(), 0),
       rim_node_(index(corners.mesh.nodes_per_layer), 0)
 {

@@ -39,22 +39,19 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
         const Index patch = mesh::skin_quad(mesh, i).patch;
         for (std::size_t k = 0; k < 4; ++k) {
             const Index a = nodes.node[k], b = nodes.node[(k + 1) % 4];
-            all.push_back(
-                {index(nodes.node[4 + k]) - corner_count(mesh), std::min(a, b), std::max(a, b), patch, -1});
+            all.push_back({index(nodes.node[4 + k]) - corner_count(mesh), std::min(a, b), std::max(a, b),
+                           patch, patch});
         }
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const SkinSide& a, const SkinSide& b) { return a.place < b.place; });
+    std::ranges::stable_sort(all, {}, &SkinSide::place);
     std::vector<SkinSide> sides;
     sides.reserve(all.size() / 2);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!sides.empty() && sides.back().place == all[i].place)
-            sides.back().other = all[i].patch;
+    for (const SkinSide& side : all) {
+        if (!sides.empty() && sides.back().place == side.place)
+            sides.back().other = side.patch;
         else
-            sides.push_back(all[i]);
+            sides.push_back(side);
     }
-    for (SkinSide& side : sides)
-        if (side.other < 0) side.other = side.patch;
     return sides;
 }
 
@@ -83,11 +80,11 @@ public:
         if (found == between_.end()) return std::nullopt;
         const double length = (to - from).norm();
         // All edges of the pair as one tree says which edge it is.
-        Curve& all = curves_of(found->first, found->second);
+        const Curve& all = curve_of(found->second);
         const geometry::FacetTree::Hit hit = all.tree.closest((from + to) / 2);
         if (hit.triangle < 0) return std::nullopt;
         const EdgeId edge = all.edge[index(hit.triangle)];
-        Curve& curve = curve_of(edge);
+        const Curve& curve = curve_of({edge});
         const double whole = curve.arc.back();
         const auto [a, off_a] = position(curve, from);
         auto [b, off_b] = position(curve, to);
@@ -108,37 +105,24 @@ private:
     struct Curve {
         geometry::FacetTree tree;
         std::vector<EdgeId> edge; ///< of each side
-        std::vector<double> arc;  ///< of one edge
+        std::vector<double> arc;  ///< of the first edge
     };
 
-    void add_sides(EdgeId edge, std::vector<Triangle>& thin, Curve& curve) const
+    Curve& curve_of(const std::vector<EdgeId>& edges)
     {
-        const std::vector<Index>& points = model_[edge].points;
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            thin.push_back({points[i], points[i + 1], points[i + 1]});
-            curve.edge.push_back(edge);
+        const auto [at, fresh] = curves_.try_emplace(edges);
+        Curve& curve = at->second;
+        if (!fresh) return curve;
+        std::vector<Triangle> thin;
+        for (const EdgeId edge : edges) {
+            const std::vector<Index>& points = model_[edge].points;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i)
+                thin.push_back({points[i], points[i + 1], points[i + 1]});
+            curve.edge.resize(thin.size(), edge);
         }
-    }
-    Curve& curves_of(const std::pair<FaceId, FaceId>& pair, const std::vector<EdgeId>& edges)
-    {
-        const auto [at, fresh] = pairs_.try_emplace(pair);
-        if (fresh) {
-            std::vector<Triangle> thin;
-            for (const EdgeId edge : edges) add_sides(edge, thin, at->second);
-            at->second.tree = geometry::FacetTree(model_.points, thin);
-        }
-        return at->second;
-    }
-    Curve& curve_of(EdgeId edge)
-    {
-        const auto [at, fresh] = single_.try_emplace(edge);
-        if (fresh) {
-            std::vector<Triangle> thin;
-            add_sides(edge, thin, at->second);
-            at->second.tree = geometry::FacetTree(model_.points, thin);
-            at->second.arc = geometry::arc_lengths(surface::edge_line(model_, edge));
-        }
-        return at->second;
+        curve.tree = geometry::FacetTree(model_.points, thin);
+        curve.arc = geometry::arc_lengths(surface::edge_line(model_, edges.front()));
+        return curve;
     }
     /// Running length of the closest place, and how far it is.
     static std::pair<double, double> position(const Curve& curve, const Vec3& point)
@@ -151,8 +135,7 @@ private:
 
     const Model& model_;
     std::map<std::pair<FaceId, FaceId>, std::vector<EdgeId>> between_;
-    std::map<std::pair<FaceId, FaceId>, Curve> pairs_;
-    std::map<EdgeId, Curve> single_;
+    std::map<std::vector<EdgeId>, Curve> curves_;
 };
 
 /// Whether the quads of a face's own mesh are those of the skin.
@@ -162,15 +145,7 @@ class SkinPlacer {
 public:
     SkinPlacer(const OpenVolume& volume, const mesh::SkinNodes& corners, const std::vector<FaceId>& faces,
                const SecondOrderOptions& options, const RunContext& context)
-        : model_(volume.model),
-          mesh_(corners.mesh),
-          corners_(corners),
-          places_(corners.mesh),
-          faces_(faces),
-          options_(options),
-          context_(context),
-          sides_(skin_sides(corners.mesh)),
-          skin_(corners.mesh)
+        : model_(volume.model), corners_(corners), faces_(faces), options_(options), context_(context)
     {
     }
 
@@ -280,9 +255,7 @@ private:
             const Segment& side = mesh_.middles.sides[s];
             return Vec3((nodes[index(side[0])] + nodes[index(side[1])]) / 2);
         };
-        const auto place = [&](std::size_t s) {
-            return places_.side(static_cast<std::size_t>(l), static_cast<Index>(s));
-        };
+        const auto place = [&](std::size_t s) { return places_.side(index(l), static_cast<Index>(s)); };
         for (std::size_t s = 0; s < count; ++s) {
             known[s] = skin_.state(place(s)) == Middle::settled ? 1 : 0;
             if (known[s] == 0) continue;
@@ -300,7 +273,7 @@ private:
     /// with the wall.
     void blend_rows()
     {
-        const auto levels = static_cast<std::size_t>(mesh_.layers) + 1;
+        const auto levels = index(mesh_.layers) + 1;
         std::vector<Vec3> at(levels), local(levels);
         for (std::size_t r = 0; r < mesh_.rim.size(); ++r) {
             const Segment& side = mesh_.rim[r];
@@ -340,7 +313,7 @@ private:
     {
         for (int l = 0; l < mesh_.layers; ++l)
             for (const Segment& side : mesh_.rim) {
-                const std::size_t place = places_.upright(static_cast<std::size_t>(l), side[0]);
+                const std::size_t place = places_.upright(index(l), side[0]);
                 if (skin_.state(place) != Middle::open) continue;
                 const Vec3 bend = rim_bend(corners_, side[0], l);
                 const double length = (corner(l + 1, side[0]) - corner(l, side[0])).norm();
@@ -353,7 +326,7 @@ private:
     {
         std::map<FaceId, std::vector<const SkinSide*>> of_face;
         const std::size_t first_on_walls = places_.upright(0, 0);
-        const std::size_t target = places_.side(static_cast<std::size_t>(mesh_.layers), 0);
+        const std::size_t target = places_.side(index(mesh_.layers), 0);
         for (const SkinSide& side : sides_) {
             if (skin_.state(side.place) != Middle::open) continue;
             const bool on_end = side.place < first_on_walls || side.place >= target;
@@ -449,14 +422,14 @@ private:
     }
 
     const Model& model_;
-    const mesh::HexMesh& mesh_;
     const mesh::SkinNodes& corners_;
-    mesh::MiddlePlaces places_;
+    const mesh::HexMesh& mesh_ = corners_.mesh;
+    const mesh::MiddlePlaces places_{mesh_};
     const std::vector<FaceId>& faces_;
     const SecondOrderOptions& options_;
     const RunContext& context_;
-    std::vector<SkinSide> sides_;
-    SkinMiddles skin_;
+    const std::vector<SkinSide> sides_ = skin_sides(mesh_);
+    SkinMiddles skin_{mesh_};
     SkinCounts counts_;
 };
 

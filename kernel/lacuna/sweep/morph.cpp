@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/morph.h>
 
-#include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -24,46 +22,36 @@ constexpr double kStandsUp = 0.5;
 /// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
 constexpr double kOnSurface = 1e-9;
 
-/// The mesh's graph and its factor, made when first asked for: affine images on planes need neither.
-class Spreader {
-public:
+/// The mesh's graph, and its factor with the rim fixed.
+struct Spreader {
+    NodeGraph graph;
+    std::vector<double> weights;
+    HarmonicSpread spread;
+
     Spreader(const mesh::QuadMesh& mesh, std::span<const Index> fixed, const RunContext& context)
-        : mesh_(mesh), fixed_(fixed), context_(context)
+        : graph(node_graph(mesh.quads, mesh.nodes.size())),
+          weights(side_weights(graph, mesh.quads, mesh.nodes)),
+          spread(graph, weights, fixed, context)
     {
     }
-
-    const NodeGraph& graph()
-    {
-        if (!graph_) graph_ = node_graph(mesh_.quads, mesh_.nodes.size());
-        return *graph_;
-    }
-    const HarmonicSpread& spread()
-    {
-        if (!spread_) spread_.emplace(graph(), weights(), fixed_, context_);
-        return *spread_;
-    }
-    const std::vector<double>& weights()
-    {
-        if (weights_.empty()) weights_ = side_weights(graph(), mesh_.quads, mesh_.nodes);
-        return weights_;
-    }
-
-private:
-    const mesh::QuadMesh& mesh_;
-    std::span<const Index> fixed_;
-    const RunContext& context_;
-    std::optional<NodeGraph> graph_;
-    std::vector<double> weights_;
-    std::optional<HarmonicSpread> spread_;
 };
+/// Makes it when first asked for: affine images on planes need none.
+using AskSpreader = std::function<const Spreader&()>;
 
 struct Guess {
     std::vector<Vec3> nodes;
     bool affine = true; ///< the rims are related by an affine motion
 };
 
+/// Put the rim where the last row of the columns is.
+void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
+{
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
+}
+
 /// Nodes where the rims put them, the surface not asked.
-Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
+Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, const AskSpreader& spreader,
                       const RunContext& context)
 {
     Guess guess{source.nodes, true};
@@ -81,45 +69,44 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, S
         guess.affine = false;
         std::vector<Vec3> residual(high.begin(), high.end());
         for (std::size_t k = 0; k < low.size(); ++k) residual[k] -= fit(low[k]);
-        spreader.spread().add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
+        spreader().spread.add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
     }
-    for (std::size_t k = 0; k < high.size(); ++k)
-        guess.nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    put_rim(columns, guess.nodes);
     return guess;
 }
 
 /// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its
 /// thickness) asks for, where an affine map fitted to the rims alone says nothing.
-std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
-                            const RunContext& context)
+std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns,
+                            const AskSpreader& spreader, const RunContext& context)
 {
     std::vector<Vec3> nodes = source.nodes;
     const std::span<const Vec3> low = columns.row(0);
     const std::span<const Vec3> high = columns.row(columns.layers);
     std::vector<Vec3> moves(high.begin(), high.end());
     for (std::size_t k = 0; k < low.size(); ++k) moves[k] -= low[k];
-    spreader.spread().add(moves, 1, nodes.data(), nodes.size(), context);
-    for (std::size_t k = 0; k < high.size(); ++k) nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    spreader().spread.add(moves, 1, nodes.data(), nodes.size(), context);
+    put_rim(columns, nodes);
     return nodes;
 }
 
 /// Every node in the weighted mean of its neighbours, the rim where it is to be: folds of the source that
 /// stand up (pockets, bosses, steps) come down flat side by side, where an affine map lays them on each
 /// other.
-std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns& columns, Spreader& spreader,
-                                 const RunContext& context)
+std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns& columns,
+                                 const AskSpreader& spreader, const RunContext& context)
 {
     std::vector<Vec3> nodes(source.nodes.size(), Vec3::Zero());
     const std::span<const Vec3> high = columns.row(columns.layers);
-    spreader.spread().add(high, 1, nodes.data(), nodes.size(), context);
-    for (std::size_t k = 0; k < high.size(); ++k) nodes[static_cast<std::size_t>(columns.rim[k])] = high[k];
+    spreader().spread.add(high, 1, nodes.data(), nodes.size(), context);
+    put_rim(columns, nodes);
     return nodes;
 }
 
 std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<char> on_rim(source.nodes.size(), 0);
-    for (const Index node : columns.rim) on_rim[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : columns.rim) on_rim[index(node)] = 1;
     std::vector<Index> result;
     for (std::size_t i = 0; i < on_rim.size(); ++i) {
         if (on_rim[i] == 0) result.push_back(static_cast<Index>(i));
@@ -168,13 +155,14 @@ Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
 
 /// The best mesh that can be found from `found` on, until the worst quad is good enough.
 Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, const std::vector<Vec3>& guess,
-                   Spreader& spreader, std::span<const Index> free_nodes, const SurfaceProjector& project,
-                   double good_enough, Candidate found, const RunContext& context)
+                   const AskSpreader& spreader, std::span<const Index> free_nodes,
+                   const SurfaceProjector& project, double good_enough, Candidate found,
+                   const RunContext& context)
 {
-    const SurfaceSmoother smoother(source, spreader.graph(), spreader.weights(), spreader.spread(),
+    const SurfaceSmoother smoother(source, spreader().graph, spreader().weights, spreader().spread,
                                    free_nodes, project);
     if (found.worst < kStandsUp * good_enough) {
-        found = bulged_start(source, columns, guess, spreader.spread(), smoother, std::move(found), context);
+        found = bulged_start(source, columns, guess, spreader().spread, smoother, std::move(found), context);
     }
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
     found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
@@ -189,7 +177,10 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
 {
     check_columns(source, columns);
     const std::vector<Index> free_nodes = nodes_off_rim(source, columns);
-    Spreader spreader(source, columns.rim, context);
+    std::optional<Spreader> made;
+    const AskSpreader spreader = [&]() -> const Spreader& {
+        return made ? *made : made.emplace(source, columns.rim, context);
+    };
     const Guess guess = guess_from_rims(source, columns, spreader, context);
 
     Morphed result;

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/sweep/detail/shared_quads.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
 #include <lacuna/sweep/detail/words.h>
 
@@ -45,25 +46,15 @@ struct Part {
     RimColumns columns;      ///< one layer
 };
 
-Part part_of(const mesh::QuadMesh& whole, const std::vector<std::size_t>& quads,
+Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
              const std::vector<std::optional<Vec3>>& places)
 {
+    QuadsAlone alone = quads_alone(quads);
     Part part;
-    std::map<Index, Index> local;
-    for (const std::size_t q : quads) {
-        Quad quad{};
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Index node = whole.quads[q][i];
-            const auto [found, fresh] = local.try_emplace(node, static_cast<Index>(part.node.size()));
-            if (fresh) {
-                part.node.push_back(node);
-                part.mesh.nodes.push_back(whole.nodes[index(node)]);
-            }
-            quad[i] = found->second;
-        }
-        part.mesh.quads.push_back(quad);
-    }
+    part.mesh.quads = std::move(alone.quads);
+    part.node = std::move(alone.nodes);
     part.columns.layers = 1;
+    for (const Index node : part.node) part.mesh.nodes.push_back(whole.nodes[index(node)]);
     std::set<Index> rim;
     for (const mesh::BoundarySide& side : mesh::boundary_sides(part.mesh.quads))
         rim.insert({side.from, side.to});
@@ -109,8 +100,8 @@ Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& co
                          const std::vector<FaceId>& face, const RunContext& context)
 {
     const std::vector<std::optional<Vec3>> places = known_places(source, columns, seeds, imprint);
-    std::map<FaceId, std::vector<std::size_t>> quads;
-    for (std::size_t q = 0; q < face.size(); ++q) quads[face[q]].push_back(q);
+    std::map<FaceId, std::vector<Quad>> quads;
+    for (std::size_t q = 0; q < face.size(); ++q) quads[face[q]].push_back(source.quads.quads[q]);
     Morphed result;
     result.nodes.resize(source.quads.nodes.size());
     for (const auto& [target, over] : quads) {

@@ -4,6 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/topology/shared/gaps.h>
 
@@ -41,31 +43,11 @@ constexpr double kWhole = 0.98;
 /// Places an edge is asked at.
 constexpr int kAsked = 64;
 
-std::string name_in(const AssemblyMember& member, EdgeId edge)
-{
-    return name_of(member.volume->model, edge) + " of " + member.region;
-}
-
-std::vector<Vec3> line_of(const Model& model, EdgeId edge)
-{
-    std::vector<Vec3> line;
-    for (const Index p : model[edge].points) line.push_back(model.at(p));
-    return line;
-}
-
-std::set<EdgeId> edges_of(const Model& model, FaceId face)
-{
-    std::set<EdgeId> edges;
-    for (const Loop& loop : border_loops(model, face))
-        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-    return edges;
-}
-
 /// Vertices of a face's rim that are more than the starts of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {
     std::vector<Vec3> corners;
-    for (const EdgeId id : edges_of(model, face)) {
+    for (const EdgeId id : rim_edges(model, face)) {
         const Edge& edge = model[id];
         if (edge.from == edge.to) continue;
         corners.push_back(model.at(model[edge.from].point));
@@ -77,11 +59,11 @@ std::vector<Vec3> corners_of(const Model& model, FaceId face)
 /// Whether two faces have an edge in common, within a tolerance.
 bool have_common_edge(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double tolerance)
 {
-    for (const EdgeId e : edges_of(a, face_a)) {
-        const std::vector<Vec3> p = line_of(a, e);
+    for (const EdgeId e : rim_edges(a, face_a)) {
+        const std::vector<Vec3> p = surface::edge_line(a, e);
         const double slack = tolerance + geometry::sag(p);
-        for (const EdgeId f : edges_of(b, face_b)) {
-            const std::vector<Vec3> q = line_of(b, f);
+        for (const EdgeId f : rim_edges(b, face_b)) {
+            const std::vector<Vec3> q = surface::edge_line(b, f);
             const auto near = [&](const Vec3& u, const Vec3& v) { return (u - v).norm() <= slack; };
             if (!(near(p.front(), q.front()) && near(p.back(), q.back())) &&
                 !(near(p.front(), q.back()) && near(p.back(), q.front())))
@@ -105,16 +87,21 @@ public:
     {
     }
 
-    void find_faces(const std::set<std::pair<FaceId, FaceId>>& partly, std::vector<NearMiss>& found)
+    void find_faces(const FacesInCommon& common, std::vector<NearMiss>& found)
     {
         for (const auto& [faces, overlap] : pair_.overlaps) {
-            if (shared_[pair_.a][faces.first.index()] || shared_[pair_.b][faces.second.index()]) continue;
-            if (!stays_near(faces, overlap)) continue;
-            if (partly.contains(faces)) {
+            if (shared_[pair_.a][faces.first.index()] || shared_[pair_.b][faces.second.index()] ||
+                !stays_near(faces, overlap))
+                continue;
+            const auto is_these = [&, &faces = faces](const PartlyShared& part) {
+                return part.faces.a == pair_.a && part.faces.b == pair_.b &&
+                       Faces(part.faces.face_a, part.faces.face_b) == faces;
+            };
+            if (std::ranges::any_of(common.partly, is_these)) {
                 refuse_parted(faces, overlap);
                 continue;
             }
-            NearMiss miss = made(faces.first, faces.second);
+            NearMiss miss{pair_.a, pair_.b, faces.first, faces.second};
             miss.least = overlap.least;
             miss.reach_in = overlap.depth > overlap.gap;
             miss.width = std::max(overlap.depth, overlap.gap);
@@ -167,11 +154,10 @@ private:
         throw InvalidInput("assembly.crack",
                            name_in(one_, faces.first) + " and " + name_in(other_, faces.second) +
                                " are one face for part of what they have over each other and up to " +
-                               in_short(width) + " apart for the rest, at " + place(overlap.box) +
+                               in_short(width) + " apart for the rest, at " +
+                               place_in_short(overlap.box.center()) +
                                ", so the two meshes would open there as a crack; " + hint(faces, width));
     }
-
-    static std::string place(const Eigen::AlignedBox3d& box) { return place_in_short(box.center()); }
 
     [[nodiscard]] double joining(const Faces& faces, double width) const
     {
@@ -188,27 +174,17 @@ private:
         return "give both models tolerance = " + in_short(joining(faces, width));
     }
 
-    [[nodiscard]] NearMiss made(FaceId face_a, FaceId face_b) const
-    {
-        NearMiss miss;
-        miss.a = pair_.a;
-        miss.b = pair_.b;
-        miss.face_a = face_a;
-        miss.face_b = face_b;
-        return miss;
-    }
-
     void say(NearMiss& miss) const
     {
         const Faces faces{miss.face_a, miss.face_b};
         miss.tag_a = one_.volume->model[miss.face_a].tag;
         miss.tag_b = other_.volume->model[miss.face_b].tag;
-        if (miss.edge) miss.edge_tag = (miss.edge_of == miss.a ? one_ : other_).volume->model[*miss.edge].tag;
         miss.tolerance = joining(faces, miss.width);
         std::string who = name_in(one_, miss.face_a) + " and " + name_in(other_, miss.face_b);
         std::string over = " over an area of " + in_short(miss.area);
         if (miss.edge) {
             const bool of_a = miss.edge_of == miss.a;
+            miss.edge_tag = (of_a ? one_ : other_).volume->model[*miss.edge].tag;
             who = name_in(of_a ? one_ : other_, *miss.edge) + " and " +
                   (of_a ? name_in(other_, miss.face_b) : name_in(one_, miss.face_a));
             over = " over a length of " + in_short(miss.length);
@@ -237,7 +213,7 @@ private:
         const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             check_cancelled(context);
-            const std::vector<Vec3> line = line_of(model, EdgeId(e));
+            const std::vector<Vec3> line = surface::edge_line(model, EdgeId(e));
             Eigen::AlignedBox3d own_box;
             for (const Vec3& p : line) own_box.extend(p);
             if (!box.intersects(own_box) || uses[e].empty()) continue;
@@ -269,7 +245,8 @@ private:
                 (within < kCorner * pair_.window && within < kPart * arc.back()))
                 continue;
             const FaceId face = uses[e].front().face;
-            NearMiss miss = own == pair_.a ? made(face, nearest) : made(nearest, face);
+            const bool of_a = own == pair_.a;
+            NearMiss miss{pair_.a, pair_.b, of_a ? face : nearest, of_a ? nearest : face};
             miss.edge = EdgeId(e);
             miss.edge_of = own;
             miss.least = least;
@@ -346,13 +323,8 @@ std::vector<NearMiss> near_misses(std::span<const AssemblyMember> members,
     std::vector<NearMiss> found;
     for (const NearPair& pair : pairs) {
         check_cancelled(context);
-        std::set<std::pair<FaceId, FaceId>> partly;
-        for (const PartlyShared& part : common.partly) {
-            const SharedFace& faces = part.faces;
-            if (faces.a == pair.a && faces.b == pair.b) partly.emplace(faces.face_a, faces.face_b);
-        }
         PairSearch search(members, sag, pair, shared);
-        search.find_faces(partly, found);
+        search.find_faces(common, found);
         search.find_edges(found, context);
     }
     return found;

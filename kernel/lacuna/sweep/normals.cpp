@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/normals.h>
 
-#include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-
-#include <algorithm>
-#include <string>
 
 namespace lacuna::sweep {
 
@@ -24,7 +20,7 @@ void smooth(std::vector<Vec3>& layer, const NodeGraph& graph, const std::vector<
         for (std::size_t i = 0; i < layer.size(); ++i) {
             if (on_rim[i] != 0 || graph.of(i).empty()) continue;
             Vec3 sum = Vec3::Zero();
-            for (const Index n : graph.of(i)) sum += layer[static_cast<std::size_t>(n)];
+            for (const Index n : graph.of(i)) sum += layer[index(n)];
             next[i] = sum / static_cast<double>(graph.of(i).size());
         }
         std::swap(layer, next);
@@ -41,7 +37,7 @@ LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec
     const NodeGraph graph = node_graph(source.quads, count);
     const HarmonicSpread spread(graph, side_weights(graph, source.quads, source.nodes), columns.rim, context);
     std::vector<char> on_rim(count, 0);
-    for (const Index n : columns.rim) on_rim[static_cast<std::size_t>(n)] = 1;
+    for (const Index n : columns.rim) on_rim[index(n)] = 1;
 
     LayerNodes result;
     result.placement = Placement::normals;
@@ -55,13 +51,12 @@ LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec
         const std::span<const Vec3> low = columns.row(l - 1), high = columns.row(l);
         std::vector<Vec3> steps(columns.rim.size()), step(count, Vec3::Zero());
         for (std::size_t k = 0; k < steps.size(); ++k) {
-            const Vec3 normal = normals[static_cast<std::size_t>(columns.rim[k])].stableNormalized();
+            const Vec3 normal = normals[index(columns.rim[k])].stableNormalized();
             steps[k] = Vec3((high[k] - low[k]).dot(normal), 0, 0);
         }
         spread.add(steps, 1, step.data(), count, context);
         for (std::size_t i = 0; i < count; ++i) layer[i] += step[i].x() * normals[i].stableNormalized();
-        for (std::size_t k = 0; k < high.size(); ++k)
-            layer[static_cast<std::size_t>(columns.rim[k])] = high[k];
+        for (std::size_t k = 0; k < high.size(); ++k) layer[index(columns.rim[k])] = high[k];
         smooth(layer, graph, on_rim);
         result.nodes.insert(result.nodes.end(), layer.begin(), layer.end());
     }

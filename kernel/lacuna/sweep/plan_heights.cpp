@@ -130,25 +130,24 @@ std::vector<double> following_heights(const Columns& columns, double from, doubl
     return heights;
 }
 
-/// Table of an end, or null.
-const std::vector<double>* end_table(const OpenVolume& volume, const surface::LayerTables& tables, Role end)
+/// Table of an end; empty: none.
+std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTables& tables, Role end)
 {
     for (const auto& [face, table] : tables.of) {
-        if (volume.role[face.index()] == end) return &tables.heights[static_cast<std::size_t>(table)];
+        if (volume.role[face.index()] == end) return tables.heights[index(table)];
     }
-    return nullptr;
+    return {};
 }
 
 /// Whether heights that walls give have the rows of the ends already.
-bool has_rows(const std::vector<double>& heights, const std::vector<double>* low,
-              const std::vector<double>* high, double length)
+bool has_rows(const std::vector<double>& heights, const std::vector<double>& low,
+              const std::vector<double>& high, double length)
 {
-    const std::size_t below = low != nullptr ? low->size() : 0, above = high != nullptr ? high->size() : 0;
-    if (heights.size() < below + above + 2) return false;
-    const auto has = [&](const std::vector<double>* rows, const auto& at) {
-        for (std::size_t j = 0; rows != nullptr && j < rows->size(); ++j) {
-            const double thick = (*rows)[j] - (j > 0 ? (*rows)[j - 1] : 0);
-            if (std::abs(at(j + 1) * length - (*rows)[j]) > kSameRow * thick) return false;
+    if (heights.size() < low.size() + high.size() + 2) return false;
+    const auto has = [&](const std::vector<double>& rows, const auto& at) {
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            const double thick = rows[j] - (j > 0 ? rows[j - 1] : 0);
+            if (std::abs(at(j + 1) * length - rows[j]) > kSameRow * thick) return false;
         }
         return true;
     };
@@ -179,34 +178,38 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     }
     spec.count -= taken;
     std::vector<double> heights = layer_heights(spec);
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
+    if (volume.turned_round) reverse_heights(heights);
     return heights;
 }
 
 } // namespace
+
+void reverse_heights(std::vector<double>& heights)
+{
+    std::ranges::reverse(heights);
+    for (double& height : heights) height = 1 - height;
+}
 
 PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,
                             const SourceSize& sizes, const SweepOptions& options, int least,
                             const RunContext& context)
 {
-    const std::vector<double>* const low = end_table(volume, tables, Role::source);
-    const std::vector<double>* const high = end_table(volume, tables, Role::target);
-    if (low == nullptr && high == nullptr && !asked.empty()) return {asked, false};
+    const std::vector<double> low = end_table(volume, tables, Role::source);
+    const std::vector<double> high = end_table(volume, tables, Role::target);
+    const bool rows = !low.empty() || !high.empty();
+    if (!rows && !asked.empty()) return {asked, false};
     const Columns columns = columns_of(volume, links, sizes.along, options.size, context);
     const int bends = asked.empty() ? bend_layers(columns, options) : 0;
     const int by_size = std::max(least, static_cast<int>(std::lround(columns.sides)));
     least = std::max(least, bends);
     if (asked.empty() && sizes.layers) least = std::max(least, sizes.layers(std::max(least, by_size)));
     const bool by_bends = least > by_size;
-    if (low == nullptr && high == nullptr) {
+    if (!rows) {
         if (columns.wanted.empty()) return {default_heights(columns, options.layers, least), by_bends};
         return {following_heights(columns, 0, 1, least), by_bends};
     }
-    const double below = low != nullptr ? low->back() : 0, above = high != nullptr ? high->back() : 0;
+    const double below = low.empty() ? 0 : low.back(), above = high.empty() ? 0 : high.back();
     if (!(below + above < columns.length)) {
         throw NotSweepable("sweep.layers_room",
                            "the boundary layers of the ends are " + in_short(below + above) +
@@ -214,8 +217,7 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
                                " apart; ask for fewer or thinner ones");
     }
     const double from = below / columns.length, to = 1 - above / columns.length;
-    const int taken = static_cast<int>((low != nullptr ? low->size() : 0) +
-                                       (high != nullptr ? high->size() : 0));
+    const int taken = static_cast<int>(low.size() + high.size());
     if (!asked.empty() && options.layers.heights.empty() && has_rows(asked, low, high, columns.length))
         return {asked, false};
     std::vector<double> between;
@@ -232,13 +234,11 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
         for (double& h : between) h = (h - from) / (to - from);
     }
     std::vector<double> heights{0};
-    for (std::size_t j = 0; low != nullptr && j + 1 < low->size(); ++j)
-        heights.push_back((*low)[j] / columns.length);
-    for (std::size_t k = low != nullptr ? 0 : 1; k < between.size(); ++k)
+    for (std::size_t j = 0; j + 1 < low.size(); ++j) heights.push_back(low[j] / columns.length);
+    for (std::size_t k = low.empty() ? 1 : 0; k < between.size(); ++k)
         heights.push_back(from + between[k] * (to - from));
-    for (std::size_t j = high != nullptr ? high->size() - 1 : 0; j-- > 0;)
-        heights.push_back(1 - (*high)[j] / columns.length);
-    if (high != nullptr) heights.push_back(1);
+    for (std::size_t j = high.size(); j > 1; --j) heights.push_back(1 - high[j - 2] / columns.length);
+    if (!high.empty()) heights.push_back(1);
     return {std::move(heights), by_bends};
 }
 

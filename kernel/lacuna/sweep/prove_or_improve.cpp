@@ -29,35 +29,13 @@ std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<Fa
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::SkinQuad quad = mesh::skin_quad(mesh, i);
         for (const Index n : quad.nodes) {
-            Index& at = surface[static_cast<std::size_t>(n)];
-            at = at == kInside || at == quad.patch ? quad.patch : kLocked;
-            if (kept.contains(faces[static_cast<std::size_t>(quad.patch)])) at = kLocked;
+            Index& at = surface[index(n)];
+            const bool may = (at == kInside || at == quad.patch) && !kept.contains(faces[index(quad.patch)]);
+            at = may ? quad.patch : kLocked;
         }
     }
     return surface;
 }
-
-/// Projectors made when first asked for.
-class FaceProjectors {
-public:
-    FaceProjectors(const Model& model, std::vector<FaceId> faces, const RunContext& context)
-        : model_(model), faces_(std::move(faces)), context_(context)
-    {
-    }
-
-    void project(Index patch, std::span<Vec3> points)
-    {
-        const FaceId face = faces_[static_cast<std::size_t>(patch)];
-        projector_.try_emplace(patch, model_, std::vector<FaceId>{face})
-            .first->second.project(points, context_);
-    }
-
-private:
-    const Model& model_;
-    std::vector<FaceId> faces_;
-    const RunContext& context_;
-    std::map<Index, surface::Projector> projector_;
-};
 
 /// The edge at a vertex that leads towards a place; invalid: none does.
 EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
@@ -120,10 +98,12 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     const bool poor = proof.finding ? quality::can_be_improved(proof.finding->fault)
                                     : proof.quality.min_scaled_jacobian < improving.good_enough;
     if (!options.improve || !poor) return proof;
-    FaceProjectors projectors(model, faces, context);
-    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept),
-                          [&](Index patch, std::span<Vec3> points) { projectors.project(patch, points); },
-                          std::move(held)};
+    std::map<Index, surface::Projector> projectors; // made when first asked for
+    const auto project = [&](Index patch, std::span<Vec3> points) {
+        projectors.try_emplace(patch, model, std::vector<FaceId>{faces[index(patch)]})
+            .first->second.project(points, context);
+    };
+    const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, std::move(held)};
     report_progress(context, "improving");
     const Improved improved = improve(swept.mesh, improving, sliding, context);
     report_progress(context, "proof of every cell");

@@ -47,16 +47,7 @@ void place_centres(mesh::HexMesh& mesh, const SkinMiddles& skin, std::size_t cel
 
 class Repair {
 public:
-    Repair(mesh::HexMesh& mesh, const SkinMiddles& skin)
-        : mesh_(mesh),
-          skin_(skin),
-          at_node_(mesh::quads_at_nodes(mesh.quads, index(mesh.nodes_per_layer))),
-          at_side_(mesh::incidence(mesh.middles.sides.size(), [&](const auto& visit) {
-              for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-                  for (const Index side : mesh.middles.side_of[q]) visit(index(side), static_cast<Index>(q));
-          }))
-    {
-    }
+    Repair(mesh::HexMesh& mesh, const SkinMiddles& skin) : mesh_(mesh), skin_(skin) {}
 
     void mend(std::size_t cell)
     {
@@ -126,7 +117,9 @@ private:
 
     mesh::HexMesh& mesh_;
     const SkinMiddles& skin_;
-    mesh::Incidence at_node_, at_side_;
+    /// The quads at each node and at each side of the source.
+    const mesh::Incidence at_node_ = mesh::quads_at_nodes(mesh_.quads, index(mesh_.nodes_per_layer));
+    const mesh::Incidence at_side_ = mesh::quads_at_nodes(mesh_.middles.side_of, mesh_.middles.sides.size());
 };
 
 /// The most of a cell's bends at which it is valid, 0…1.

@@ -22,15 +22,15 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns
     std::vector<Index> column(source.nodes.size(), -1);
     for (std::size_t k = 0; k < columns.rim.size(); ++k) {
         const Index node = columns.rim[k];
-        if (node < 0 || static_cast<std::size_t>(node) >= source.nodes.size()) {
+        if (node < 0 || index(node) >= source.nodes.size()) {
             refuse("column " + std::to_string(k) + " stands on source node " + std::to_string(node) +
                    ", but the source has nodes 0 to " + std::to_string(source.nodes.size()) + " - 1");
         }
-        if (column[static_cast<std::size_t>(node)] >= 0) {
+        if (column[index(node)] >= 0) {
             refuse("two columns stand on source node " + std::to_string(node) +
                    ": give each rim node one column");
         }
-        column[static_cast<std::size_t>(node)] = static_cast<Index>(k);
+        column[index(node)] = static_cast<Index>(k);
     }
     return column;
 }
@@ -43,7 +43,7 @@ void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes
     for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
     constexpr double kProjection = 1e-6; // what given faces are held to, by their size
     for (std::size_t k = 0; k < row.size(); ++k) {
-        const Vec3& node = nodes[static_cast<std::size_t>(columns.rim[k])];
+        const Vec3& node = nodes[index(columns.rim[k])];
         const double gap = (row[k] - node).norm();
         if (gap <= kProjection * reach) continue;
         refuse("the column over source node " + std::to_string(columns.rim[k]) + " ends " +
@@ -83,11 +83,11 @@ std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& c
     std::vector<Segment> sides;
     const auto add = [&](Index from, Index to) {
         for (const Index node : {from, to}) {
-            if (column[static_cast<std::size_t>(node)] >= 0) continue;
+            if (column[index(node)] >= 0) continue;
             refuse("source node " + std::to_string(node) +
                    " is on the boundary of the source mesh but has no column: every rim node needs one");
         }
-        sides.push_back({column[static_cast<std::size_t>(from)], column[static_cast<std::size_t>(to)]});
+        sides.push_back({column[index(from)], column[index(to)]});
     };
     if (source.loops.empty()) {
         for (const mesh::BoundarySide& side : mesh::boundary_sides(source.quads)) add(side.from, side.to);
@@ -104,8 +104,8 @@ Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides)
     const Vec3 centre = geometry::mean_point(rim);
     Vec3 twice = Vec3::Zero();
     for (const Segment& side : sides) {
-        const Vec3 from = rim[static_cast<std::size_t>(side[0])] - centre;
-        twice += from.cross(rim[static_cast<std::size_t>(side[1])] - centre);
+        const Vec3 from = rim[index(side[0])] - centre;
+        twice += from.cross(rim[index(side[1])] - centre);
     }
     return twice / 2;
 }
@@ -116,7 +116,7 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes)
     for (const Quad& quad : quads) {
         for (std::size_t i = 0; i < 4; ++i) {
             if (!mesh::is_side(quad, i)) continue;
-            const Vec3& from = nodes[static_cast<std::size_t>(quad[i])];
+            const Vec3& from = nodes[index(quad[i])];
             const Vec3& to = nodes[static_cast<std::size_t>(quad[(i + 1) % 4])];
             shortest = std::min(shortest, (to - from).squaredNorm());
         }
@@ -139,8 +139,8 @@ RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, 
     double rim_reach = 0;
     for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
     // No node may lie further out than the rim's own farthest point again: beyond, the map extrapolates.
-    spans_inside_ = std::all_of(nodes.begin(), nodes.end(),
-                                [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
+    spans_inside_ = std::ranges::all_of(nodes,
+                                        [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
 }
 
 geometry::AffineFit RimFitter::fit(std::span<const Vec3> to, const Vec3& to_area, double negligible) const

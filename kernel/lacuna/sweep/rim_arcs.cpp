@@ -49,6 +49,27 @@ void add_chords(const std::vector<Vec3>& points, const std::vector<bool>& starts
 
 } // namespace
 
+std::set<EdgeId> rim_edges(const Model& model, FaceId face)
+{
+    std::set<EdgeId> edges;
+    for (const Loop& loop : border_loops(model, face))
+        for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
+    return edges;
+}
+
+OnLine closest_on(std::span<const Vec3> line, const Vec3& p)
+{
+    OnLine best;
+    double before = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const double f = fraction_along(p, line[i], line[i + 1]), length = (line[i + 1] - line[i]).norm();
+        const double distance = (p - ((1 - f) * line[i] + f * line[i + 1])).norm();
+        if (distance < best.distance) best = {before + f * length, distance};
+        before += length;
+    }
+    return best;
+}
+
 std::vector<RimChord> rim_chords(const Model& model, FaceId face)
 {
     std::vector<RimChord> chords;

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,95 +23,81 @@ struct RowSide {
     std::vector<Index> before, after;
 };
 
-class RowFinder {
-public:
-    RowFinder(const SweptParts& parts, const surface::LayerTables& tables)
-        : parts_(parts),
-          tables_(tables),
-          quads_(parts.source.quads.quads),
-          partner_(mesh::opposite_sides(quads_, static_cast<Index>(parts.source.quads.nodes.size())))
+/// The sides of a source's quads, 4 · quad + side.
+struct SourceSides {
+    const std::vector<Quad>& quads;
+    std::vector<Index> partner;                       ///< across each side
+    std::unordered_map<std::uint64_t, Index> between; ///< between two nodes
+
+    explicit SourceSides(const mesh::QuadMesh& source)
+        : quads(source.quads), partner(mesh::opposite_sides(quads, static_cast<Index>(source.nodes.size())))
     {
-        for (std::size_t q = 0; q < quads_.size(); ++q) {
+        for (std::size_t q = 0; q < quads.size(); ++q) {
             for (std::size_t k = 0; k < 4; ++k) {
-                if (mesh::is_side(quads_[q], k))
-                    side_of_.try_emplace(edge_key(quads_[q][k], quads_[q][(k + 1) % 4]), 4 * q + k);
+                if (mesh::is_side(quads[q], k))
+                    between.try_emplace(edge_key(quads[q][k], quads[q][(k + 1) % 4]),
+                                        static_cast<Index>(4 * q + k));
             }
         }
     }
-
-    std::vector<RowColumn> find()
-    {
-        for (std::size_t b = 0; b < parts_.links.size(); ++b) {
-            const std::size_t n = parts_.size_of(b);
-            std::vector<RowSide> sides;
-            for (std::size_t i = 0; i < n; ++i) sides.push_back(walk(b, i));
-            for (std::size_t i = 0; i < n; ++i) add_columns(b, i, sides[(i + n - 1) % n], sides[i]);
-        }
-        const std::vector<Vec3>& places = parts_.source.quads.nodes;
-        const auto at = [&](std::size_t node) -> const Vec3& { return places[node]; };
-        for (RowColumn& column : columns_) {
-            const Vec3 &foot = at(parts_.rim_node(column.link, column.node)),
-                       along = column.tangent(parts_, at);
-            for (const Index node : column.nodes) column.lean.push_back((at(index(node)) - foot).dot(along));
-        }
-        return std::move(columns_);
-    }
-
-private:
-    RowSide walk(std::size_t b, std::size_t i) const
-    {
-        RowSide row;
-        row.table = tables_.at(parts_.wall_at(b, 0, i));
-        if (row.table < 0)
-            row.table = tables_.at(parts_.wall_at(b, static_cast<std::size_t>(parts_.layers) - 1, i));
-        if (row.table < 0) return row;
-        const std::size_t rows = tables_.heights[static_cast<std::size_t>(row.table)].size();
-        auto from = static_cast<Index>(parts_.rim_node(b, i));
-        Index side = static_cast<Index>(
-            side_of_.at(edge_key(from, static_cast<Index>(parts_.rim_node(b, i + 1)))));
-        for (std::size_t r = 0; r < rows; ++r) {
-            const Quad quad = side < 0 ? Quad{} : quads_[index(side) / 4];
-            if (side < 0 || mesh::is_triangle(quad)) {
-                throw NotSweepable("sweep.layers_rows",
-                                   "the quads of the source make " + std::to_string(r) + " rows along " +
-                                       name_of(parts_.volume.model, parts_.wall_at(b, 0, i)) +
-                                       ", and its boundary layers have " + std::to_string(rows) +
-                                       "; quads = \"paved\" meshes it anew");
-            }
-            const std::size_t k = index(side) % 4;
-            const bool along = quad[k] == from;
-            row.before.push_back(quad[(k + (along ? 3 : 2)) % 4]);
-            row.after.push_back(quad[(k + (along ? 2 : 3)) % 4]);
-            from = row.before.back();
-            side = partner_[index(side) / 4 * 4 + (k + 2) % 4];
-        }
-        return row;
-    }
-
-    /// One column where the rows over both sides of a node have the same nodes over it, else one each.
-    void add_columns(std::size_t b, std::size_t i, const RowSide& before, const RowSide& after)
-    {
-        if (before.table >= 0 && before.table == after.table && before.after == after.before) {
-            columns_.push_back({b, i, true, true, after.table, after.before, {}});
-            return;
-        }
-        if (before.table >= 0) columns_.push_back({b, i, true, false, before.table, before.after, {}});
-        if (after.table >= 0) columns_.push_back({b, i, false, true, after.table, after.before, {}});
-    }
-
-    const SweptParts& parts_;
-    const surface::LayerTables& tables_;
-    const std::vector<Quad>& quads_;
-    std::vector<Index> partner_;
-    std::unordered_map<std::uint64_t, std::size_t> side_of_;
-    std::vector<RowColumn> columns_;
 };
+
+RowSide rows_over(const SweptParts& parts, const surface::LayerTables& tables, const SourceSides& sides,
+                  std::size_t b, std::size_t i)
+{
+    RowSide row;
+    row.table = tables.at(parts.wall_at(b, 0, i));
+    if (row.table < 0) row.table = tables.at(parts.wall_at(b, index(parts.layers) - 1, i));
+    if (row.table < 0) return row;
+    const std::size_t rows = tables.heights[index(row.table)].size();
+    auto from = static_cast<Index>(parts.rim_node(b, i));
+    Index side = sides.between.at(edge_key(from, static_cast<Index>(parts.rim_node(b, i + 1))));
+    for (std::size_t r = 0; r < rows; ++r) {
+        const Quad quad = side < 0 ? Quad{} : sides.quads[index(side) / 4];
+        if (side < 0 || mesh::is_triangle(quad)) {
+            throw NotSweepable("sweep.layers_rows",
+                               "the quads of the source make " + std::to_string(r) + " rows along " +
+                                   name_of(parts.volume.model, parts.wall_at(b, 0, i)) +
+                                   ", and its boundary layers have " + std::to_string(rows) +
+                                   "; quads = \"paved\" meshes it anew");
+        }
+        const std::size_t k = index(side) % 4;
+        const bool along = quad[k] == from;
+        row.before.push_back(quad[(k + (along ? 3 : 2)) % 4]);
+        row.after.push_back(quad[(k + (along ? 2 : 3)) % 4]);
+        from = row.before.back();
+        side = sides.partner[index(side) / 4 * 4 + (k + 2) % 4];
+    }
+    return row;
+}
+
+/// One column where the rows over both sides of a node have the same nodes over it, else one each.
+void add_columns(std::size_t b, std::size_t i, const RowSide& before, const RowSide& after,
+                 std::vector<RowColumn>& columns)
+{
+    const bool one = before.table >= 0 && before.table == after.table && before.after == after.before;
+    if (before.table >= 0) columns.push_back({b, i, true, one, before.table, before.after, {}});
+    if (after.table >= 0 && !one) columns.push_back({b, i, false, true, after.table, after.before, {}});
+}
 
 } // namespace
 
 std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables)
 {
-    return RowFinder(parts, tables).find();
+    const SourceSides source_sides(parts.source.quads);
+    std::vector<RowColumn> columns;
+    for (std::size_t b = 0; b < parts.links.size(); ++b) {
+        const std::size_t n = parts.size_of(b);
+        std::vector<RowSide> sides;
+        for (std::size_t i = 0; i < n; ++i) sides.push_back(rows_over(parts, tables, source_sides, b, i));
+        for (std::size_t i = 0; i < n; ++i) add_columns(b, i, sides[(i + n - 1) % n], sides[i], columns);
+    }
+    const auto at = [&](std::size_t node) -> const Vec3& { return parts.source.quads.nodes[node]; };
+    for (RowColumn& column : columns) {
+        const Vec3 &foot = at(parts.rim_node(column.link, column.node)), along = column.tangent(parts, at);
+        for (const Index node : column.nodes) column.lean.push_back((at(index(node)) - foot).dot(along));
+    }
+    return columns;
 }
 
 std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height)
@@ -172,9 +159,7 @@ std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>
                                                          const std::map<std::size_t, double>& place)
 {
     const std::size_t sides = line.size() - 1;
-    std::vector<double> lengths{0};
-    for (std::size_t i = 0; i < sides; ++i)
-        lengths.push_back(lengths.back() + (line[i + 1] - line[i]).norm());
+    const std::vector<double> lengths = geometry::arc_lengths(line);
     const auto length_at = [&](double x) {
         const auto i = std::min(static_cast<std::size_t>(x), sides - 1);
         return lengths[i] + (x - static_cast<double>(i)) * (lengths[i + 1] - lengths[i]);
@@ -191,7 +176,7 @@ std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>
                              (lengths[above->first] - lengths[below->first]);
         const double length = length_at(below->second) +
                               share * (length_at(above->second) - length_at(below->second));
-        const auto up = std::upper_bound(lengths.begin(), lengths.end(), length);
+        const auto up = std::ranges::upper_bound(lengths, length);
         const std::size_t side = std::min(static_cast<std::size_t>(up - lengths.begin()) - 1, sides - 1);
         moved.emplace_back(i, static_cast<double>(side) +
                                   (length - lengths[side]) / (lengths[side + 1] - lengths[side]));

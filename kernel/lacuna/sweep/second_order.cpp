@@ -4,9 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/sweep/detail/middle_placer.h>
 
-#include <array>
 #include <limits>
-#include <utility>
 
 namespace lacuna::sweep {
 
@@ -16,7 +14,7 @@ namespace {
 void check_amount(const mesh::HexMesh& mesh)
 {
     const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
-    const std::size_t all = (2 * static_cast<std::size_t>(mesh.layers) + 1) * row;
+    const std::size_t all = (2 * index(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
     throw InvalidInput(
         "sweep.too_many",
@@ -168,7 +166,7 @@ FinerSkin finer_skin(const mesh::SkinNodes& skin)
     for (int l = 0; l < fine.layers; ++l)
         for (std::size_t r = 0; r < mesh.rim.size(); ++r)
             fine.wall_patch.insert(fine.wall_patch.end(), 2,
-                                   mesh.wall_patch[static_cast<std::size_t>(l / 2) * mesh.rim.size() + r]);
+                                   mesh.wall_patch[index(l / 2) * mesh.rim.size() + r]);
     for (Index n = 0; n < fine.nodes_per_layer; ++n) fine.nodes.push_back(nodes(n));
     result.nodes.on_skin = nodes;
     return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -9,12 +10,10 @@
 #include <lacuna/sweep/detail/rim_arcs.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/words.h>
-#include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <unordered_map>
 
@@ -47,11 +46,6 @@ struct Side {
     [[nodiscard]] const Face& face_data() const { return model()[face]; }
 };
 
-Vec3 area_of(const Model& model, const Triangle& t)
-{
-    return (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])) / 2;
-}
-
 /// The points of a face's loops, a chain each.
 std::vector<std::vector<Vec3>> chains_of(const Side& side)
 {
@@ -79,12 +73,8 @@ RimOff rim_off(const Side& one, const Side& other)
     for (const std::vector<Vec3>& chain : chains_of(one)) {
         for (const Vec3& p : chain) {
             double nearest = std::numeric_limits<double>::infinity();
-            for (const std::vector<Vec3>& line : there) {
-                for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-                    const double f = fraction_along(p, line[i], line[i + 1]);
-                    nearest = std::min(nearest, (p - ((1 - f) * line[i] + f * line[i + 1])).norm());
-                }
-            }
+            for (const std::vector<Vec3>& line : there)
+                nearest = std::min(nearest, closest_on(line, p).distance);
             if (nearest > off.distance) {
                 off.distance = nearest;
                 off.place = p;
@@ -173,11 +163,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that bend away from each other along a common rim are near each other there, and no more.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
-        const auto percent = [](double share) {
-            std::array<char, 32> text{};
-            std::snprintf(text.data(), text.size(), "%.3g %%", 100 * std::min(share, 1.0));
-            return std::string(text.data());
-        };
+        const auto percent = [](double share) { return with_digits(100 * std::min(share, 1.0), 3) + " %"; };
         common.words = percent(there) + " of " + name_in(a, one.face) + " lies on " + name_in(b, other.face) +
                        ", and " + percent(back) + " of that on it";
     }
@@ -200,11 +186,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
-    NearMiss miss;
-    miss.a = faces.a;
-    miss.b = faces.b;
-    miss.face_a = faces.face_a;
-    miss.face_b = faces.face_b;
+    NearMiss miss{faces.a, faces.b, faces.face_a, faces.face_b};
     miss.tag_a = a.volume->model[faces.face_a].tag;
     miss.tag_b = b.volume->model[faces.face_b].tag;
     miss.least = miss.width = common.apart;
@@ -270,8 +252,8 @@ double facet_sag(const Model& model, const Face& face)
             const Index a = face.triangles[t][k], b = face.triangles[t][(k + 1) % 3];
             const auto [other, fresh] = beside.emplace(edge_key(a, b), t);
             if (fresh) continue;
-            const Vec3 m = area_of(model, face.triangles[t]),
-                       n = area_of(model, face.triangles[other->second]);
+            const Vec3 m = facet_area_vector(model, face.triangles[t]),
+                       n = facet_area_vector(model, face.triangles[other->second]);
             const double side = (model.at(b) - model.at(a)).norm();
             if (!(m.norm() > 0) || !(n.norm() > 0) || !(side > 0)) continue;
             const double angle = geometry::angle_between(m, n);
@@ -281,14 +263,10 @@ double facet_sag(const Model& model, const Face& face)
     return sag;
 }
 
-std::string name_in(const AssemblyMember& member, FaceId face)
-{
-    return name_of(member.volume->model, face) + " of " + member.region;
-}
-
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context)
 {
     std::vector<std::vector<Side>> sides(members.size());
+    std::vector<std::vector<double>> sag(members.size());
     std::vector<Eigen::AlignedBox3d> box(members.size());
     for (std::size_t m = 0; m < members.size(); ++m) {
         const OpenVolume& volume = *members[m].volume;
@@ -298,12 +276,9 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                 for (const Index p : t) side.box.extend(volume.model.at(p));
             }
             box[m].extend(side.box);
+            sag[m].push_back(side.sag);
             sides[m].push_back(std::move(side));
         }
-    }
-    std::vector<std::vector<double>> sag(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        for (const Side& side : sides[m]) sag[m].push_back(side.sag);
     }
     FacesInCommon found;
     std::string same_side;

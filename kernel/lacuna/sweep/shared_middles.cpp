@@ -4,8 +4,6 @@
 #include <lacuna/sweep/detail/shared_quads.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 namespace lacuna::sweep {
 
@@ -30,23 +28,6 @@ SharedMiddles::SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool
     }
 }
 
-std::optional<Vec3> SharedMiddles::centre(const std::array<Vec3, 4>& corners) const
-{
-    const auto found = centres_.find(key_of(corners));
-    return found == centres_.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::size_t SharedMiddles::Hash::operator()(const Key& key) const
-{
-    std::uint64_t hash = 0;
-    for (const double x : key) {
-        // Zeros of both signs are one place. Weyl's multiplier, which spreads low bits.
-        hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;
-        hash ^= hash >> 29U;
-    }
-    return static_cast<std::size_t>(hash);
-}
-
 SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
 {
     const Vec3 &low = before(b, a) ? b : a, &high = before(b, a) ? a : b;
@@ -56,21 +37,21 @@ SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
 /// The least corner and the one opposite.
 SharedMiddles::Key SharedMiddles::key_of(const std::array<Vec3, 4>& corners)
 {
-    const auto least = std::min_element(corners.begin(), corners.end(), before);
+    const auto least = std::ranges::min_element(corners, before);
     const auto at = static_cast<std::size_t>(least - corners.begin());
     return key_of(corners[at], corners[(at + 2) % 4]);
 }
 
-std::optional<Vec3> SharedMiddles::find(const Places& places, const Vec3& a, const Vec3& b)
+std::optional<Vec3> SharedMiddles::find(const Places& places, const Key& key)
 {
-    const auto found = places.find(key_of(a, b));
+    const auto found = places.find(key);
     return found == places.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool SharedMiddles::agree(const Places& a, const Places& b)
 {
     if (a.size() > b.size()) return agree(b, a);
-    return std::all_of(a.begin(), a.end(), [&](const auto& own) {
+    return std::ranges::all_of(a, [&](const auto& own) {
         const auto other = b.find(own.first);
         return other == b.end() || other->second == own.second;
     });

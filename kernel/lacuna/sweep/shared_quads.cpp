@@ -3,7 +3,6 @@
 #include <lacuna/sweep/detail/shared_quads.h>
 
 #include <algorithm>
-#include <array>
 #include <unordered_map>
 #include <utility>
 
@@ -11,40 +10,30 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Nodes of some quads, each once, in the order they are met, with their places along a slanted line.
+/// Nodes of some quads with their places along a slanted line.
 struct NodesOf {
-    NodeMarkers& number;                        ///< of each node of the mesh, -1: not of these quads
-    std::vector<Index> nodes;                   ///< of the mesh
-    std::vector<Vec3> places;                   ///< of those
-    std::vector<std::pair<double, Index>> line; ///< place along the line and place in `nodes`, sorted
+    QuadsAlone alone;
+    std::vector<Vec3> places;                   ///< of its nodes
+    std::vector<std::pair<double, Index>> line; ///< place along the line and number of the node, sorted
 
-    NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads, NodeMarkers& markers) : number(markers)
+    NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads)
+        : alone(quads_alone({quads.begin(), quads.end()}))
     {
-        number.be_for(skin);
         // No direction that the rows of a mesh are likely to have.
         const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
-        for (const Quad& quad : quads) {
-            for (const Index n : quad) {
-                Index& own = number[n];
-                if (own >= 0) continue;
-                own = static_cast<Index>(nodes.size());
-                places.push_back(skin[n]);
-                line.emplace_back(slanted.dot(places.back()), own);
-                nodes.push_back(n);
-            }
+        for (const Index n : alone.nodes) {
+            line.emplace_back(slanted.dot(skin[n]), static_cast<Index>(places.size()));
+            places.push_back(skin[n]);
         }
-        std::sort(line.begin(), line.end());
+        std::ranges::sort(line);
     }
-    ~NodesOf() { number.clear(nodes); }
-    NodesOf(const NodesOf&) = delete;
-    NodesOf& operator=(const NodesOf&) = delete;
 };
 
 /// Of each own node the other's, by place in the lists; empty where one has none.
 std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within)
 {
-    std::vector<Index> twin(a.nodes.size(), -1);
-    std::vector<char> used(b.nodes.size(), 0);
+    std::vector<Index> twin(a.places.size(), -1);
+    std::vector<char> used(b.places.size(), 0);
     std::size_t first = 0;
     // Rounding of the places along the line themselves.
     const double slack = within +
@@ -66,11 +55,12 @@ std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within
     return twin;
 }
 
-/// A quad by its nodes in rising order.
-Quad sorted(Quad quad)
+/// Quads by their nodes in rising order, in rising order.
+std::vector<Quad> sorted(std::vector<Quad> quads)
 {
-    std::sort(quad.begin(), quad.end());
-    return quad;
+    for (Quad& quad : quads) std::ranges::sort(quad);
+    std::ranges::sort(quads);
+    return quads;
 }
 
 } // namespace
@@ -89,46 +79,38 @@ std::vector<Quad> quads_on(const mesh::HexMesh& mesh, std::span<const FaceId> fa
     return quads;
 }
 
-std::optional<std::vector<NodePair>> SameQuads::pairs(const mesh::SkinNodes& own,
-                                                      std::span<const Quad> own_quads,
-                                                      const mesh::SkinNodes& other,
-                                                      std::span<const Quad> other_quads, double within)
+std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
+                                                const mesh::SkinNodes& other,
+                                                std::span<const Quad> other_quads, double within)
 {
     if (own_quads.size() != other_quads.size() || own_quads.empty()) return std::nullopt;
-    const NodesOf a(own, own_quads, own_number_), b(other, other_quads, other_number_);
-    if (a.nodes.size() != b.nodes.size()) return std::nullopt;
+    NodesOf a(own, own_quads);
+    const NodesOf b(other, other_quads);
+    if (a.places.size() != b.places.size()) return std::nullopt;
     const std::vector<Index> twin = same_places(a, b, within);
     if (twin.empty()) return std::nullopt;
-    // The other's quads by their least node.
-    std::vector<std::size_t> first(b.nodes.size() + 1, 0);
-    std::vector<Quad> theirs;
-    theirs.reserve(other_quads.size());
-    for (const Quad& quad : other_quads) {
-        Quad own_numbers{};
-        for (std::size_t k = 0; k < 4; ++k) own_numbers[k] = b.number[quad[k]];
-        theirs.push_back(sorted(own_numbers));
-        ++first[index(theirs.back()[0]) + 1];
-    }
-    for (std::size_t n = 0; n + 1 < first.size(); ++n) first[n + 1] += first[n];
-    std::vector<std::size_t> by_least(theirs.size());
-    std::vector<std::size_t> next = first;
-    for (std::size_t q = 0; q < theirs.size(); ++q) by_least[next[index(theirs[q][0])]++] = q;
-    std::vector<char> found(theirs.size(), 0);
-    for (const Quad& quad : own_quads) {
-        Quad numbers{};
-        for (std::size_t k = 0; k < 4; ++k) numbers[k] = twin[index(a.number[quad[k]])];
-        numbers = sorted(numbers);
-        const auto begin = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0])]);
-        const auto end = by_least.begin() + static_cast<std::ptrdiff_t>(first[index(numbers[0]) + 1]);
-        const auto same = std::find_if(begin, end,
-                                       [&](std::size_t q) { return found[q] == 0 && theirs[q] == numbers; });
-        if (same == end) return std::nullopt;
-        found[*same] = 1;
-    }
+    for (Quad& quad : a.alone.quads)
+        for (Index& n : quad) n = twin[index(n)];
+    if (sorted(std::move(a.alone.quads)) != sorted(b.alone.quads)) return std::nullopt;
     std::vector<NodePair> pairs;
-    pairs.reserve(a.nodes.size());
-    for (std::size_t n = 0; n < a.nodes.size(); ++n) pairs.push_back({a.nodes[n], b.nodes[index(twin[n])]});
+    pairs.reserve(twin.size());
+    for (std::size_t n = 0; n < twin.size(); ++n)
+        pairs.push_back({a.alone.nodes[n], b.alone.nodes[index(twin[n])]});
     return pairs;
+}
+
+QuadsAlone quads_alone(std::vector<Quad> quads)
+{
+    QuadsAlone alone{std::move(quads), {}};
+    std::unordered_map<Index, Index> number;
+    for (Quad& quad : alone.quads) {
+        for (Index& n : quad) {
+            const auto [own, fresh] = number.try_emplace(n, static_cast<Index>(alone.nodes.size()));
+            if (fresh) alone.nodes.push_back(n);
+            n = own->second;
+        }
+    }
+    return alone;
 }
 
 std::vector<Segment> patch_borders(const mesh::HexMesh& mesh)
@@ -159,7 +141,7 @@ std::vector<Segment> patch_borders(const mesh::HexMesh& mesh)
     for (const bool target : {false, true}) {
         const std::vector<Index>& patch = target ? mesh.target_patch : mesh.source_patch;
         const auto other = [&](Index p) { return p != patch.front(); };
-        if (std::none_of(patch.begin(), patch.end(), other)) continue;
+        if (std::ranges::none_of(patch, other)) continue;
         std::unordered_map<std::uint64_t, Index> beside;
         for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
             for (std::size_t k = 0; k < 4; ++k) {

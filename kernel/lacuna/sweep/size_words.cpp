@@ -15,14 +15,8 @@ namespace {
 /// The face on the other side of an edge.
 std::string beyond(const Model& model, EdgeId edge, FaceId face)
 {
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        if (FaceId(f) == face) continue;
-        for (const Loop& loop : model.faces[f].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (use.edge == edge) return name_of(model, FaceId(f));
-            }
-        }
-    }
+    for (const FaceUse& use : edge_uses(model)[edge.index()])
+        if (use.face != face) return name_of(model, use.face);
     return name_of(model, edge);
 }
 

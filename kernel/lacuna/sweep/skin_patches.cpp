@@ -12,54 +12,26 @@ namespace lacuna::sweep {
 
 using namespace topology;
 
-namespace {
-
-/// SkinPatches of the skin, one a face, with the groups a person reads.
-class SkinPatches {
-public:
-    SkinPatches(const OpenVolume& volume, mesh::HexMesh& mesh)
-        : volume_(volume), mesh_(mesh), groups_(topology::skin_groups(volume))
-    {
-    }
-
-    /// Face of each patch.
-    [[nodiscard]] std::vector<FaceId> faces() const
-    {
-        std::vector<FaceId> faces(patch_.size());
-        for (const auto& [face, patch] : patch_) faces[static_cast<std::size_t>(patch)] = face;
-        return faces;
-    }
-
-    Index of(FaceId face)
-    {
-        const auto [found, fresh] = patch_.try_emplace(face, static_cast<Index>(mesh_.patches.size()));
-        if (fresh) {
-            const Face& f = volume_.model[face];
-            mesh::SkinPatch patch;
-            patch.tag = static_cast<int>(mesh_.patches.size()) + 1;
-            if (f.origin != Origin::made_void) patch.face = f.tag;
-            patch.groups = groups_[face.index()];
-            mesh_.patches.push_back(std::move(patch));
-        }
-        return found->second;
-    }
-
-private:
-    const OpenVolume& volume_;
-    mesh::HexMesh& mesh_;
-    std::vector<std::vector<std::string>> groups_; ///< of each face
-    std::map<FaceId, Index> patch_;
-};
-
-} // namespace
-
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
                                 const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
                                 mesh::HexMesh& mesh)
 {
-    SkinPatches patches(volume, mesh);
-    for (const FaceId face : ends.source) mesh.source_patch.push_back(patches.of(face));
-    for (const FaceId face : ends.target) mesh.target_patch.push_back(patches.of(face));
+    const std::vector<std::vector<std::string>> groups = skin_groups(volume); // of each face
+    std::vector<FaceId> faces;                                                // of each patch
+    std::map<FaceId, Index> patches;
+    const auto patch_of = [&](FaceId face) {
+        const auto [found, fresh] = patches.try_emplace(face, static_cast<Index>(faces.size()));
+        if (!fresh) return found->second;
+        faces.push_back(face);
+        const Face& f = volume.model[face];
+        mesh::SkinPatch& patch = mesh.patches.emplace_back();
+        patch.tag = static_cast<int>(mesh.patches.size());
+        if (f.origin != Origin::made_void) patch.face = f.tag;
+        patch.groups = groups[face.index()];
+        return found->second;
+    };
+    for (const FaceId face : ends.source) mesh.source_patch.push_back(patch_of(face));
+    for (const FaceId face : ends.target) mesh.target_patch.push_back(patch_of(face));
 
     // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
     // place by the nodes it joins.
@@ -81,11 +53,10 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     for (int layer = 0; layer < mesh.layers; ++layer) {
         for (const RimPosition& place : along_rim) {
             const std::size_t n = source.links[place.link].source_at.size();
-            mesh.wall_patch.push_back(
-                patches.of(walls[place.link].face[static_cast<std::size_t>(layer) * n + place.side]));
+            mesh.wall_patch.push_back(patch_of(walls[place.link].face[index(layer) * n + place.side]));
         }
     }
-    return patches.faces();
+    return faces;
 }
 
 } // namespace lacuna::sweep

@@ -113,19 +113,10 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
 
 surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls)
 {
-    switch (options.quads) {
-    case Quads::automatic:
-        return options.rows > 0 || rows_along_walls ? surface::QuadStyle::free
-                                                    : surface::QuadStyle::automatic;
-    case Quads::mapped:
-        return surface::QuadStyle::mapped;
-    case Quads::gmsh:
-    case Quads::paved:
-        return surface::QuadStyle::free;
-    case Quads::keep:
-        return surface::QuadStyle::kept;
-    }
-    return surface::QuadStyle::automatic;
+    if (options.quads == Quads::mapped) return surface::QuadStyle::mapped;
+    if (options.quads == Quads::keep) return surface::QuadStyle::kept;
+    const bool chooses = options.quads == Quads::automatic && options.rows == 0 && !rows_along_walls;
+    return chooses ? surface::QuadStyle::automatic : surface::QuadStyle::free;
 }
 
 quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)

@@ -23,7 +23,7 @@ constexpr int kPolishes = 20;
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 
-const Vec3& at(std::span<const Vec3> points, Index i) { return points[static_cast<std::size_t>(i)]; }
+const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
 
 /// The part of a move that goes along the surface.
 Vec3 along(const Vec3& move, const Vec3& normal)
@@ -61,7 +61,7 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
     // A neighbour that pushes away lets meshes fold: then the sides' own weights are the safer choice.
-    if (std::all_of(turned.begin(), turned.end(), [](double w) { return w > 0; })) {
+    if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }
 }
@@ -73,8 +73,7 @@ std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3
     std::vector<Vec3> normals(nodes.size(), Vec3::Zero());
     for (const Quad& q : quads) {
         const Vec3 area = (at(nodes, q[2]) - at(nodes, q[0])).cross(at(nodes, q[3]) - at(nodes, q[1]));
-        for (std::size_t k = 0; k < mesh::corner_count(q); ++k)
-            normals[static_cast<std::size_t>(q[k])] += area;
+        for (std::size_t k = 0; k < mesh::corner_count(q); ++k) normals[index(q[k])] += area;
     }
     return normals;
 }
@@ -119,7 +118,7 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
     points.reserve(which.size());
     for (const Index node : which) points.push_back(at(nodes, node));
     if (!points.empty()) project(points);
-    for (std::size_t k = 0; k < points.size(); ++k) nodes[static_cast<std::size_t>(which[k])] = points[k];
+    for (std::size_t k = 0; k < points.size(); ++k) nodes[index(which[k])] = points[k];
 }
 
 SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& graph,
@@ -130,18 +129,15 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
       spread_(spread),
       free_nodes_(free_nodes),
       project_(project),
-      weights_(weights.begin(), weights.end()),
-      quads_at_(mesh::quads_at_nodes(model.quads, model.nodes.size())),
-      is_free_(model.nodes.size(), 0)
+      weights_(weights.begin(), weights.end())
 {
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
     for (const Index node : free_nodes) {
-        const auto i = static_cast<std::size_t>(node);
+        const std::size_t i = index(node);
         is_free_[i] = 1;
         const std::span<const Index> neighbours = graph.of(i);
-        hold_in_place(
-            model.nodes, neighbours, model.nodes[i], normals[i],
-            std::span(weights_).subspan(static_cast<std::size_t>(graph.begin[i]), neighbours.size()));
+        hold_in_place(model.nodes, neighbours, model.nodes[i], normals[i],
+                      std::span(weights_).subspan(index(graph.begin[i]), neighbours.size()));
     }
 }
 
@@ -155,18 +151,17 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
         check_cancelled(context);
         const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
         for (const Index node : free_nodes_) {
-            const auto i = static_cast<std::size_t>(node);
+            const std::size_t i = index(node);
             const std::span<const Index> neighbours = graph_.of(i);
             Vec3 pull = Vec3::Zero();
             for (std::size_t k = 0; k < neighbours.size(); ++k) {
-                pull += weights_[static_cast<std::size_t>(graph_.begin[i]) + k] *
-                        (at(nodes, neighbours[k]) - nodes[i]);
+                pull += weights_[index(graph_.begin[i]) + k] * (at(nodes, neighbours[k]) - nodes[i]);
             }
             load[i] = along(pull, normals[i]);
         }
         spread_.solve(load);
         for (const Index node : free_nodes_) {
-            const auto i = static_cast<std::size_t>(node);
+            const std::size_t i = index(node);
             nodes[i] += along(load[i], normals[i]);
         }
         project_nodes(nodes, free_nodes_, project_);
@@ -183,9 +178,8 @@ double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nod
                                      std::span<const Vec3> normals) const
 {
     double worst = 1;
-    for (const Index q : quads_at_.of(node)) {
-        worst = std::min(worst, quad_quality(model_.quads[static_cast<std::size_t>(q)], nodes, normals));
-    }
+    for (const Index q : quads_at_.of(node))
+        worst = std::min(worst, quad_quality(model_.quads[index(q)], nodes, normals));
     return worst;
 }
 
@@ -197,10 +191,10 @@ std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes
     for (const Quad& quad : model_.quads) {
         if (quad_quality(quad, nodes, normals) >= good_enough) continue;
         for (const Index node : quad) {
-            if (is_free_[static_cast<std::size_t>(node)] != 0) poor.push_back(static_cast<std::size_t>(node));
+            if (is_free_[index(node)] != 0) poor.push_back(index(node));
         }
     }
-    std::sort(poor.begin(), poor.end());
+    std::ranges::sort(poor);
     poor.erase(std::unique(poor.begin(), poor.end()), poor.end());
     return poor;
 }
@@ -243,11 +237,10 @@ bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) 
             Vec3& node = nodes[poor[k]];
             const double before = worst_around(poor[k], nodes, normals);
             std::swap(node, places[k]);
-            if (worst_around(poor[k], nodes, normals) > before) {
+            if (worst_around(poor[k], nodes, normals) > before)
                 moved = true;
-            } else {
+            else
                 std::swap(node, places[k]);
-            }
         }
     }
     return moved;

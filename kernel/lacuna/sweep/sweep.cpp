@@ -3,7 +3,6 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -12,6 +11,7 @@
 #include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <optional>
 #include <set>
 #include <string>
@@ -38,8 +37,7 @@ namespace {
 bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 {
     return links.size() > 1 &&
-           std::any_of(links.begin(), links.end(),
-                       [](const surface::LinkingSurface& link) { return link.lines.empty(); });
+           std::ranges::any_of(links, [](const surface::LinkingSurface& link) { return link.lines.empty(); });
 }
 
 /// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes
@@ -54,9 +52,9 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     if (!poor) return alone;
     const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(
         volume, surface::Turning::together, {}, context);
-    const bool same = std::ranges::equal(as_one, links, {}, &surface::LinkingSurface::branch,
-                                         &surface::LinkingSurface::branch);
-    if (same) return alone;
+    if (std::ranges::equal(as_one, links, {}, &surface::LinkingSurface::branch,
+                           &surface::LinkingSurface::branch))
+        return alone;
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
         if (together.proof.finding) {
@@ -82,10 +80,7 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
 {
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
-    if (volume.turned_round) {
-        std::reverse(heights.begin(), heights.end());
-        for (double& h : heights) h = 1 - h;
-    }
+    if (volume.turned_round) reverse_heights(heights);
     report_progress(context, "linking surfaces");
     const std::vector<surface::LinkingSurface> links = known.of(volume, context);
     return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
@@ -270,26 +265,24 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
 {
     KnownLinks links(volume);
     if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, links, context);
-    std::exception_ptr why;
-    std::string words;
+    std::optional<NotSweepable> why;
     try {
         return sweep_once(volume, asked, links, context);
     } catch (const NotSweepable& error) {
-        why = std::current_exception();
-        words = error.what();
+        why = error;
     }
     try {
         SweepOptions with_wedges = asked;
         with_wedges.wedges = true;
         Swept swept = sweep_once(volume, with_wedges, links, context);
-        swept.report.push_back("fallback: meshed with wedges, because " + words);
+        swept.report.push_back("fallback: meshed with wedges, because " + std::string(why->what()));
         return swept;
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) { // what went wrong with hexahedra alone says more
         log_line(context, std::string("with wedges: ") + error.what());
     }
-    std::rethrow_exception(why);
+    throw NotSweepable(*why);
 }
 
 /// A mesh may be off the sealed volume by this share before that is noted.
@@ -327,14 +320,12 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     share_deadline(options.improving);
     Swept swept = sweep_or_with_wedges(volume, options, context);
-    if (!asked.size && swept.min_scaled_jacobian < kPoor) {
-        swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
-        swept.report.push_back(swept.defaults.back());
-    }
-    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
-        swept.defaults.push_back(volume_in_words(swept));
-        swept.report.push_back(swept.defaults.back());
-    }
+    const auto say = [&](const std::string& line) {
+        swept.defaults.push_back(line);
+        swept.report.push_back(line);
+    };
+    if (!asked.size && swept.min_scaled_jacobian < kPoor) say(poor_in_words(swept.min_scaled_jacobian));
+    if (std::abs(volume_lost(swept.fidelity)) > kNoted) say(volume_in_words(swept));
     if (!asked.beside.settle)
         for (const std::string& line : swept.defaults) log_line(context, line);
     return swept;

@@ -22,7 +22,6 @@
 #include <lacuna/sweep/detail/skin_patches.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/shared/layer_plan.h>
 #include <lacuna/sweep/shared/layers.h>
 
@@ -45,15 +44,13 @@ namespace {
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
-    const std::vector<FaceId> source = volume.faces(Role::source);
-    const bool free = std::any_of(source.begin(), source.end(), [&](FaceId face) {
+    const bool free = std::ranges::any_of(volume.faces(Role::source), [&](FaceId face) {
         return !seeds.kept.contains(face) && !seeds.corners.contains(face) && !seeds.submapped.contains(face);
     });
-    const Model& model = volume.model;
     const auto exact = [](const Face& face) { return face.surface != nullptr; };
     const auto on_curve = [](const Edge& edge) { return edge.curve != nullptr; };
-    if (!free || std::any_of(model.faces.begin(), model.faces.end(), exact) ||
-        std::any_of(model.edges.begin(), model.edges.end(), on_curve))
+    if (!free || std::ranges::any_of(volume.model.faces, exact) ||
+        std::ranges::any_of(volume.model.edges, on_curve))
         return false;
     // Quads go with the square of the rim, walls with rim times layers; on one thread walls of more layers
     // would take longer than the quads. Measured: 4 µs a quad, 0.6 µs a node of a wall.
@@ -137,10 +134,7 @@ BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed
     if (options.interior != Interior::automatic || spread.placement != Placement::fitted)
         return {std::move(spread), {}};
     const auto measured = [&](LayerNodes& layers) {
-        mesh::HexMesh mesh;
-        mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
-        mesh.layers = columns.layers;
-        mesh.quads = source.quads.quads;
+        mesh::HexMesh mesh = cells_over(source.quads, columns.layers);
         mesh.nodes = std::move(layers.nodes);
         quality::Quality found = quality::measure(mesh, context, quality::Keep::of_cells);
         layers.nodes = std::move(mesh.nodes);
@@ -185,13 +179,9 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
 /// Rising, each node once, the last place said.
 std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
 {
-    std::ranges::stable_sort(nodes, {}, &std::pair<Index, Vec3>::first);
-    std::vector<std::pair<Index, Vec3>> once;
-    for (const auto& node : nodes) {
-        if (!once.empty() && once.back().first == node.first) once.pop_back();
-        once.push_back(node);
-    }
-    return once;
+    std::map<Index, Vec3> once;
+    for (const auto& [node, place] : nodes) once.insert_or_assign(node, place);
+    return {once.begin(), once.end()};
 }
 
 /// Lay nodes of the skin onto neighbours'. Layers that are not good enough then are held from there on.
@@ -230,8 +220,7 @@ bool may_be_layered(const SweepOptions& options)
 /// Whether all faces of an end came with a mesh that can stay.
 bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
 {
-    const std::vector<FaceId> faces = volume.faces(end);
-    return std::all_of(faces.begin(), faces.end(), [&](FaceId id) {
+    return std::ranges::all_of(volume.faces(end), [&](FaceId id) {
         const Face& face = volume.model[id];
         return face.keeps_nodes && has_cells_to_keep(face, wedges);
     });
@@ -361,7 +350,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     LayerNodes layers;
     std::optional<quality::Quality> measured;
     if (good) {
-        layers = {source.quads.nodes, good->layers.placement, good->layers.report};
+        layers = {.nodes = source.quads.nodes, .report = good->layers.report};
         result.layers = std::move(good->layers.nodes);
         result.plan = std::move(good->layers.plan);
     } else {
@@ -382,19 +371,14 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 
     mesh::HexMesh& mesh = result.mesh;
-    mesh.nodes_per_layer = static_cast<Index>(source.quads.nodes.size());
-    mesh.layers = columns.layers;
+    mesh = cells_over(source.quads, columns.layers);
     mesh.nodes = std::move(layers.nodes);
-    mesh.quads = source.quads.quads;
-    for (const mesh::BoundarySide& side : mesh::boundary_sides(mesh.quads))
-        mesh.rim.push_back({side.from, side.to});
     const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
     // The proof needs room: what the nodes were made of goes.
     walls = {};
     columns = {};
     for (const FaceId wall : volume.faces(Role::wall)) {
-        if (volume.model[wall].origin != Origin::given ||
-            std::find(faces.begin(), faces.end(), wall) != faces.end())
+        if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
             continue;
         result.report.push_back("walls: " + name_of(volume.model, wall) +
                                 " is smaller than the quads there and has none, nor a group");

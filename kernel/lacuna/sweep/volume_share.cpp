@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -276,12 +275,7 @@ class Planner {
 public:
     Planner(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
             const SweepOptions& options, const surface::SizeField& size, const RunContext& context)
-        : volume_(volume),
-          links_(links),
-          options_(options),
-          size_(size),
-          context_(context),
-          facets_(volume, links)
+        : volume_(volume), links_(links), options_(options), size_(size), context_(context)
     {
     }
 
@@ -400,7 +394,7 @@ private:
     const SweepOptions& options_;
     const surface::SizeField& size_;
     const RunContext& context_;
-    surface::RimFacets facets_;
+    surface::RimFacets facets_{volume_, links_};
     std::vector<std::vector<std::pair<double, double>>> pairs_; ///< of the breaks followed
     std::vector<char> on_crease_;
     double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks

@@ -17,14 +17,13 @@ namespace lacuna::sweep {
 /// points lie on the exact surface if there is one. The face is split along the chains by
 /// `topology::imprint_walks()`. Parts have the tag, name and role of the whole; new edges have no exact
 /// curve, but the coincident edge of the other volume keeps its own.
-/// @param volumes  of the members, changed; face ids of pairs are those before the call.
-/// @param fixed  of each volume, whether it is the skin of a fixed mesh, for messages.
+/// @param volumes  copies of the members' volumes, changed; face ids of pairs are those before the call.
 /// @return  a line for each pair, for the report.
 /// @throw InvalidInput "assembly.part_of_face"  a face that keeps its quads, or onto whose facets the rim
 ///        cannot be projected; names both.
 /// @note  O(pairs × (facets of both × points of both rims)).
 std::vector<std::string> imprint_faces(std::span<topology::OpenVolume> volumes,
-                                       std::span<const std::string> regions, const std::vector<bool>& fixed,
+                                       std::span<const AssemblyMember> members,
                                        std::span<const PartlyShared> pairs, const RunContext& context);
 
 } // namespace lacuna::sweep

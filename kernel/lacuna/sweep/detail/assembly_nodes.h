@@ -19,10 +19,10 @@ struct SharedNodes {
 
 /// Give coincident nodes one number: nodes within shared faces by the pairs found there; nodes on the borders
 /// of faces, and middle nodes, by position, because volumes that touch along an edge share no face.
-/// @param shared  of each part, its pairs with parts meshed before it.
+/// @param shared  of every shared face.
 /// @post  `number` and `nodes` of the assembly are set.
 /// @note  O(nodes + shared nodes log).
-void number_nodes(SweptAssembly& assembly, std::span<const std::vector<SharedNodes>> shared);
+void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared);
 
 /// Check nodes on the edges of a part's faces against sides of the other parts: volumes that touch only along
 /// an edge have no shared face to match.

@@ -7,9 +7,7 @@
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/fidelity.h>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace lacuna::sweep {

@@ -36,12 +36,12 @@ private:
     void place_level_centres(int level, const Corners& corners, Vec3* out) const;
     void place_layer_centres(int layer, const Corners& corners, Vec3* out) const;
 
-    const mesh::HexMesh& mesh_;
     mesh::SkinNodes corners_;
+    const mesh::HexMesh& mesh_ = corners_.mesh;
     std::span<const Vec3> skin_;
-    mesh::MiddlePlaces places_;
-    SkinPlaces at_skin_;
-    LevelBlend blend_;
+    mesh::MiddlePlaces places_{mesh_};
+    SkinPlaces at_skin_{mesh_};
+    LevelBlend blend_{mesh_};
     std::vector<std::uint8_t> rim_side_; ///< of each side of the source, whether it is on the rim
     std::vector<std::uint8_t> rim_node_; ///< and of each node
     /// The bends of the ends beyond their blend from the rim, and the relative height of each level; empty:

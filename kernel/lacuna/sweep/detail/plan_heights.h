@@ -10,6 +10,9 @@
 
 namespace lacuna::sweep {
 
+/// Heights, from 0 to 1 or a part of these, as seen from the other end.
+void reverse_heights(std::vector<double>& heights);
+
 /// Heights of layers, and whether only bends of the columns determined their number.
 struct PlannedHeights {
     std::vector<double> heights;

@@ -3,11 +3,23 @@
 
 #include <lacuna/topology/open_volume.h>
 
+#include <limits>
+#include <set>
 #include <span>
 #include <vector>
 
-/// The arcs behind the chords of a face's rim. Internal to this folder.
+/// Edges of a face's rim, and the arcs behind their chords. Internal to this folder.
 namespace lacuna::sweep {
+
+/// The edges of a face's loops, without seams.
+std::set<EdgeId> rim_edges(const topology::Model& model, FaceId face);
+
+/// The point of a polyline closest to a position.
+struct OnLine {
+    double at = 0;                                             ///< running length [model length]
+    double distance = std::numeric_limits<double>::infinity(); ///< [model length]
+};
+OnLine closest_on(std::span<const Vec3> line, const Vec3& p);
 
 /// A chord of a rim and the arc over it.
 struct RimChord {

@@ -9,11 +9,7 @@
 #include <lacuna/sweep/shared/layer_plan.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <array>
-#include <functional>
 #include <optional>
-#include <set>
-#include <span>
 #include <string>
 #include <vector>
 

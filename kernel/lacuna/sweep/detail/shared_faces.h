@@ -34,7 +34,11 @@ void refuse_partly_shared(const FacesInCommon& found);
 /// O(facets).
 double facet_sag(const topology::Model& model, const topology::Face& face);
 
-/// A face of a member as messages name it.
-std::string name_in(const AssemblyMember& member, FaceId face);
+/// A face or an edge of a member as messages name it.
+template <class Id>
+std::string name_in(const AssemblyMember& member, Id id)
+{
+    return name_of(member.volume->model, id) + " of " + member.region;
+}
 
 } // namespace lacuna::sweep

@@ -5,10 +5,8 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
-#include <span>
-#include <unordered_map>
-#include <vector>
 
 namespace lacuna::sweep {
 
@@ -21,8 +19,14 @@ public:
     SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
 
     /// The middle node between two places, or in the middle of a quad by two opposite corners.
-    [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const { return find(sides_, a, b); }
-    [[nodiscard]] std::optional<Vec3> centre(const std::array<Vec3, 4>& corners) const;
+    [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const
+    {
+        return find(sides_, key_of(a, b));
+    }
+    [[nodiscard]] std::optional<Vec3> centre(const std::array<Vec3, 4>& corners) const
+    {
+        return find(centres_, key_of(corners));
+    }
 
     /// Whether common entries of both have the same middle. O(size of the smaller one).
     [[nodiscard]] bool agrees(const SharedMiddles& other) const
@@ -32,14 +36,10 @@ public:
 
 private:
     using Key = std::array<double, 6>;
-    struct Hash {
-        std::size_t operator()(const Key& key) const;
-    };
-    using Places = std::unordered_map<Key, Vec3, Hash>;
+    using Places = std::map<Key, Vec3>; // zeros of both signs are one place
     static Key key_of(const Vec3& a, const Vec3& b);
     static Key key_of(const std::array<Vec3, 4>& corners);
-    static std::optional<Vec3> find(const Places& places, const Vec3& a, const Vec3& b);
-
+    static std::optional<Vec3> find(const Places& places, const Key& key);
     static bool agree(const Places& a, const Places& b);
 
     Places sides_, centres_;

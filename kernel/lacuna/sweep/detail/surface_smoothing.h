@@ -62,8 +62,8 @@ private:
     const SurfaceProjector& project_;
     /// Of the neighbours, in the graph's order; normalised like the sides' own weights.
     std::vector<double> weights_;
-    mesh::Incidence quads_at_; ///< of each node
-    std::vector<char> is_free_;
+    mesh::Incidence quads_at_ = mesh::quads_at_nodes(model_.quads, model_.nodes.size());
+    std::vector<char> is_free_ = std::vector<char>(model_.nodes.size(), 0);
 };
 
 } // namespace lacuna::sweep

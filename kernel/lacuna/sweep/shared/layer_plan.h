@@ -35,6 +35,9 @@ struct LayerPlan {
     std::optional<MiddlePlan> middles{}; ///< of order 2
 };
 
+/// The cells over a source, without nodes and patches.
+mesh::HexMesh cells_over(const mesh::QuadMesh& source, int layers);
+
 /// The numbers of a plan's middle nodes, which are not stored; empty: it is of order 1.
 /// @param cells  quads, rim and layers of the plan's mesh
 mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
@@ -43,7 +46,6 @@ mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 struct PlacedLayers {
     std::shared_ptr<const LayerPlan> plan;
     mesh::LayeredNodes nodes; ///< owns the data it needs
-    Placement placement = Placement::affine;
     std::string report;
 };
 
