@@ -3,9 +3,11 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -95,7 +97,7 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
     for (std::size_t r = 0; r < runs.size(); ++r) {
         parts[r].uses = uses_of(rim, runs[r]);
         const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
-        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
+        const EdgeId edge = add_void_edge_through(model, a, b);
         parts[r].uses.push_back({edge, true});
         parts.back().uses.push_back({edge, false});
         const std::vector<EdgeUse> rest = uses_of(rim, between(rim, runs, r));
@@ -122,8 +124,7 @@ std::vector<FaceId> faces_at_edges(const Model& model)
 {
     std::vector<FaceId> at(model.edges.size());
     for (const FaceId face : all_faces(model))
-        for (const Loop& loop : model[face].loops)
-            for (const EdgeUse& use : loop.uses) at[use.edge.index()] = face;
+        for (const EdgeUse& use : uses_of(model[face])) at[use.edge.index()] = face;
     return at;
 }
 

@@ -2,7 +2,9 @@
 #include <lacuna/closure/detail/void_edges.h>
 
 #include <lacuna/closure/detail/climber.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -47,11 +49,6 @@ struct Spacing {
     double length = 0;
     std::size_t segments = 0;
 
-    void add(double more_length, std::size_t more_segments)
-    {
-        length += more_length;
-        segments += more_segments;
-    }
     [[nodiscard]] double mean() const { return segments > 0 ? length / static_cast<double>(segments) : 0; }
 };
 
@@ -60,8 +57,10 @@ void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
 {
     const Edge& edge = model[id];
     const double length = edge_length(model, id);
-    at[edge.from.index()].add(length, edge.points.size() - 1);
-    if (edge.to != edge.from) at[edge.to.index()].add(length, edge.points.size() - 1);
+    for (const VertexId end : std::set{edge.from, edge.to}) {
+        at[end.index()].length += length;
+        at[end.index()].segments += edge.points.size() - 1;
+    }
 }
 
 /// Spacing at every vertex.
@@ -164,19 +163,15 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
 double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
 {
     const Model& model = volume.model;
+    if (walls != nullptr) return 1; // they give the tangents
     double lean = 0, length = 0;
     bool asked = false;
     for (const Gap& gap : gaps) {
         const Vec3 chord = model.at(model[gap.to].point) - model.at(model[gap.from].point);
         length += chord.norm();
-        if (gap.below.empty() && walls == nullptr) {
-            lean += chord.dot(normal_at(volume, Role::source, gap.source));
-            asked = true;
-        }
-        if (gap.above.empty() && walls == nullptr) {
-            lean -= chord.dot(normal_at(volume, Role::target, gap.target));
-            asked = true;
-        }
+        if (gap.below.empty()) lean += chord.dot(normal_at(volume, Role::source, gap.source));
+        if (gap.above.empty()) lean -= chord.dot(normal_at(volume, Role::target, gap.target));
+        asked = asked || gap.below.empty() || gap.above.empty();
     }
     if (asked && !(std::abs(lean) > kFacing * length)) {
         throw NotClosed("closure.no_side",
@@ -215,17 +210,14 @@ VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
                        const std::set<VertexId>& free)
 {
     const Model& model = volume.model;
-    bool known = false;
-    std::string list;
-    for (const VertexId v : free) {
+    for (const VertexId v : free)
         if (model[v].tag == tag) return v;
-        list += (list.empty() ? "" : ", ") + std::to_string(model[v].tag);
-    }
-    for (const Vertex& vertex : model.vertices) known = known || vertex.tag == tag;
+    const bool known = std::ranges::find(model.vertices, tag, &Vertex::tag) != model.vertices.end();
     throw InvalidInput("closure.void_edge_vertex",
                        named(edge) + ": vertex " + std::to_string(tag) +
                            (known ? " is not on a free rim" : " is not in the volume") +
-                           "; the vertices of the free rims are " + list);
+                           "; the vertices of the free rims are " +
+                           full_list(free, [&](VertexId v) { return std::to_string(model[v].tag); }));
 }
 
 /// The course of a user's void edge, without its ends if the user gave them too.
@@ -339,13 +331,7 @@ private:
     void add(VertexId from, VertexId to, const std::vector<Vec3>& between)
     {
         Model& model = volume_.model;
-        std::vector<Index> points{model[from].point};
-        for (const Vec3& place : between) {
-            points.push_back(static_cast<Index>(model.points.size()));
-            model.points.push_back(place);
-        }
-        points.push_back(model[to].point);
-        made_.push_back(add_void_edge(model, from, to, std::move(points)));
+        made_.push_back(add_void_edge_through(model, from, to, between));
         add_edge(model, made_.back(), spacing_);
         pairs_.insert(std::minmax(from, to));
     }

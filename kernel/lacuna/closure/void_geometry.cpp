@@ -8,12 +8,14 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -38,14 +40,9 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     for (const Loop& loop : loops) rims.push_back(loop_places(model, loop.uses));
     result.plane = geometry::newell_plane(rims);
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::vector<Index> points = loop_points(model, loops[l].uses);
-        std::vector<Index>& numbers = result.outline.loops.emplace_back();
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            numbers.push_back(static_cast<Index>(result.outline.flat.size()));
-            result.outline.model_point.push_back(points[i]);
-            result.outline.flat.push_back(geometry::to_plane(result.plane, rims[l][i]));
-            result.bulge = std::max(result.bulge, std::abs(geometry::height(result.plane, rims[l][i])));
-        }
+        result.outline.add_loop(flat_places(result.plane, rims[l]), loop_points(model, loops[l].uses));
+        for (const Vec3& p : rims[l])
+            result.bulge = std::max(result.bulge, std::abs(geometry::height(result.plane, p)));
     }
     return result;
 }
@@ -266,15 +263,8 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
 
 std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
 {
-    const auto edges_of = [&](Role role) {
-        std::set<EdgeId> edges;
-        for (const Rim& rim : rims(volume.model, volume.faces(role))) {
-            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-        }
-        return edges;
-    };
-    const std::set<EdgeId> source = edges_of(Role::source);
-    const std::set<EdgeId> target = edges_of(Role::target);
+    const std::set<EdgeId> source = rim_edges(volume.model, volume.faces(Role::source));
+    const std::set<EdgeId> target = rim_edges(volume.model, volume.faces(Role::target));
     const std::size_t n = loop.uses.size();
     const auto kind = [&](std::size_t i) {
         const EdgeId edge = loop.uses[i % n].edge;
@@ -375,6 +365,16 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
     result.geometry = Geometry::parallel;
     result.algorithm = "Algorithm 4";
     return result;
+}
+
+EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
+{
+    std::vector<Index> points(between.size() + 2);
+    std::iota(points.begin() + 1, points.end(), static_cast<Index>(model.points.size()));
+    points.front() = model[from].point;
+    points.back() = model[to].point;
+    model.points.insert(model.points.end(), between.begin(), between.end());
+    return add_void_edge(model, from, to, std::move(points));
 }
 
 FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)
