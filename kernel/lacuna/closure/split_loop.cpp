@@ -179,9 +179,9 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
         if (run[i] == 0 || run[i] == uses) continue;
         if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer run
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
-        const std::vector<std::vector<Vec3>> points{use_places(model, own)};
-        if (turns(points.front()) < 2 || is_of_ring(model, own)) continue;
-        const geometry::Plane plane = geometry::newell_plane(points);
+        const std::vector<Vec3> points = use_places(model, own);
+        if (turns(points) < 2 || is_of_ring(model, own)) continue;
+        const geometry::Plane plane = geometry::newell_plane({&points, 1});
         const bool given = std::ranges::all_of(
             own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
         if (!given) ends.push_back({i, run[i]});
@@ -265,8 +265,8 @@ std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::
     Model tried = model;
     std::vector<Loop> parts = cut_off(tried, rim, ends);
     if (!is_flat(tried, {parts.back().uses})) return std::nullopt;
-    const std::vector<std::vector<Vec3>> mouth{use_places(tried, parts.back().uses)};
-    const geometry::Plane plane = geometry::newell_plane(mouth);
+    const std::vector<Vec3> mouth = use_places(tried, parts.back().uses);
+    const geometry::Plane plane = geometry::newell_plane({&mouth, 1});
     const auto in_mouth = [&](const Run& run) {
         return std::ranges::all_of(use_places(model, uses_of(rim, run)), [&](const Vec3& p) {
             return std::abs(geometry::height(plane, p)) <= model.tolerance;
