@@ -473,9 +473,14 @@ std::string in_words(const Model& model, const std::vector<EndHole>& holes, cons
 }
 
 /// Seal a volume, including holes without walls in its ends.
-Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const Asked& options,
-                             const RunContext& context)
+Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
+                       const RunContext& context)
 {
+    check_cancelled(context);
+    if (volume.full_turn)
+        throw NotSweepable("closure.full_turn_whole",
+                           "the volume runs round its whole turn and has no ends to close between; sweep "
+                           "it, or close the pieces that volume:cut() returns");
     const VolumeClass whole = classify(volume).value;
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);
@@ -501,17 +506,6 @@ void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure
     closure.notes.push_back("an end meets " + names_of(model, walls) +
                             " smoothly; meshed as part of that end, not as walls");
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
-}
-
-Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
-                       const RunContext& context)
-{
-    check_cancelled(context);
-    if (volume.full_turn)
-        throw NotSweepable("closure.full_turn_whole",
-                           "the volume runs round its whole turn and has no ends to close between; sweep "
-                           "it, or close the pieces that volume:cut() returns");
-    return close_holes_and_rest(volume, match, options, context);
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/void_geometry.h>
-#include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -61,15 +61,10 @@ std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vec
     constexpr std::size_t kMost = 16; // limits run time: each costs a copy of the faces
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
-        bool bare = false;
-        std::set<FaceId> beside;
-        for (const EdgeUse& use : uses_of(model[face])) {
-            const std::vector<FaceUse>& users = uses[use.edge.index()];
-            bare = bare || users.size() == 1;
-            for (const FaceUse& by : users)
-                if (by.face != face) beside.insert(by.face);
-        }
-        if (bare && !beside.empty() && plane_of(model, face)) found.emplace_back(beside.size(), face);
+        const bool bare = std::ranges::any_of(
+            uses_of(model[face]), [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        const std::size_t beside = faces_beside(model, uses, face).size();
+        if (bare && beside > 0 && plane_of(model, face)) found.emplace_back(beside, face);
     }
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, FaceId>::first);
     std::vector<FaceId> ends;
@@ -428,7 +423,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
     if (!mover.can_move()) return std::nullopt;
     stop = known(mover.missing_places());
     if (stop) return std::nullopt;
-    try {
+    return unless_refused([&] {
         mover.move(context);
         MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
         const matching::Match match = matching::match(result.volume, {}, context);
@@ -440,11 +435,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
         result.through = mover.has_bare_rim();
         result.holes = !holes_without_walls(open).empty();
         return result;
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
+    });
 }
 
 } // namespace

@@ -146,13 +146,7 @@ private:
     [[nodiscard]] Roles roles_of(const Part& part) const
     {
         Roles roles;
-        for (const FaceId face : part.skin) {
-            const Role role = parted_.volume.role[face.index()];
-            (role == Role::source   ? roles.source
-             : role == Role::target ? roles.target
-                                    : roles.walls)
-                .push_back(face);
-        }
+        for (const FaceId face : part.skin) list_of(roles, parted_.volume.role[face.index()]).push_back(face);
         std::vector<std::vector<FaceId>> across;
         for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
             // A cut in the plane of an end that it touches is part of that end.
@@ -164,10 +158,10 @@ private:
                 continue;
             }
             std::vector<FaceId>* const facing = faced_as(cut, part, roles);
-            if (facing != nullptr && !touches(cut, roles.source) && !touches(cut, roles.target))
+            const bool touched = touches(cut, roles.source) || touches(cut, roles.target);
+            if (facing != nullptr && !touched)
                 facing->insert(facing->end(), cut.begin(), cut.end());
-            else if (touches(cut, roles.source) || touches(cut, roles.target) ||
-                     (!roles.source.empty() && !roles.target.empty()))
+            else if (touched || (!roles.source.empty() && !roles.target.empty()))
                 roles.walls.insert(roles.walls.end(), cut.begin(), cut.end());
             else
                 across.push_back(std::move(cut));

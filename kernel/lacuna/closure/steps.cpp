@@ -20,6 +20,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 
 namespace lacuna::closure {
 
@@ -178,16 +179,14 @@ private:
             return made;
         };
         std::map<VertexId, VertexId> vertex_above;
-        std::map<VertexId, EdgeId> line;
+        std::set<VertexId> lined;
         const auto vertex = [&](VertexId v) {
             const auto known = vertex_above.find(v);
             if (known != vertex_above.end()) return known->second;
             return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
         };
         const auto side_line = [&](VertexId v) {
-            if (line.contains(v)) return;
-            const VertexId top = vertex(v);
-            line.emplace(v, add_void_edge(model_, v, top, {model_[v].point, model_[top].point}));
+            if (lined.insert(v).second) add_void_edge_through(model_, v, vertex(v));
         };
         for (const EdgeUse& use : rim.uses) {
             const std::vector<Index> low = use_points(model_, use);

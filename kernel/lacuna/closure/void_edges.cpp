@@ -71,6 +71,16 @@ std::vector<Spacing> spacing_of(const Model& model)
     return at;
 }
 
+/// Inner points of a course in so many segments.
+/// @param at  returns the point at a parameter in (0, 1)
+template <class At>
+std::vector<Vec3> inner_points(int segments, const At& at)
+{
+    std::vector<Vec3> points;
+    for (int i = 1; i < segments; ++i) points.push_back(at(static_cast<double>(i) / segments));
+    return points;
+}
+
 /// @param spacing  of the facet points at the gap's start; 0: unknown.
 std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spacing)
 {
@@ -78,12 +88,7 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
     const int segments = static_cast<int>(
         std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
-    std::vector<Vec3> points;
-    for (int i = 1; i < segments; ++i) {
-        const double f = static_cast<double>(i) / segments;
-        points.push_back((1 - f) * from + f * to);
-    }
-    return points;
+    return inner_points(segments, [&](double f) -> Vec3 { return (1 - f) * from + f * to; });
 }
 
 /// Follow the walls between the heights of the gap's ends, shifted to meet the ends.
@@ -102,13 +107,10 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     const std::size_t walls = follower.walls_at(model[gap.source].point);
     const Vec3 off_from = from - follower.morph(source, target, low, walls);
     const Vec3 off_to = to - follower.morph(source, target, high, walls);
-    std::vector<Vec3> points;
-    for (int i = 1; i < kMostSegments; ++i) {
-        const double f = static_cast<double>(i) / kMostSegments;
-        points.push_back(follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
-                         f * off_to);
-    }
-    return points;
+    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+        return follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
+               f * off_to;
+    });
 }
 
 /// Normal of an end at a vertex, weighted by the facets' angles; outward or inward like the faces.
@@ -191,12 +193,10 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
     const double theta = std::min(turn(tangents.leave) + turn(tangents.arrive), kMostTurn);
     const double handle = chord.norm() / (3 * std::pow(std::cos(theta / 4), 2));
     const Vec3 a = from + handle * tangents.leave, b = to - handle * tangents.arrive;
-    std::vector<Vec3> points;
-    for (int i = 1; i < kMostSegments; ++i) {
-        const double f = static_cast<double>(i) / kMostSegments, g = 1 - f;
-        points.push_back(g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to);
-    }
-    return points;
+    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+        const double g = 1 - f;
+        return g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to;
+    });
 }
 
 // --- given by the user ----------------------------------------------------------------------------------

@@ -27,6 +27,28 @@ std::set<VertexId> vertices_of(const Model& model, const std::vector<FaceId>& fa
     return vertices;
 }
 
+std::set<FaceId> faces_beside(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face)
+{
+    std::set<FaceId> beside;
+    for (const EdgeUse& use : uses_of(model[face]))
+        for (const FaceUse& by : uses[use.edge.index()]) beside.insert(by.face);
+    beside.erase(face);
+    return beside;
+}
+
+std::vector<FaceId> all_faces(const Roles& roles)
+{
+    std::vector<FaceId> all = roles.source;
+    all.insert(all.end(), roles.target.begin(), roles.target.end());
+    all.insert(all.end(), roles.walls.begin(), roles.walls.end());
+    return all;
+}
+
+std::vector<FaceId>& list_of(Roles& roles, Role role)
+{
+    return role == Role::source ? roles.source : role == Role::target ? roles.target : roles.walls;
+}
+
 std::vector<EdgeUse> rim_uses(const Model& model, const std::vector<FaceId>& faces)
 {
     std::vector<EdgeUse> uses;

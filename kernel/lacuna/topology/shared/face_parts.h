@@ -26,6 +26,16 @@ std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& f
 std::set<EdgeId> edges_of(const Model& model, const std::vector<FaceId>& faces);
 std::set<VertexId> vertices_of(const Model& model, const std::vector<FaceId>& faces);
 
+/// The other faces that share an edge with a face.
+/// @param uses  edge_uses() of the model
+std::set<FaceId> faces_beside(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face);
+
+/// The faces of all roles: source, target, walls.
+std::vector<FaceId> all_faces(const Roles& roles);
+
+/// The list of one role.
+std::vector<FaceId>& list_of(Roles& roles, Role role);
+
 /// The uses of edges along all rims of a set of faces, in the order of rims(), and their edges.
 std::vector<EdgeUse> rim_uses(const Model& model, const std::vector<FaceId>& faces);
 std::set<EdgeId> rim_edges(const Model& model, const std::vector<FaceId>& faces);
