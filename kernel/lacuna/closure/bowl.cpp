@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
@@ -37,8 +38,7 @@ struct Mouth {
 std::vector<Mouth> mouths(const Model& model)
 {
     std::vector<Mouth> found;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const FaceId id(f);
+    for (const FaceId id : all_faces(model)) {
         const Vec3 sum = face_area_vector(model, id);
         const double area = face_area(model, id);
         if (model[id].triangles.empty() || !(sum.norm() > (1 - kFlat) * area)) continue;
@@ -56,10 +56,8 @@ std::vector<Mouth> mouths(const Model& model)
     }
     std::erase_if(found, [&](const Mouth& mouth) {
         return std::ranges::any_of(model.faces, [&](const Face& face) {
-            return std::ranges::any_of(face.triangles, [&](const Triangle& t) {
-                return std::ranges::any_of(t, [&](Index p) {
-                    return geometry::height(mouth.plane, model.at(p)) > 10 * model.tolerance;
-                });
+            return std::ranges::any_of(corners_of(face), [&](Index p) {
+                return geometry::height(mouth.plane, model.at(p)) > 10 * model.tolerance;
             });
         });
     });
@@ -78,8 +76,8 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
 {
     double depth = 0;
     for (const Face& face : model.faces)
-        for (const Triangle& t : face.triangles)
-            for (const Index p : t) depth = std::max(depth, -geometry::height(mouth.plane, model.at(p)));
+        for (const Index p : corners_of(face))
+            depth = std::max(depth, -geometry::height(mouth.plane, model.at(p)));
     if (!(depth > model.tolerance)) return std::nullopt;
     std::array<double, kBins> area{}, across{}; // from the bottom up
     const auto bin = [&](double d) {
@@ -128,23 +126,20 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
     bowl.depth = *depth;
     geometry::Plane plane = mouth.plane;
     plane.origin -= *depth * plane.normal;
-    std::vector<FaceId> all(model.faces.size());
-    for (std::size_t f = 0; f < all.size(); ++f) all[f] = FaceId(f);
-    const std::vector<SectionWalk> walks = section_walks(model, all, plane, model.tolerance);
+    const std::vector<SectionWalk> walks = section_walks(model, all_faces(model), plane, model.tolerance);
     const auto open = [](const SectionWalk& walk) { return !walk.closed; };
     if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
     bowl.parent = imprint_walks(model, walks, plane, model.tolerance, context).parent;
     build_loops(model, context);
-    std::vector<FaceId> bottom, walls, top;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const bool at_mouth = has(mouth.faces, bowl.parent[f]);
         const bool below = geometry::height(plane, face_centroid(model, FaceId(f))) < 0;
         bowl.volume.role.push_back(at_mouth ? Role::target : below ? Role::source : Role::wall);
-        (at_mouth ? top : below ? bottom : walls).emplace_back(f);
     }
+    const std::vector<FaceId> bottom = bowl.volume.faces(Role::source);
     if (bottom.empty() || connected_parts(model, bottom).size() != 1) return std::nullopt;
-    const std::size_t loops = rims(model, top).size();
-    const auto rings = connected_parts(model, walls);
+    const std::size_t loops = rims(model, bowl.volume.faces(Role::target)).size();
+    const auto rings = connected_parts(model, bowl.volume.faces(Role::wall));
     if (rims(model, bottom).size() != loops || rings.size() != loops) return std::nullopt;
     if (!std::ranges::all_of(rings, [&](const auto& ring) { return join(model, ring); })) return std::nullopt;
     return bowl;

@@ -7,9 +7,11 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -72,8 +73,13 @@ std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
 class BranchFinder {
 public:
     BranchFinder(const OpenVolume& volume, const RunContext& context)
-        : volume_(volume), model_(volume.model), context_(context), uses_(edge_uses(volume.model))
+        : volume_(volume),
+          model_(volume.model),
+          context_(context),
+          uses_(edge_uses(volume.model)),
+          ends_(volume.faces(Role::source))
     {
+        std::ranges::copy(volume.faces(Role::target), std::back_inserter(ends_));
     }
 
     Branching run()
@@ -88,25 +94,15 @@ public:
     }
 
 private:
-    /// Marks the edges of faces that are ends.
-    [[nodiscard]] std::vector<bool> at_ends() const
-    {
-        std::vector<bool> result;
-        for (const std::vector<FaceUse>& users : uses_)
-            result.push_back(std::ranges::any_of(
-                users, [&](const FaceUse& use) { return volume_.role[use.face.index()] != Role::wall; }));
-        return result;
-    }
-
     void find_lines()
     {
         const std::vector<double> turns = concave_turns(volume_, context_);
-        const std::vector<bool> is_end = at_ends();
+        const std::set<EdgeId> at_ends = edges_of(model_, ends_);
         std::map<VertexId, std::vector<EdgeId>> at;
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (is_end[e] || turns[e] < kConcave * std::numbers::pi / 180) continue;
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * std::numbers::pi / 180) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
@@ -143,19 +139,8 @@ private:
             result_.faces[own].emplace_back(f);
         }
         result_.ends.assign(number.size(), {});
-        std::vector<FaceId> named = volume_.faces(Role::source);
-        const std::vector<FaceId> targets = volume_.faces(Role::target);
-        named.insert(named.end(), targets.begin(), targets.end());
-        for (const std::vector<FaceId>& end : connected_parts(model_, named)) {
-            Vec3 centre = Vec3::Zero();
-            double area = 0;
-            for (const FaceId face : end) {
-                centre += face_area(model_, face) * face_centroid(model_, face);
-                area += face_area(model_, face);
-            }
-            const std::size_t own = result_.region[end.front().index()];
-            result_.ends[own].emplace_back(centre / area);
-        }
+        for (const std::vector<FaceId>& end : connected_parts(model_, ends_))
+            result_.ends[result_.region[end.front().index()]].push_back(centroid_of(model_, end));
         for (const Rim& rim : free_loops(volume_)) {
             std::vector<EdgeId> edges;
             for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
@@ -186,12 +171,9 @@ private:
         const Vec3 normal = geometry::newell_vector(rim).normalized();
         double width = 0, depth = 0;
         for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
-        for (const FaceId face : result_.faces[mouth.branch]) {
-            for (const Triangle& t : model_[face].triangles) {
-                for (const Index p : t)
-                    depth = std::max(depth, std::abs((model_.at(p) - centre).dot(normal)));
-            }
-        }
+        for (const FaceId face : result_.faces[mouth.branch])
+            for (const Index p : corners_of(model_[face]))
+                depth = std::max(depth, std::abs((model_.at(p) - centre).dot(normal)));
         return depth > width / 2;
     }
 
@@ -199,6 +181,7 @@ private:
     const Model& model_;
     const RunContext& context_;
     std::vector<std::vector<FaceUse>> uses_;
+    std::vector<FaceId> ends_; ///< the faces of both
     Branching result_;
 };
 
@@ -243,20 +226,34 @@ public:
 private:
     [[noreturn]] void refuse(const Mouth& mouth, const std::string& why) const
     {
-        const FaceId branch = wall_at(mouth, mouth.branch), host = wall_at(mouth, mouth.host);
-        std::array<char, 160> hint{};
         const Reach own = reach(mouth);
-        const Vec3 before = centre_ + (own.low - centre_.dot(axis_)) * axis_,
-                   after = centre_ + (own.high - centre_.dot(axis_)) * axis_;
-        std::snprintf(hint.data(), hint.size(),
-                      "(%.4g, %.4g, %.4g) and (%.4g, %.4g, %.4g) with the normal {%.3g, %.3g, %.3g}",
-                      before.x(), before.y(), before.z(), after.x(), after.y(), after.z(), axis_.x(),
-                      axis_.y(), axis_.z());
+        const std::string normal = place_with_digits(axis_, 3);
         throw NotSweepable("closure.branches",
-                           "the branch of " + name_of(volume_.model, branch) + " on " +
-                               name_of(volume_.model, host) + " cannot be cut automatically: " + why +
+                           branch_in_words(mouth) + " cannot be cut automatically: " + why +
                                "; cut by hand with planes on both sides of its mouth, which lies between " +
-                               hint.data());
+                               place_with_digits(on_axis(own.low), 4) + " and " +
+                               place_with_digits(on_axis(own.high), 4) + " with the normal {" +
+                               normal.substr(1, normal.size() - 2) + "}");
+    }
+
+    [[nodiscard]] std::string branch_in_words(const Mouth& mouth) const
+    {
+        return "the branch of " + name_of(volume_.model, wall_at(mouth, mouth.branch)) + " on " +
+               name_of(volume_.model, wall_at(mouth, mouth.host));
+    }
+
+    /// The point of the axis at a height along it.
+    [[nodiscard]] Vec3 on_axis(double height) const
+    {
+        return centre_ + (height - centre_.dot(axis_)) * axis_;
+    }
+
+    /// Whether a face has an edge of a mouth.
+    [[nodiscard]] bool is_at(const Mouth& mouth, FaceId face) const
+    {
+        return std::ranges::any_of(uses_of(volume_.model[face]), [&](const EdgeUse& use) {
+            return std::ranges::find(mouth.edges, use.edge) != mouth.edges.end();
+        });
     }
 
     /// Refuse a branch that reaches past the side of the main body and so has its own end next to the mouth.
@@ -265,16 +262,10 @@ private:
         const Model& model = volume_.model;
         const Vec3 outward = way_out(mouth);
         for (const FaceId face : found_.faces[mouth.branch]) {
-            const bool beside = std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
-                return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) {
-                    return std::ranges::find(mouth.edges, use.edge) != mouth.edges.end();
-                });
-            });
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
-            if (!beside || facing <= kAlongWay * face_area(model, face)) continue;
+            if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
             throw NotSweepable("closure.branches",
-                               "the branch of " + name_of(model, wall_at(mouth, mouth.branch)) + " on " +
-                                   name_of(model, wall_at(mouth, mouth.host)) +
+                               branch_in_words(mouth) +
                                    " reaches beyond the side of the main body: " + name_of(model, face) +
                                    " at its mouth faces along the branch instead of across it"
                                    "; move the branch towards the middle, or make it narrower");
@@ -283,13 +274,9 @@ private:
 
     [[nodiscard]] FaceId wall_at(const Mouth& mouth, std::size_t region) const
     {
-        for (const FaceId face : found_.faces[region]) {
-            for (const Loop& loop : volume_.model[face].loops) {
-                for (const EdgeUse& use : loop.uses)
-                    if (std::ranges::find(mouth.edges, use.edge) != mouth.edges.end()) return face;
-            }
-        }
-        return found_.faces[region].front();
+        const std::vector<FaceId>& faces = found_.faces[region];
+        const auto wall = std::ranges::find_if(faces, [&](FaceId face) { return is_at(mouth, face); });
+        return wall != faces.end() ? *wall : faces.front();
     }
 
     /// The direction in which a branch leaves its mouth.
@@ -373,22 +360,18 @@ private:
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
-        std::vector<char> is_host(found_.region.size(), 0);
-        for (const FaceId face : found_.faces[found_.mouths.front().host])
-            is_host[face.index()] = volume_.role[face.index()] == Role::wall ? 1 : 0;
+        std::vector<FaceId> walls = found_.faces[found_.mouths.front().host];
+        std::erase_if(walls, [&](FaceId face) { return volume_.role[face.index()] != Role::wall; });
         for (const geometry::Plane& plane : planes) {
-            std::vector<FaceId> walls;
-            for (std::size_t f = 0; f < is_host.size(); ++f)
-                if (is_host[f] != 0) walls.emplace_back(f);
             Model& model = lined.model;
             std::vector<SectionWalk> walks = section_walks(model, walls, plane, model.tolerance);
             std::erase_if(walks, [&](const SectionWalk& walk) {
                 return is_beside_line(model, walls, walk, plane, kBeside * width());
             });
             const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
-            for (std::size_t f = is_host.size(); f < made.parent.size(); ++f) {
-                is_host.push_back(is_host[made.parent[f].index()]);
+            for (std::size_t f = lined.role.size(); f < made.parent.size(); ++f) {
                 lined.role.push_back(lined.role[made.parent[f].index()]);
+                if (std::ranges::find(walls, made.parent[f]) != walls.end()) walls.emplace_back(f);
             }
         }
         build_loops(lined.model);
@@ -414,17 +397,13 @@ private:
     {
         const Vec3 middle = geometry::from_plane(plane,
                                                  place_of(model, walk.places[walk.places.size() / 2], plane));
-        for (const FaceId wall : walls) {
-            for (const Loop& loop : model[wall].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    const std::vector<Index>& points = model[use.edge].points;
-                    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                        const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
-                        if (std::abs((b - a).dot(axis_)) < kSameSide * (b - a).norm()) continue;
-                        const double f = std::clamp(fraction_along(middle, a, b), 0.0, 1.0);
-                        if ((middle - ((1 - f) * a + f * b)).norm() <= near) return true;
-                    }
-                }
+        for (const EdgeId edge : edges_of(model, walls)) {
+            const std::vector<Index>& points = model[edge].points;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const Vec3 &a = model.at(points[i]), &b = model.at(points[i + 1]);
+                if (std::abs((b - a).dot(axis_)) < kSameSide * (b - a).norm()) continue;
+                const double f = std::clamp(fraction_along(middle, a, b), 0.0, 1.0);
+                if ((middle - ((1 - f) * a + f * b)).norm() <= near) return true;
             }
         }
         return false;
@@ -466,15 +445,8 @@ private:
         std::vector<double> heights;
         for (const double height : {own.low, own.high}) {
             const bool any = std::ranges::any_of(found_.faces[mouth.branch], [&](FaceId face) {
-                const bool at_mouth = std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
-                    return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) {
-                        return std::ranges::find(mouth.edges, use.edge) != mouth.edges.end();
-                    });
-                });
-                return at_mouth && std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
-                           return std::ranges::all_of(t, [&](Index p) {
-                               return std::abs(model.at(p).dot(axis_) - height) <= model.tolerance;
-                           });
+                return is_at(mouth, face) && std::ranges::all_of(corners_of(model[face]), [&](Index p) {
+                           return std::abs(model.at(p).dot(axis_) - height) <= model.tolerance;
                        });
             });
             if (any) heights.push_back(height);
@@ -486,30 +458,16 @@ private:
     {
         std::vector<StepPiece> pieces{{volume_, 0}};
         for (const double height : heights) {
-            const Vec3 origin = centre_ + (height - centre_.dot(axis_)) * axis_;
-            std::vector<StepPiece> cut;
-            for (const StepPiece& piece : pieces) {
-                try {
-                    for (StepPiece& own :
-                         cut_by_plane(piece.volume, geometry::plane_across(origin, axis_), context_))
-                        cut.push_back(std::move(own));
-                } catch (const NotSweepable& error) {
-                    if (error.code() != "closure.cut_misses") throw;
-                    cut.push_back(piece);
-                }
-            }
-            pieces = std::move(cut);
+            const geometry::Plane plane = geometry::plane_across(on_axis(height), axis_);
+            pieces = cut_each(std::move(pieces),
+                              [&](const OpenVolume& piece) { return cut_by_plane(piece, plane, context_); });
         }
         return pieces;
     }
 
     static Vec2 place_of(const Model& model, const SectionPlace& place, const geometry::Plane& plane)
     {
-        const Vec3& a = model.at(place.a);
-        if (place.b < 0) return geometry::to_plane(plane, a);
-        const Vec3& b = model.at(place.b);
-        const double ha = geometry::height(plane, a), hb = geometry::height(plane, b);
-        return geometry::to_plane(plane, a + ha / (ha - hb) * (b - a));
+        return geometry::to_plane(plane, place_at(model, place, plane));
     }
 
     /// Walks across the main body: those from mouth to mouth first, then closed ones next to them.
@@ -550,7 +508,8 @@ private:
         for (const Mouth* mouth : mouths)
             centre += geometry::mean_point(rim_places(*mouth)) / static_cast<double>(mouths.size());
         const geometry::Plane plane = geometry::plane_across(centre, axis_);
-        OpenVolume work = volume_;
+        PartedVolume parted{volume_};
+        OpenVolume& work = parted.volume;
         Model& model = work.model;
         const std::vector<SectionWalk> walks = walks_across(mouths, plane);
         const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
@@ -560,7 +519,6 @@ private:
         for (std::size_t f = 0; f < made.parent.size(); ++f)
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
-        PartedModel parted;
         Partition middle;
         std::map<VertexId, EdgeUse> onward; // by start vertex: from the end of a walk across its mouth
         for (const Mouth* mouth : mouths) {
@@ -612,9 +570,6 @@ private:
         work.role.push_back(Role::wall);
         parted.partitions.insert(parted.partitions.begin(), middle);
         build_loops(model);
-        parted.model = std::move(model);
-        parted.role = std::move(work.role);
-        parted.turned_round = volume_.turned_round;
         return pieces_of(parted,
                          "the cut at the branch of " +
                              name_of(volume_.model, wall_at(*mouths.front(), mouths.front()->branch)),
@@ -625,11 +580,7 @@ private:
     static std::vector<EdgeUse> mouth_walk(const Model& model, const std::vector<FaceId>& branch,
                                            const std::vector<FaceId>& host)
     {
-        std::set<EdgeId> edges;
-        for (const Rim& rim : rims(model, host)) {
-            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-        }
-        return walk_of(model, branch, edges);
+        return walk_of(model, branch, rim_edges(model, host));
     }
 
     /// Put the larger loop first.
@@ -680,26 +631,19 @@ private:
             top = p.dot(outward);
         }
         const double rim = ((a + b) / 2).dot(outward);
-        std::vector<Triangle> facets;
-        for (const FaceId face : found_.faces[mouth.host])
-            facets.insert(facets.end(), volume_.model[face].triangles.begin(),
-                          volume_.model[face].triangles.end());
+        const std::vector<Triangle> facets = facets_of(volume_.model, found_.faces[mouth.host]);
         const Vec3 start = (a + b) / 2 + (std::min(rim, top) - rim) * outward;
         const double down = geometry::FacetTree(volume_.model.points, facets).first_along(start, -outward).t;
         double lowest = top - wide;
         if (std::isfinite(down))
             lowest = std::max(lowest, top - kDeepest * (top - start.dot(outward) + down));
         const double deep = std::max(0.0, rim - lowest);
-        std::vector<Index> points{model[from].point};
-        if (deep > kChords * model.tolerance) {
-            for (int i = 1; i < kChords; ++i) {
-                const double u = 2.0 * i / kChords - 1;
-                points.push_back(static_cast<Index>(model.points.size()));
-                model.points.emplace_back((a + b) / 2 + u * (b - a) / 2 - deep * (1 - u * u) * outward);
-            }
+        std::vector<Vec3> between;
+        for (int i = 1; i < kChords && deep > kChords * model.tolerance; ++i) {
+            const double u = 2.0 * i / kChords - 1;
+            between.emplace_back((a + b) / 2 + u * (b - a) / 2 - deep * (1 - u * u) * outward);
         }
-        points.push_back(model[to].point);
-        return add_void_edge(model, from, to, std::move(points));
+        return add_void_edge_through(model, from, to, between);
     }
 
     const OpenVolume& volume_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/cavities.h>
 
-#include <lacuna/core/error.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/topology/shared/hollows.h>
 
 #include <algorithm>
@@ -31,16 +31,10 @@ const char* word(VolumeClass value, std::size_t mouths)
 
 std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
 {
-    try {
-        const std::vector<Reading> readings = find_readings(model, faces, context);
-        if (readings.size() != 1) return std::nullopt;
-        const VolumeClass value = readings.front().classification.value;
-        return Cavity{word(value, rims(model, faces).size()), faces, value, readings.front().enclosed};
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
+    const auto readings = unless_refused([&] { return find_readings(model, faces, context); });
+    if (!readings || readings->size() != 1) return std::nullopt;
+    const VolumeClass value = readings->front().classification.value;
+    return Cavity{word(value, rims(model, faces).size()), faces, value, readings->front().enclosed};
 }
 
 /// Hollows that share a whole rim, merged.
@@ -48,15 +42,13 @@ std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Ho
 {
     const std::vector<std::size_t> first = joined_hollows(model, hollows);
     std::map<std::size_t, std::vector<FaceId>> by_root;
-    std::map<std::size_t, std::size_t> count;
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         std::vector<FaceId>& faces = by_root[first[h]];
         faces.insert(faces.end(), hollows[h].faces.begin(), hollows[h].faces.end());
-        ++count[first[h]];
     }
     std::vector<std::vector<FaceId>> result;
     for (auto& [root, faces] : by_root) {
-        if (count[root] < 2) continue;
+        if (faces.size() == hollows[root].faces.size()) continue; // alone
         std::sort(faces.begin(), faces.end());
         result.push_back(std::move(faces));
     }
@@ -71,8 +63,7 @@ std::vector<Cavity> cavities(const Model& model, const RunContext& context)
     std::vector<std::vector<FaceId>> groups;
     for (const Hollow& hollow : found) groups.push_back(hollow.faces);
     for (std::vector<FaceId>& faces : joined(model, found)) groups.push_back(std::move(faces));
-    std::stable_sort(groups.begin(), groups.end(),
-                     [](const auto& a, const auto& b) { return a.front() < b.front(); });
+    std::ranges::stable_sort(groups, {}, [](const auto& faces) { return faces.front(); });
     std::vector<Cavity> result;
     for (const std::vector<FaceId>& faces : groups) {
         check_cancelled(context);

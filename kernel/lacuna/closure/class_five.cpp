@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/class_five.h>
 
+#include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -45,12 +47,9 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
                          {open[0], open[1]},
                          {loop_places(model, open[0].uses), loop_places(model, open[1].uses)}});
     }
-    std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& a, const Tube& b) {
-        const auto size = [](const Tube& tube) {
-            return geometry::newell_vector(tube.points[0]).norm() +
-                   geometry::newell_vector(tube.points[1]).norm();
-        };
-        return size(a) > size(b);
+    std::ranges::stable_sort(tubes, std::greater{}, [](const Tube& tube) {
+        return geometry::newell_vector(tube.points[0]).norm() +
+               geometry::newell_vector(tube.points[1]).norm();
     });
     return tubes;
 }
@@ -91,13 +90,9 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
 /// Reverse the tubes inside another, so that all walls face the void.
 void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
 {
-    const std::array<std::vector<Vec3>, 1> outer{tubes.front().points[0]};
-    const geometry::Plane plane = geometry::newell_plane(outer);
+    const geometry::Plane plane = geometry::newell_plane({&tubes.front().points[0], 1});
     std::vector<std::vector<Vec2>> flat;
-    for (const Tube& tube : tubes) {
-        std::vector<Vec2>& loop = flat.emplace_back();
-        for (const Vec3& p : tube.points[0]) loop.push_back(geometry::to_plane(plane, p));
-    }
+    for (const Tube& tube : tubes) flat.push_back(flat_places(plane, tube.points[0]));
     for (std::size_t i = 1; i < tubes.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t j = 0; j < tubes.size(); ++j)
@@ -114,10 +109,7 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
             geometry::newell_vector(tubes[i].points[0]).dot(geometry::newell_vector(tubes.front().points[0]));
         if (along > 0) {
             flip_faces(volume.model, tubes[i].walls);
-            for (Rim& rim : tubes[i].rim) {
-                std::reverse(rim.uses.begin(), rim.uses.end());
-                for (EdgeUse& use : rim.uses) use.reversed = !use.reversed;
-            }
+            for (Rim& rim : tubes[i].rim) rim.uses = reversed(rim).uses;
         }
     }
 }
@@ -154,19 +146,17 @@ std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loo
         const auto is_of_loop = [&](const EdgeUse& use) {
             return std::ranges::any_of(loop.uses, [&](const EdgeUse& own) { return own.edge == use.edge; });
         };
-        const std::array<std::vector<Vec3>, 1> rim{loop_places(model, loop.uses)};
-        const geometry::Plane plane = geometry::newell_plane(rim);
+        const std::vector<Vec3> rim = loop_places(model, loop.uses);
+        const geometry::Plane plane = geometry::newell_plane({&rim, 1});
         for (const FaceId wall : volume.faces(Role::wall)) {
             const Face& face = model[wall];
             std::size_t around = 0;
             bool goes_on = face.loops.size() > 1;
-            for (const Loop& own : face.loops) {
-                for (const EdgeUse& use : own.uses) {
-                    if (is_of_loop(use))
-                        ++around;
-                    else
-                        goes_on = goes_on && uses[use.edge.index()].size() == 2;
-                }
+            for (const EdgeUse& use : uses_of(face)) {
+                if (is_of_loop(use))
+                    ++around;
+                else
+                    goes_on = goes_on && uses[use.edge.index()].size() == 2;
             }
             if (goes_on && around == loop.uses.size() && lies_in_plane(model, wall, plane))
                 floors.push_back(wall);

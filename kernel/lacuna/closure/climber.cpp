@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/climber.h>
 
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -20,16 +21,11 @@ constexpr double kOnward = 0.7071;
 
 Climber::Climber(const OpenVolume& volume) : model_(volume.model)
 {
-    std::set<EdgeId> of_ends;
-    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-        for (const Loop& loop : model_.faces[f].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const bool wall = volume.role[f] == Role::wall;
-                (wall ? walls_ : of_ends).insert(use.edge);
-                if (!wall) on_end_.insert(use_from(model_, use));
-            }
-        }
-    }
+    std::vector<FaceId> ends = volume.faces(Role::source);
+    std::ranges::copy(volume.faces(Role::target), std::back_inserter(ends));
+    const std::set<EdgeId> of_ends = edges_of(model_, ends);
+    on_end_ = vertices_of(model_, ends);
+    walls_ = edges_of(model_, volume.faces(Role::wall));
     for (const EdgeId edge : walls_) {
         if (of_ends.contains(edge)) continue;
         for (const bool reversed : {false, true})

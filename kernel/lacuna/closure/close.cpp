@@ -13,7 +13,10 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -87,22 +90,13 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
 double lean_of(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    std::array<Vec3, 2> facing, middle;
-    for (const Role end : {Role::source, Role::target}) {
-        Vec3 sum = Vec3::Zero(), at = Vec3::Zero();
-        double area = 0;
-        for (const FaceId face : volume.faces(end)) {
-            sum += face_area_vector(model, face);
-            at += face_area(model, face) * face_centroid(model, face);
-            area += face_area(model, face);
-        }
-        facing[end == Role::source ? 0 : 1] = sum.stableNormalized();
-        middle[end == Role::source ? 0 : 1] = at / area;
-    }
-    const Vec3 way = middle[1] - middle[0];
-    for (Vec3& normal : facing)
-        if (normal.dot(way) < 0) normal = -normal;
-    return std::atan2(facing[0].cross(facing[1]).norm(), facing[0].dot(facing[1]));
+    const std::vector<FaceId> source = volume.faces(Role::source), target = volume.faces(Role::target);
+    const Vec3 way = centroid_of(model, target) - centroid_of(model, source);
+    const auto facing = [&](const std::vector<FaceId>& end) -> Vec3 {
+        const Vec3 normal = area_vector_of(model, end).stableNormalized();
+        return normal.dot(way) < 0 ? Vec3(-normal) : normal;
+    };
+    return geometry::angle_between(facing(source), facing(target));
 }
 
 /// Ends without walls at a larger angle are closed by a bend, as straight edges would graze both. Rule of
@@ -117,6 +111,12 @@ constexpr double kToBeSaid = 0.01;
 double share_between(double taken, const std::optional<double>& other)
 {
     return other ? std::abs(*other - taken) / taken : 0;
+}
+
+/// A shape as a recipe names it. @pre not automatic
+const char* word(EdgeShape shape)
+{
+    return shape == EdgeShape::straight ? "straight" : shape == EdgeShape::follow ? "follow" : "smooth";
 }
 
 /// Whether an option asks for a shape.
@@ -134,8 +134,8 @@ void assume_walls(const OpenVolume& sealed, const char* code, std::string text, 
     double open = 0;
     for (const FaceId face : closure.void_faces) {
         double perimeter = 0;
-        for (const Loop& loop : sealed.model[face].loops)
-            for (const EdgeUse& use : loop.uses) perimeter += edge_length(sealed.model, use.edge);
+        for (const EdgeUse& use : uses_of(sealed.model[face]))
+            perimeter += edge_length(sealed.model, use.edge);
         if (sealed.role[face.index()] == Role::wall)
             open += std::pow(face_area(sealed.model, face), 2) / perimeter;
     }
@@ -185,7 +185,6 @@ public:
             try {
                 Closure closure = seal_as(way, match);
                 say_what_else(way, match, closure);
-                say_what_is_filled(closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -262,11 +261,7 @@ private:
                       : "the angle between the ends is " + with_digits(lean * 180 / std::numbers::pi, 3) +
                             "° and no given wall determines the bend between them: void edges are " +
                             (straight ? "straight" : "curves that leave both ends square");
-        text += std::string("; close{ edge_shape = \"") +
-                (other == EdgeShape::straight ? "straight"
-                 : leads()                    ? "follow"
-                                              : "smooth") +
-                "\" } " +
+        text += std::string("; close{ edge_shape = \"") + word(other) + "\" } " +
                 (instead ? "encloses " + with_digits(*instead, 4) + " instead of " + with_digits(taken, 4)
                          : "is the alternative");
         assume(closure,
@@ -276,19 +271,15 @@ private:
                std::move(text), share);
     }
 
-    /// Note a missing end with missing walls that was closed by several flat faces.
-    void say_what_is_filled(Closure& closure) const
+    /// Note a missing end with missing walls that was closed by several flat faces, void faces whose rim does
+    /// not determine their inside, and those that may close off a pocket.
+    void say_what_is_open(Closure& closure) const
     {
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
             assume_walls(sealed_, "closure.walls_filled",
                          "walls next to the missing target end below it; flat faces that meet in "
                          "straight edges continue them",
                          closure);
-    }
-
-    /// Note void faces whose rim does not determine their inside, and those that may close off a pocket.
-    void say_what_is_open(Closure& closure) const
-    {
         note_open_rims(sealed_, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
         note_closed_holes(volume_.model, all_faces(volume_.model), sealed_, closure);
@@ -326,25 +317,22 @@ private:
         if (!has_two_ends(value_)) return otherwise;
         if (options_.edge_shape != EdgeShape::automatic) {
             if (value_ != VolumeClass::I) look_at_walls();
-            for (const auto& [shape, word] : {std::pair{EdgeShape::straight, "straight"},
-                                              {EdgeShape::follow, "follow"},
-                                              {EdgeShape::smooth, "smooth"}}) {
+            for (const EdgeShape shape : {EdgeShape::straight, EdgeShape::follow, EdgeShape::smooth}) {
                 if (shape == options_.edge_shape || (shape == EdgeShape::follow && !leads())) continue;
                 if (would_seal({shape}, match))
-                    return std::string("; close{ edge_shape = \"") + word + "\" } seals it";
+                    return std::string("; close{ edge_shape = \"") + word(shape) + "\" } seals it";
             }
         }
         matching::MatchOptions turned;
         turned.vertices = pairs_by_hand(volume_, options_);
-        std::string loops;
-        for (const matching::LoopPair& pair : match.loops) {
-            turned.flip.push_back(pair.source);
-            loops += (loops.empty() ? "" : ", ") + std::to_string(pair.source + 1);
-        }
+        for (const matching::LoopPair& pair : match.loops) turned.flip.push_back(pair.source);
         try {
             const matching::Match other = matching::match(volume_, turned, context_);
             for (const Way& way : wanted(other)) {
-                if (would_seal(way, other)) return "; match{ flip = { " + loops + " } } seals it";
+                if (would_seal(way, other))
+                    return "; match{ flip = { " +
+                           full_list(turned.flip, [](int loop) { return std::to_string(loop + 1); }) +
+                           " } } seals it";
             }
         } catch (const NotClosed&) {
         } catch (const InvalidInput&) { // the direction is fixed by walls or pairs
@@ -366,13 +354,9 @@ private:
 bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 {
     const std::vector<EdgeId> free = free_edges(volume);
-    const auto is_free = [&](const EdgeUse& use) {
-        return std::find(free.begin(), free.end(), use.edge) != free.end();
-    };
-    const std::vector<Gap> gaps = find_gaps(volume, match);
-    return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
-        return std::any_of(gap.below.begin(), gap.below.end(), is_free) ||
-               std::any_of(gap.above.begin(), gap.above.end(), is_free);
+    const auto is_free = [&](const EdgeUse& use) { return std::ranges::find(free, use.edge) != free.end(); };
+    return std::ranges::any_of(find_gaps(volume, match), [&](const Gap& gap) {
+        return std::ranges::any_of(gap.below, is_free) || std::ranges::any_of(gap.above, is_free);
     });
 }
 
@@ -489,9 +473,14 @@ std::string in_words(const Model& model, const std::vector<EndHole>& holes, cons
 }
 
 /// Seal a volume, including holes without walls in its ends.
-Closure close_holes_and_rest(OpenVolume& volume, const matching::Match& match, const Asked& options,
-                             const RunContext& context)
+Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
+                       const RunContext& context)
 {
+    check_cancelled(context);
+    if (volume.full_turn)
+        throw NotSweepable("closure.full_turn_whole",
+                           "the volume runs round its whole turn and has no ends to close between; sweep "
+                           "it, or close the pieces that volume:cut() returns");
     const VolumeClass whole = classify(volume).value;
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);
@@ -519,26 +508,14 @@ void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
 }
 
-Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
-                       const RunContext& context)
-{
-    check_cancelled(context);
-    if (volume.full_turn)
-        throw NotSweepable("closure.full_turn_whole",
-                           "the volume runs round its whole turn and has no ends to close between; sweep "
-                           "it, or close the pieces that volume:cut() returns");
-    return close_holes_and_rest(volume, match, options, context);
-}
-
 } // namespace
 
 std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const CloseOptions& options)
 {
     const auto tags = [&](Role end) {
         std::set<int> result;
-        for (const Rim& rim : rims(volume.model, volume.faces(end))) {
-            for (const EdgeUse& use : rim.uses) result.insert(volume.model[use_from(volume.model, use)].tag);
-        }
+        for (const EdgeUse& use : rim_uses(volume.model, volume.faces(end)))
+            result.insert(volume.model[use_from(volume.model, use)].tag);
         return result;
     };
     const std::set<int> source = tags(Role::source), target = tags(Role::target);

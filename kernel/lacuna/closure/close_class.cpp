@@ -7,6 +7,7 @@
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <set>
@@ -20,14 +21,41 @@ namespace {
 void note(Closure& closure, const std::string& algorithm)
 {
     auto& list = closure.algorithms;
-    if (std::find(list.begin(), list.end(), algorithm) == list.end()) list.push_back(algorithm);
+    if (std::ranges::find(list, algorithm) == list.end()) list.push_back(algorithm);
+}
+
+/// A missing target with the source's shape, moved to the walls' rim by the affine map fitted to the walls'
+/// sections.
+VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
+                         const RunContext& context)
+{
+    const Model& model = volume.model;
+    OpenVolume capped = volume; // the walls define a motion only between two ends
+    add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
+    const Follower follower(capped, matching::side_lines(capped, context), context);
+    if (!follower.leads()) {
+        throw NotClosed("closure.nothing_parallel",
+                        name + " cannot be parallel to the given end: the walls do not determine its motion "
+                               "to their rim; use cap = \"flat\"");
+    }
+    std::vector<Vec3> points;
+    for (const Vec3& p : model.points) points.push_back(follower.carried(p));
+    const std::vector<Triangle> triangles = facets_of(model, volume.faces(Role::source));
+    double sides = 0;
+    for (const Triangle& t : triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            sides += (points[index(t[(i + 1) % 3])] - points[index(t[i])]).norm();
+    return fill_as(volume, loops, geometry::FacetTree(points, triangles),
+                   sides / static_cast<double>(3 * triangles.size()), name, context);
 }
 
 void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
               const Tools& tools)
 {
     const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
-    VoidFilling filling = fill(volume, loops, tools.bending(), name, tools.context);
+    VoidFilling filling = tools.way.cap == Cap::parallel
+                              ? parallel_cap(volume, loops, name, tools.context)
+                              : fill(volume, loops, tools.bending(), name, tools.context);
     note(closure, filling.algorithm);
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
@@ -37,11 +65,9 @@ void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loo
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
-    const std::vector<FaceId> all = all_faces(volume.model);
-    for (const std::vector<FaceId>& part : connected_parts(volume.model, all)) {
+    for (const std::vector<FaceId>& part : connected_parts(volume.model, all_faces(volume.model))) {
         const auto holds = [&](Role role) {
-            return std::any_of(part.begin(), part.end(),
-                               [&](FaceId face) { return volume.role[face.index()] == role; });
+            return std::ranges::any_of(part, [&](FaceId face) { return volume.role[face.index()] == role; });
         };
         if (holds(Role::target) && !holds(Role::source)) flip_faces(volume.model, part);
     }
@@ -61,11 +87,11 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
     const auto uses = edge_uses(volume.model);
     for (std::size_t l = 0; l < match.source_loops.size(); ++l) {
         const std::vector<EdgeUse>& rim = match.source_loops[l].uses;
-        const bool bare = std::all_of(rim.begin(), rim.end(),
-                                      [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
-        const bool matched = std::any_of(match.vertices.begin(), match.vertices.end(), [&](const auto& pair) {
-            return std::any_of(rim.begin(), rim.end(),
-                               [&](const EdgeUse& use) { return use_from(volume.model, use) == pair.first; });
+        const bool bare = std::ranges::all_of(
+            rim, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        const bool matched = std::ranges::any_of(rim, [&](const EdgeUse& use) {
+            return std::ranges::any_of(
+                match.vertices, [&](const auto& pair) { return pair.first == use_from(volume.model, use); });
         });
         if (!bare || matched) continue;
         throw NotClosed("closure.unmatched_loop",
@@ -95,48 +121,12 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// A missing target with the source's shape, moved to the walls' rim by the affine map fitted to the walls'
-/// sections.
-VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
-                         const RunContext& context)
-{
-    const Model& model = volume.model;
-    OpenVolume capped = volume; // the walls define a motion only between two ends
-    add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
-    const Follower follower(capped, matching::side_lines(capped, context), context);
-    if (!follower.leads()) {
-        throw NotClosed("closure.nothing_parallel",
-                        name + " cannot be parallel to the given end: the walls do not determine its motion "
-                               "to their rim; use cap = \"flat\"");
-    }
-    std::vector<Vec3> points;
-    for (const Vec3& p : model.points) points.push_back(follower.carried(p));
-    std::vector<Triangle> triangles;
-    double sides = 0;
-    for (const FaceId face : volume.faces(Role::source)) {
-        for (const Triangle& t : model[face].triangles) {
-            triangles.push_back(t);
-            for (std::size_t i = 0; i < 3; ++i)
-                sides += (points[static_cast<std::size_t>(t[(i + 1) % 3])] -
-                          points[static_cast<std::size_t>(t[i])])
-                             .norm();
-        }
-    }
-    return fill_as(volume, loops, geometry::FacetTree(points, triangles),
-                   sides / static_cast<double>(3 * triangles.size()), name, context);
-}
-
 /// Eq. (3) and (4): the free loops of source and walls are those of the target.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
-    std::set<EdgeId> on_source;
-    for (const FaceId face : volume.faces(Role::source)) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) on_source.insert(use.edge);
-        }
-    }
+    const std::set<EdgeId> on_source = edges_of(model, volume.faces(Role::source));
     std::vector<Loop> loops;
     for (const Rim& rim : free_loops(volume)) {
         for (const EdgeUse& use : rim.uses) {
@@ -164,13 +154,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             return;
         }
     }
-    if (tools.way.cap == Cap::flat) {
-        add_face(volume, closure, loops, Role::target, tools);
-        return;
-    }
-    VoidFilling filling = parallel_cap(volume, loops, "void face 1", tools.context);
-    note(closure, filling.algorithm);
-    closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::target));
+    add_face(volume, closure, loops, Role::target, tools);
 }
 
 /// Eq. (5) to (8): the free loops, sorted into two sets, are those of source and target. Departure: a floor
@@ -213,10 +197,7 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         close_class_five(volume, tools, closure);
         break;
     }
-    if (enclosed_volume(volume) < 0) {
-        const std::vector<FaceId> all = all_faces(volume.model);
-        flip_faces(volume.model, all);
-    }
+    if (enclosed_volume(volume) < 0) flip_faces(volume.model, all_faces(volume.model));
     return closure;
 }
 

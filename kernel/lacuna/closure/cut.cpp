@@ -4,22 +4,22 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/plane.h>
-#include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/matching/match.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/section.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
 #include <unordered_map>
@@ -48,11 +48,12 @@ double signed_area(std::span<const Vec2> loop)
 class PlaneCutter {
 public:
     PlaneCutter(const OpenVolume& volume, const geometry::Plane& plane, const RunContext& context)
-        : context_(context), plane_(plane), tolerance_(volume.model.tolerance)
+        : context_(context),
+          plane_(plane),
+          tolerance_(volume.model.tolerance),
+          parted_{volume},
+          model_(parted_.volume.model)
     {
-        parted_.model = volume.model;
-        parted_.role = volume.role;
-        parted_.turned_round = volume.turned_round;
     }
 
     /// @param within  null, or facets of a face: only regions that contain some of them are cut.
@@ -60,12 +61,13 @@ public:
     {
         find_walks();
         if (within != nullptr) choose(*within);
-        const WalkImprint made = imprint_walks(parted_.model, walks_, plane_, tolerance_, context_);
-        for (std::size_t f = parted_.role.size(); f < made.parent.size(); ++f)
-            parted_.role.push_back(parted_.role[made.parent[f].index()]);
+        const WalkImprint made = imprint_walks(model_, walks_, plane_, tolerance_, context_);
+        std::vector<Role>& role = parted_.volume.role;
+        for (std::size_t f = role.size(); f < made.parent.size(); ++f)
+            role.push_back(role[made.parent[f].index()]);
         parted_.plane = plane_;
         add_partitions(made);
-        build_loops(parted_.model);
+        build_loops(model_);
         return pieces_of(parted_, "the plane", context_);
     }
 
@@ -73,23 +75,14 @@ private:
     [[nodiscard]] std::vector<Vec2> outline(const SectionWalk& walk) const
     {
         std::vector<Vec2> line;
-        for (const SectionPlace& place : walk.places) {
-            const Vec3& a = parted_.model.at(place.a);
-            if (place.b < 0) {
-                line.push_back(geometry::to_plane(plane_, a));
-                continue;
-            }
-            const Vec3& b = parted_.model.at(place.b);
-            const double ha = geometry::height(plane_, a), hb = geometry::height(plane_, b);
-            line.push_back(geometry::to_plane(plane_, a + ha / (ha - hb) * (b - a)));
-        }
+        for (const SectionPlace& place : walk.places)
+            line.push_back(geometry::to_plane(plane_, place_at(model_, place, plane_)));
         return line;
     }
 
     void find_walks()
     {
-        Model& model = parted_.model;
-        walks_ = section_walks(model, all_faces(model), plane_, tolerance_);
+        walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
         double most = 0;
         for (const SectionWalk& walk : walks_) {
             const double area = signed_area(outline(walk));
@@ -98,33 +91,30 @@ private:
         // Walks round the inside of the skin are clockwise. Otherwise the skin faces inward, and facets in
         // the plane would be assigned to the wrong side.
         if (most > 0) {
-            flip_faces(model, all_faces(model));
-            walks_ = section_walks(model, all_faces(model), plane_, tolerance_);
+            flip_faces(model_, all_faces(model_));
+            walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
         }
         if (walks_.empty()) refuse_miss();
     }
 
     [[noreturn]] void refuse_miss() const
     {
-        const Model& model = parted_.model;
         double least = std::numeric_limits<double>::infinity(), most = -least;
         std::vector<FaceId> touched;
-        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        for (const FaceId face : all_faces(model_)) {
             bool touches = false;
-            for (const Triangle& t : model.faces[f].triangles) {
-                for (const Index p : t) {
-                    const double h = geometry::height(plane_, model.at(p));
-                    least = std::min(least, h);
-                    most = std::max(most, h);
-                    touches = touches || std::abs(h) <= tolerance_;
-                }
+            for (const Index p : corners_of(model_[face])) {
+                const double h = geometry::height(plane_, model_.at(p));
+                least = std::min(least, h);
+                most = std::max(most, h);
+                touches = touches || std::abs(h) <= tolerance_;
             }
-            if (touches) touched.emplace_back(f);
+            if (touches) touched.push_back(face);
         }
         const std::string where = "the volume lies from " + number(least) + " to " + number(most) +
                                   " along the normal from the point given";
         if (!touched.empty())
-            throw NotSweepable("closure.cut_misses", "the plane only touches " + names_of(model, touched) +
+            throw NotSweepable("closure.cut_misses", "the plane only touches " + names_of(model_, touched) +
                                                          " and cuts nothing: " + where);
         if (least < 0 && most > 0)
             throw NotSweepable("closure.cut_misses",
@@ -140,18 +130,11 @@ private:
         for (const SectionWalk& walk : walks_) loops.push_back(outline(walk));
         std::vector<SectionWalk> kept;
         for (const std::vector<std::size_t>& region : regions_of(loops)) {
-            std::vector<Vec2> flat;
-            std::vector<std::vector<Index>> rings;
-            for (const std::size_t l : region) {
-                rings.emplace_back();
-                for (const Vec2& p : loops[l]) {
-                    rings.back().push_back(static_cast<Index>(flat.size()));
-                    flat.push_back(p);
-                }
-            }
-            geometry::TriangulateOptions options;
-            options.interior_points = false;
-            const geometry::Triangulation facets = geometry::triangulate(flat, rings, options, context_);
+            Outline outline;
+            for (const std::size_t l : region) outline.add_loop(loops[l]);
+            const std::vector<Vec2>& flat = outline.flat;
+            const geometry::Triangulation facets = geometry::triangulate(
+                flat, outline.loops, {.interior_points = false}, context_);
             const bool met = std::ranges::any_of(facets.triangles, [&](const Triangle& t) {
                 const Vec2 centre = (flat[index(t[0])] + flat[index(t[1])] + flat[index(t[2])]) / 3;
                 return within.closest(geometry::from_plane(plane_, centre), tolerance_ * tolerance_)
@@ -168,13 +151,7 @@ private:
 
     [[nodiscard]] std::vector<Vec2> flat_line(const std::vector<EdgeUse>& uses) const
     {
-        std::vector<Vec2> line;
-        for (const EdgeUse& use : uses) {
-            const std::vector<Index> points = use_points(parted_.model, use);
-            for (std::size_t i = line.empty() ? 0 : 1; i < points.size(); ++i)
-                line.push_back(geometry::to_plane(plane_, parted_.model.at(points[i])));
-        }
-        return line;
+        return flat_places(plane_, use_places(model_, uses));
     }
 
     /// Next open line of each, such that the straight connections between them are shortest and cross
@@ -200,8 +177,7 @@ private:
     [[nodiscard]] bool is_clean(const std::vector<std::vector<Vec2>>& lines,
                                 const std::vector<std::size_t>& follower) const
     {
-        std::vector<Vec2> points;
-        std::vector<std::vector<Index>> rings;
+        Outline outline;
         std::vector<char> seen(lines.size(), 0);
         for (std::size_t i = 0; i < lines.size(); ++i) {
             if (seen[i] != 0) continue;
@@ -216,18 +192,13 @@ private:
             for (std::size_t k = 0; k < loop.size(); ++k)
                 length += (loop[(k + 1) % loop.size()] - loop[k]).norm();
             if (loop.size() < 3 || std::abs(signed_area(loop)) < kSlit * length * length) return false;
-            rings.emplace_back();
-            for (const Vec2& p : loop) {
-                rings.back().push_back(static_cast<Index>(points.size()));
-                points.push_back(p);
-            }
+            outline.add_loop(loop);
         }
-        return !geometry::find_crossing(points, rings);
+        return !geometry::find_crossing(outline.flat, outline.loops);
     }
 
     void add_partitions(const WalkImprint& made)
     {
-        Model& model = parted_.model;
         std::vector<std::vector<EdgeUse>> loops, skin; // with and without edges across gaps
         std::vector<std::vector<EdgeUse>> open;
         for (std::size_t w = 0; w < walks_.size(); ++w) {
@@ -256,11 +227,9 @@ private:
                     seen[k] = 1;
                     loop.insert(loop.end(), open[k].begin(), open[k].end());
                     rim.insert(rim.end(), open[k].begin(), open[k].end());
-                    const VertexId from = use_to(model, open[k].back()),
-                                   to = use_from(model, open[follower[k]].front());
-                    if (from != to)
-                        loop.push_back(
-                            {add_void_edge(model, from, to, {model[from].point, model[to].point}), false});
+                    const VertexId from = use_to(model_, open[k].back()),
+                                   to = use_from(model_, open[follower[k]].front());
+                    if (from != to) loop.push_back({add_void_edge_through(model_, from, to), false});
                 }
             }
         }
@@ -277,7 +246,7 @@ private:
                 partition.behind.insert(partition.behind.end(), skin[l].begin(), skin[l].end());
             }
             try {
-                partition.face = add_partition(model, rings, plane_, context_);
+                partition.face = add_partition(model_, rings, plane_, context_);
             } catch (const InvalidInput& error) {
                 throw NotSweepable(
                     "closure.cut_touches",
@@ -286,14 +255,15 @@ private:
                         error.what() + ")");
             }
             parted_.partitions.push_back(std::move(partition));
-            parted_.role.push_back(Role::wall);
+            parted_.volume.role.push_back(Role::wall);
         }
     }
 
     const RunContext& context_;
     geometry::Plane plane_;
     double tolerance_;
-    PartedModel parted_;
+    PartedVolume parted_;
+    Model& model_;
     std::vector<SectionWalk> walks_;
 };
 
@@ -301,11 +271,8 @@ private:
 class EdgePartition {
 public:
     EdgePartition(const OpenVolume& volume, const Model& model, FaceId face)
-        : model_(model), face_(face), tolerance_(volume.model.tolerance)
+        : model_(model), face_(face), tolerance_(volume.model.tolerance), parted_{volume}
     {
-        parted_.model = volume.model;
-        parted_.role = volume.role;
-        parted_.turned_round = volume.turned_round;
     }
 
     /// Whether the rim runs along edges; otherwise stores the place where it leaves them.
@@ -313,13 +280,14 @@ public:
     {
         std::vector<Triangle> dots;
         std::vector<Index> of_edges;
-        for (const Edge& edge : parted_.model.edges)
+        const Model& whole = parted_.volume.model;
+        for (const Edge& edge : whole.edges)
             of_edges.insert(of_edges.end(), edge.points.begin(), edge.points.end());
         for (const Index p : of_edges) dots.push_back({p, p, p});
-        const geometry::FacetTree tree(parted_.model.points, dots);
+        const geometry::FacetTree tree(whole.points, dots);
         std::unordered_map<std::uint64_t, EdgeUse> use;
-        for (std::size_t e = 0; e < parted_.model.edges.size(); ++e) {
-            const std::vector<Index>& points = parted_.model.edges[e].points;
+        for (std::size_t e = 0; e < whole.edges.size(); ++e) {
+            const std::vector<Index>& points = whole.edges[e].points;
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                 use.try_emplace(directed_key(points[i], points[i + 1]), EdgeUse{EdgeId(e), false});
                 use.try_emplace(directed_key(points[i + 1], points[i]), EdgeUse{EdgeId(e), true});
@@ -348,17 +316,13 @@ public:
 
     std::vector<StepPiece> run(const RunContext& context)
     {
-        Model& model = parted_.model;
+        Model& model = parted_.volume.model;
         Face face = model_[face_];
         if (face.name.empty() && face.origin == Origin::made_void) face.name = partition_name(model);
-        for (Triangle& t : face.triangles) {
-            for (Index& p : t) p = point(p);
-        }
-        for (Quad& quad : face.given_quads) {
-            for (Index& p : quad) p = point(p);
-        }
+        for (Index& p : face.triangles | std::views::join) p = point(p);
+        for (Index& p : face.given_quads | std::views::join) p = point(p);
         parted_.partitions.push_back({FaceId(model.faces.size()), rim_});
-        parted_.role.push_back(Role::wall);
+        parted_.volume.role.push_back(Role::wall);
         model.faces.push_back(std::move(face));
         build_loops(model);
         return pieces_of(parted_, name_of(model_, face_), context);
@@ -367,15 +331,16 @@ public:
 private:
     Index point(Index p)
     {
-        const auto [found, fresh] = there_.try_emplace(p, static_cast<Index>(parted_.model.points.size()));
-        if (fresh) parted_.model.points.push_back(model_.at(p));
+        std::vector<Vec3>& points = parted_.volume.model.points;
+        const auto [found, fresh] = there_.try_emplace(p, static_cast<Index>(points.size()));
+        if (fresh) points.push_back(model_.at(p));
         return found->second;
     }
 
     const Model& model_;
     FaceId face_;
     double tolerance_;
-    PartedModel parted_;
+    PartedVolume parted_;
     std::map<Index, Index> there_; ///< points of the face to points of the volume
     std::vector<EdgeUse> rim_;
     Vec3 off_ = Vec3::Zero();
@@ -443,18 +408,14 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
     EdgePartition partition(volume, model, face);
     if (!own && partition.fits()) return partition.run(context);
     const std::optional<geometry::Plane> plane = plane_of(model, face);
-    if (!plane) {
-        std::array<char, 96> place{};
-        std::snprintf(place.data(), place.size(), "(%.4g, %.4g, %.4g)", partition.off().x(),
-                      partition.off().y(), partition.off().z());
-        throw NotSweepable(
-            "closure.cut_face",
-            name_of(model, face) + " is curved" +
-                (own ? " and one of the volume's own"
-                     : ", and its rim leaves the volume's edges at " + std::string(place.data())) +
-                "; a curved face cuts only if its whole rim is on edges of the volume, "
-                "a flat one cuts by its plane");
-    }
+    if (!plane)
+        throw NotSweepable("closure.cut_face",
+                           name_of(model, face) + " is curved" +
+                               (own ? " and one of the volume's own"
+                                    : ", and its rim leaves the volume's edges at " +
+                                          place_with_digits(partition.off(), 4)) +
+                               "; a curved face cuts only if its whole rim is on edges of the volume, "
+                               "a flat one cuts by its plane");
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);
     return cut_within(volume, *plane, &facets, context);

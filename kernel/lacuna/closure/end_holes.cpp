@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/end_holes.h>
 
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/void_geometry.h>
-#include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -54,19 +54,15 @@ HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, 
 {
     RunContext quiet = context;
     quiet.log = nullptr;
-    const auto encloses = [&](Holes holes) -> std::optional<double> {
+    const auto encloses = [&](Holes holes) {
         CloseOptions asked = options;
         asked.holes = holes;
         asked.take_guess = true;
-        OpenVolume sealed = volume;
-        try {
+        return unless_refused([&] {
+            OpenVolume sealed = volume;
             close(sealed, {}, asked, quiet);
-        } catch (const NotClosed&) { // reported as a volume that cannot be sealed
-            return std::nullopt;
-        } catch (const InvalidInput&) {
-            return std::nullopt;
-        }
-        return enclosed_volume(sealed);
+            return enclosed_volume(sealed);
+        });
     };
     return {encloses(Holes::cover), encloses(Holes::through)};
 }

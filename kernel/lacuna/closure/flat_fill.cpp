@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 
 #include <lacuna/closure/detail/guesses.h>
+#include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
@@ -10,6 +11,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -35,17 +37,16 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loop
 {
     std::vector<Coplanar> planes;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-        const std::vector<std::vector<Vec3>> loop{loop_places(model, loops[i].uses)};
-        const std::vector<Vec3>& points = loop.front();
-        const auto own = std::find_if(planes.begin(), planes.end(), [&](const Coplanar& other) {
-            return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+        const std::vector<Vec3> points = loop_places(model, loops[i].uses);
+        const auto own = std::ranges::find_if(planes, [&](const Coplanar& other) {
+            return std::ranges::all_of(points, [&](const Vec3& p) {
                 return std::abs(geometry::height(other.plane, p)) <= model.tolerance;
             });
         });
         if (own != planes.end())
             own->loops.push_back(i);
         else
-            planes.push_back({geometry::newell_plane(loop), {i}});
+            planes.push_back({geometry::newell_plane({&points, 1}), {i}});
     }
     return planes;
 }
@@ -82,11 +83,8 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     for (const Coplanar& one : by_plane(model, loops)) {
         check_cancelled(context);
         std::vector<std::vector<Vec2>> flat;
-        for (const std::size_t loop : one.loops) {
-            flat.emplace_back();
-            for (const Vec3& p : loop_places(model, loops[loop].uses))
-                flat.back().push_back(geometry::to_plane(one.plane, p));
-        }
+        for (const std::size_t loop : one.loops)
+            flat.push_back(flat_places(one.plane, loop_places(model, loops[loop].uses)));
         for (const std::vector<std::size_t>& region : regions_of(flat)) {
             std::vector<std::vector<EdgeUse>> bounds;
             for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
@@ -143,9 +141,7 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
 {
     constexpr double kAsSteep = 1e-6; ///< cosines closer than this are equal, as for the two slopes of a roof
     const Model& model = filling.volume.model;
-    Vec3 way = Vec3::Zero();
-    for (const FaceId face : source) way -= face_area_vector(model, face);
-    way = way.stableNormalized();
+    const Vec3 way = -area_vector_of(model, source).stableNormalized();
     const auto facing = [&](FaceId face) {
         return face_area_vector(model, face).stableNormalized().dot(way);
     };
@@ -167,8 +163,8 @@ bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source
 /// Whether a loop lies on a sphere, a circular cylinder or a cone.
 bool lies_on_round_face(const Model& model, const Rim& rim)
 {
-    const std::vector<std::vector<Vec3>> places{loop_places(model, rim.uses)};
-    return std::ranges::any_of(shapes_of_rim(model, {{rim.uses}}, geometry::newell_plane(places)).told,
+    const std::vector<Vec3> places = loop_places(model, rim.uses);
+    return std::ranges::any_of(shapes_of_rim(model, {{rim.uses}}, geometry::newell_plane({&places, 1})).told,
                                [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
 }
 
@@ -184,8 +180,8 @@ bool is_flat(const Model& model, const Rim& rim)
     for (std::size_t i = 0; i < points.size(); ++i)
         area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean);
     const Vec3 normal = area.stableNormalized();
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
+    return std::ranges::all_of(
+        points, [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
 }
 
 bool has_flat_loops(const Model& model, FaceId face)

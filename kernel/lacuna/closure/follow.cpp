@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/matching/shared/guides.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +43,8 @@ double radius_of(const topology::OpenVolume& volume, topology::Role end)
 {
     const topology::Model& model = volume.model;
     std::vector<Vec3> points;
-    for (const topology::Rim& rim : topology::rims(model, volume.faces(end))) {
-        for (const topology::EdgeUse& use : rim.uses) {
-            for (const Index p : model[use.edge].points) points.push_back(model.at(p));
-        }
-    }
+    for (const topology::EdgeUse& use : topology::rim_uses(model, volume.faces(end)))
+        for (const Index p : model[use.edge].points) points.push_back(model.at(p));
     return mean_radius(points);
 }
 
@@ -55,6 +53,14 @@ double off_line(const Vec3& point, const Vec3& from, const Vec3& way)
 {
     const Vec3 off = point - from;
     return (off - off.dot(way) * way).norm();
+}
+
+/// The upper median of some numbers. @pre there are some
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
 }
 
 /// How far the walls stray from straight lines between the rims, as a share of the rims' radius: the median
@@ -83,10 +89,8 @@ double bow_of(const std::vector<std::vector<Vec3>>& levels)
         for (std::size_t i = 0; i < n; ++i)
             strays[i] = std::max(strays[i], tree.closest(levels[k][i]).distance2);
     }
-    const auto middle = strays.begin() + static_cast<std::ptrdiff_t>(n / 2);
-    std::nth_element(strays.begin(), middle, strays.end());
     const double radius = mean_radius(levels.front());
-    return radius > 0 ? std::sqrt(*middle) / radius : 0;
+    return radius > 0 ? std::sqrt(median(std::move(strays))) / radius : 0;
 }
 
 } // namespace
@@ -123,10 +127,7 @@ Follower::Way Follower::way_of(const std::vector<std::vector<Vec3>>& levels, con
 
 double Follower::missed_by_all(const topology::Model& model, const matching::LoopSections& loop) const
 {
-    std::vector<Triangle> facets;
-    for (const FaceId face : loop.faces)
-        facets.insert(facets.end(), model[face].triangles.begin(), model[face].triangles.end());
-    const geometry::FacetTree tree(model.points, facets);
+    const geometry::FacetTree tree(model.points, topology::facets_of(model, loop.faces));
     std::vector<double> missed;
     for (std::size_t k = 1; k + 1 < loop.levels.size(); ++k) {
         const double t = static_cast<double>(k) / kLevels;
@@ -134,10 +135,8 @@ double Follower::missed_by_all(const topology::Model& model, const matching::Loo
             missed.push_back(
                 std::sqrt(tree.closest(morph(loop.levels.front()[i], loop.levels.back()[i], t)).distance2));
     }
-    const auto middle = missed.begin() + static_cast<std::ptrdiff_t>(missed.size() / 2);
-    std::nth_element(missed.begin(), middle, missed.end());
     const double radius = mean_radius(loop.levels.front());
-    return radius > 0 ? *middle / radius : 0;
+    return radius > 0 ? median(std::move(missed)) / radius : 0;
 }
 
 std::size_t Follower::walls_at(Index rim_point) const

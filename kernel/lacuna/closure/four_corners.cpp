@@ -35,7 +35,7 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
     const std::vector<Vec3> points = use_places(model, side);
     const Vec3 chord = points.back() - points.front();
     const Vec3 along = chord.stableNormalized();
-    return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+    return std::ranges::all_of(points, [&](const Vec3& p) {
         return (p - points.front()).cross(along).norm() <= std::max(model.tolerance, 1e-6 * chord.norm());
     });
 }

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
@@ -56,12 +57,7 @@ geometry::Spread spread_of_walls(const Model& model)
 double section_length(const Model& model, const std::vector<FaceId>& faces, const geometry::Plane& plane)
 {
     double length = 0;
-    const auto place = [&](const SectionPlace& at) -> Vec3 {
-        const Vec3& a = model.at(at.a);
-        if (at.b < 0) return a;
-        const double ha = geometry::height(plane, a), hb = geometry::height(plane, model.at(at.b));
-        return a + ha / (ha - hb) * (model.at(at.b) - a);
-    };
+    const auto place = [&](const SectionPlace& at) { return place_at(model, at, plane); };
     for (const SectionWalk& walk : section_walks(model, faces, plane, model.tolerance)) {
         for (std::size_t i = walk.closed ? 0 : 1; i < walk.places.size(); ++i) {
             const std::size_t before = (i + walk.places.size() - 1) % walk.places.size();
@@ -114,23 +110,14 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
 double arc_length(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    std::vector<Triangle> walls;
-    for (const FaceId wall : volume.faces(Role::wall))
-        walls.insert(walls.end(), model[wall].triangles.begin(), model[wall].triangles.end());
+    const std::vector<Triangle> walls = facets_of(model, volume.faces(Role::wall));
     std::map<Index, double> ends;
     std::vector<Vec3> line(kSections + 1, Vec3::Zero());
     for (const Role end : {Role::source, Role::target}) {
-        const double value = end == Role::source ? 0 : 1;
-        double area = 0;
-        Vec3& middle = end == Role::source ? line.front() : line.back();
-        for (const FaceId face : volume.faces(end)) {
-            for (const Triangle& t : model[face].triangles) {
-                for (const Index p : t) ends[p] = value;
-            }
-            middle += face_area(model, face) * face_centroid(model, face);
-            area += face_area(model, face);
-        }
-        middle /= area;
+        const std::vector<FaceId> faces = volume.faces(end);
+        for (const Triangle& t : facets_of(model, faces))
+            for (const Index p : t) ends[p] = end == Role::source ? 0 : 1;
+        (end == Role::source ? line.front() : line.back()) = centroid_of(model, faces);
     }
     geometry::HarmonicProblem problem;
     problem.points = model.points;
@@ -196,9 +183,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
             std::vector<StepPiece> pieces = cut_by_plane(volume, candidate.plane, context);
             if (is_cut_across(pieces)) {
                 const double first = arc_length(pieces[0].volume), second = arc_length(pieces[1].volume);
-                if (first > 0 && second > 0) pieces[0].turn_to = first / (first + second);
-                if (!(first > 0 && second > 0)) pieces[0].turn_to = kHalf;
-                pieces[1].turn_from = pieces[0].turn_to;
+                const bool measured = first > 0 && second > 0;
+                pieces[0].turn_to = pieces[1].turn_from = measured ? first / (first + second) : kHalf;
                 return pieces;
             }
             if (why.empty())

@@ -9,6 +9,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -62,24 +63,17 @@ std::optional<Between> between(const Model& model, FaceId face, const geometry::
     return sum;
 }
 
-/// The plane through the centre of a face, normal to its area vector. @pre the area vector is not zero
-geometry::Plane middle_plane(const Model& model, FaceId face)
-{
-    return geometry::plane_across(face_centroid(model, face), face_area_vector(model, face));
-}
-
 /// Volume between a void face and the plane through its centre [model length³].
 double beside_plane(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return 0;
-    return between(model, face, middle_plane(model, face), [](const Vec2&) { return std::optional(0.0); })
-        ->all;
+    return between(model, face, mean_plane(model, face), [](const Vec2&) { return std::optional(0.0); })->all;
 }
 
 Between beside_thin_plate(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return {}; // the face has no mean normal
-    const geometry::Plane plane = middle_plane(model, face);
+    const geometry::Plane plane = mean_plane(model, face);
     const ThinPlate plate = plate_over(plane, model, model[face].loops);
     return *between(model, face, plane, [&](const Vec2& p) { return std::optional(plate.height(p)); });
 }
@@ -201,7 +195,7 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
     const Model& model = sealed.model;
     const bool smooth = model[face].geometry == Geometry::newell || is_end_between_bent_sides(sealed, face);
     if (!smooth || has_flat_loops(model, face)) return false;
-    const geometry::Plane plane = middle_plane(model, face);
+    const geometry::Plane plane = mean_plane(model, face);
     const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
     const auto is_far_off = [&](const QuadricSheet& sheet) {
         const auto off = between(model, face, plane, [&](const Vec2& p) { return sheet.height(p); });
@@ -275,42 +269,24 @@ std::string in_words(const std::set<int>& tags)
     return text;
 }
 
-/// The faces that share an edge with a face.
-std::set<FaceId> faces_round(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face)
-{
-    std::set<FaceId> round;
-    for (const Loop& loop : model[face].loops)
-        for (const EdgeUse& use : loop.uses)
-            for (const FaceUse& by : uses[use.edge.index()])
-                if (by.face != face) round.insert(by.face);
-    return round;
-}
-
 /// The given face with a hole that a void face closes in its plane, if there is one.
 std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                       FaceId filler)
 {
-    const std::set<FaceId> round = faces_round(model, uses, filler);
+    const std::set<FaceId> round = faces_beside(model, uses, filler);
     if (round.size() != 1 || model[*round.begin()].loops.size() < 2) return std::nullopt;
     const auto plane = plane_of(model, *round.begin());
     if (!plane || !lies_in_plane(model, filler, *plane)) return std::nullopt;
     return *round.begin();
 }
 
-std::set<VertexId> vertices_of(const Model& model, FaceId face)
-{
-    std::set<VertexId> result;
-    for (const Loop& loop : model[face].loops)
-        for (const EdgeUse& use : loop.uses) result.insert(use_from(model, use));
-    return result;
-}
-
 /// Whether a void face has no vertex in common with a given one.
 bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
-    const std::set<VertexId> own = vertices_of(model, face);
+    const std::set<VertexId> own = vertices_of(model, std::vector{face});
     return std::ranges::any_of(void_faces, [&](FaceId other) {
-        return std::ranges::none_of(vertices_of(model, other), [&](VertexId v) { return own.contains(v); });
+        return std::ranges::none_of(uses_of(model[other]),
+                                    [&](const EdgeUse& use) { return own.contains(use_from(model, use)); });
     });
 }
 
@@ -347,7 +323,7 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
 /// Largest distance of the other void faces from the plane of one [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
-    const geometry::Plane plane = middle_plane(model, face);
+    const geometry::Plane plane = mean_plane(model, face);
     double reach = 0;
     for (const FaceId other : void_faces)
         reach = std::max(reach, std::abs(geometry::height(plane, face_centroid(model, other))));
@@ -372,7 +348,7 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
     for (const FaceId face : closure.void_faces) {
         if (!is_in_doubt(sealed, enclosed, face, by)) continue;
         std::set<int> tags;
-        for (const FaceId other : faces_round(model, edge_uses(model), face))
+        for (const FaceId other : faces_beside(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
         return "the shape of the missing face beside " + in_words(tags) +
                " is ambiguous: its rim is not planar";

@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <utility>
@@ -28,10 +29,7 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
     for (std::size_t f = 0; f < bowl->parent.size(); ++f) {
         const std::size_t given = bowl->parent[f].index();
         if (given >= faces.size()) continue;
-        const Role role = bowl->volume.role[f];
-        std::vector<FaceId>& list = role == Role::source   ? roles.source
-                                    : role == Role::target ? roles.target
-                                                           : roles.walls;
+        std::vector<FaceId>& list = list_of(roles, bowl->volume.role[f]);
         if (std::ranges::find(list, faces[given]) == list.end()) list.push_back(faces[given]);
     }
     reading.classification.value = filled->closure.void_faces.empty() ? VolumeClass::closed

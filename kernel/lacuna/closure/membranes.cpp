@@ -4,6 +4,8 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
@@ -41,16 +43,12 @@ struct Heights {
 
 Heights heights_of(const Model& model, FaceId face)
 {
-    const std::vector<Triangle>& facets = model[face].triangles;
-    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face),
-                                                         face_area_vector(model, face));
-    Heights result{Eigen::Matrix2Xd(2, 3 * facets.size()), Eigen::VectorXd(3 * facets.size())};
-    Eigen::Index i = 0;
-    for (const Triangle& t : facets) {
-        for (const Index p : t) {
-            result.place.col(i) = geometry::to_plane(plane, model.at(p));
-            result.height(i++) = geometry::height(plane, model.at(p));
-        }
+    const auto corners = static_cast<Eigen::Index>(3 * model[face].triangles.size());
+    const geometry::Plane plane = mean_plane(model, face);
+    Heights result{Eigen::Matrix2Xd(2, corners), Eigen::VectorXd(corners)};
+    for (Eigen::Index i = 0; const Index p : corners_of(model[face])) {
+        result.place.col(i) = geometry::to_plane(plane, model.at(p));
+        result.height(i++) = geometry::height(plane, model.at(p));
     }
     return result;
 }
@@ -72,16 +70,13 @@ double off_quadratic(const Heights& heights, double extent)
 bool lies_as_told(const Model& model, FaceId face)
 {
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
-    const geometry::Plane plane = geometry::plane_across(face_centroid(model, face),
-                                                         face_area_vector(model, face));
+    const geometry::Plane plane = mean_plane(model, face);
     const double off = kOnIt * heights_of(model, face).bulge();
     const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
     return std::ranges::any_of(shapes.told, [&](const QuadricSheet& sheet) {
-        return std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
-            return std::ranges::all_of(t, [&](Index p) {
-                const auto told = sheet.height(geometry::to_plane(plane, model.at(p)));
-                return told && std::abs(*told - geometry::height(plane, model.at(p))) <= off;
-            });
+        return std::ranges::all_of(corners_of(model[face]), [&](Index p) {
+            const auto told = sheet.height(geometry::to_plane(plane, model.at(p)));
+            return told && std::abs(*told - geometry::height(plane, model.at(p))) <= off;
         });
     });
 }
@@ -117,11 +112,9 @@ bool bends_as_rim(const Model& model, FaceId face)
     // Sample straight edges as densely as curved ones.
     constexpr int kOnEdge = 16;
     std::vector<Vec3> rim;
-    for (const Loop& loop : model[face].loops) {
-        for (const EdgeUse& use : loop.uses) {
-            const std::vector<Vec3> along = geometry::even_places(use_places(model, use), kOnEdge);
-            rim.insert(rim.end(), along.begin(), along.end() - 1);
-        }
+    for (const EdgeUse& use : uses_of(model[face])) {
+        const std::vector<Vec3> along = geometry::even_places(use_places(model, use), kOnEdge);
+        rim.insert(rim.end(), along.begin(), along.end() - 1);
     }
     Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
     for (const Vec3& p : rim) sum += powers_at(p) * powers_at(p).transpose();
@@ -135,9 +128,8 @@ bool bends_as_rim(const Model& model, FaceId face)
         return std::abs(powers_at(at).dot(q)) / slope.norm() * extent; // to first order
     };
     return std::ranges::all_of(rim, [&](const Vec3& p) { return off(p) <= kOnIt * bulge; }) &&
-           std::ranges::all_of(model[face].triangles, [&](const Triangle& t) {
-               return std::ranges::all_of(t, [&](Index p) { return off(model.at(p)) <= kNearIt * bulge; });
-           });
+           std::ranges::all_of(corners_of(model[face]),
+                               [&](Index p) { return off(model.at(p)) <= kNearIt * bulge; });
 }
 
 bool is_membrane(const Model& model, FaceId face)

@@ -4,12 +4,13 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/void_geometry.h>
-#include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -21,6 +22,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 
@@ -59,17 +61,10 @@ std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vec
     constexpr std::size_t kMost = 16; // limits run time: each costs a copy of the faces
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
-        bool bare = false;
-        std::set<FaceId> beside;
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const std::vector<FaceUse>& users = uses[use.edge.index()];
-                bare = bare || users.size() == 1;
-                for (const FaceUse& by : users)
-                    if (by.face != face) beside.insert(by.face);
-            }
-        }
-        if (bare && !beside.empty() && plane_of(model, face)) found.emplace_back(beside.size(), face);
+        const bool bare = std::ranges::any_of(
+            uses_of(model[face]), [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+        const std::size_t beside = faces_beside(model, uses, face).size();
+        if (bare && beside > 0 && plane_of(model, face)) found.emplace_back(beside, face);
     }
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, FaceId>::first);
     std::vector<FaceId> ends;
@@ -96,8 +91,7 @@ public:
     [[nodiscard]] bool can_move()
     {
         const Model& model = volume_.model;
-        for (const Rim& rim : rims(model, end_))
-            for (const EdgeUse& use : rim.uses) on_end_.insert(use_from(model, use));
+        for (const EdgeUse& use : rim_uses(model, end_)) on_end_.insert(use_from(model, use));
         for (const Rim& rim : rims(model, volume_.faces(Role::wall)))
             if (!index_rim(rim)) return false;
         for (const Rim& rim : rims(model, end_))
@@ -111,14 +105,14 @@ public:
         std::vector<Loop> loops;
         for (const std::vector<Stretch>& rim : rims_) {
             Loop& loop = loops.emplace_back();
-            for (auto stretch = rim.rbegin(); stretch != rim.rend(); ++stretch) {
-                if (stretch->top.empty()) {
-                    for (auto use = stretch->foot.rbegin(); use != stretch->foot.rend(); ++use)
-                        loop.uses.push_back(moved(*use));
+            for (const Stretch& stretch : rim | std::views::reverse) {
+                if (stretch.top.empty()) {
+                    for (const EdgeUse& use : stretch.foot | std::views::reverse)
+                        loop.uses.push_back(moved(use));
                     continue;
                 }
-                for (auto use = stretch->top.rbegin(); use != stretch->top.rend(); ++use)
-                    loop.uses.push_back({use->edge, !use->reversed});
+                for (const EdgeUse& use : stretch.top | std::views::reverse)
+                    loop.uses.push_back({use.edge, !use.reversed});
             }
         }
         VoidFilling filling = fill(volume_, loops, nullptr, "the moved end", context);
@@ -129,14 +123,12 @@ public:
     [[nodiscard]] std::vector<Vec3> missing_places() const
     {
         std::vector<Vec3> result;
-        for (const std::vector<Stretch>& rim : rims_) {
-            for (const Stretch& stretch : rim) {
-                if (!stretch.top.empty()) continue;
-                for (const EdgeUse& use : stretch.foot) {
-                    for (const Vec3& p : geometry::even_places(use_places(volume_.model, use), kSamples)) {
-                        result.push_back(motion_(p));
-                        result.push_back((p + motion_(p)) / 2);
-                    }
+        for (const Stretch& stretch : rims_ | std::views::join) {
+            if (!stretch.top.empty()) continue;
+            for (const EdgeUse& use : stretch.foot) {
+                for (const Vec3& p : geometry::even_places(use_places(volume_.model, use), kSamples)) {
+                    result.push_back(motion_(p));
+                    result.push_back((p + motion_(p)) / 2);
                 }
             }
         }
@@ -237,11 +229,12 @@ private:
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
         const Vec3 from = geometry::newell_vector(std::span(low).first(low.size() - 1)),
                    to = geometry::newell_vector(std::span(high).first(high.size() - 1));
-        const Vec3 mean_low = geometry::mean_point(geometry::even_places(low, kSamples));
+        const std::vector<Vec3> feet = geometry::even_places(low, kSamples);
+        const Vec3 mean_low = geometry::mean_point(feet);
         const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kSamples));
         const double scale = std::sqrt(to.norm() / from.norm());
         const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from, to); // without a twist
-        for (const Vec3& p : geometry::even_places(low, kSamples)) {
+        for (const Vec3& p : feet) {
             from_.push_back(p);
             to_.push_back(mean_high + scale * (turn * (p - mean_low)));
         }
@@ -250,21 +243,21 @@ private:
 
     void add_samples(const Stretch& stretch)
     {
-        const std::vector<Vec3> low = geometry::even_places(use_places(volume_.model, stretch.foot),
-                                                            kSamples),
-                                high = geometry::even_places(use_places(volume_.model, stretch.top),
-                                                             kSamples);
-        from_.insert(from_.end(), low.begin(), low.end());
-        to_.insert(to_.end(), high.begin(), high.end());
+        std::ranges::copy(sampled(stretch.foot), std::back_inserter(from_));
+        std::ranges::copy(sampled(stretch.top), std::back_inserter(to_));
+    }
+
+    [[nodiscard]] std::vector<Vec3> sampled(const std::vector<EdgeUse>& uses) const
+    {
+        return geometry::even_places(use_places(volume_.model, uses), kSamples);
     }
 
     /// Whether every free edge is at the end's rim, or at the top or side of a wall.
     [[nodiscard]] bool accounts_for_all() const
     {
         std::set<EdgeId> known = accounted_;
-        for (const std::vector<Stretch>& rim : rims_)
-            for (const Stretch& stretch : rim)
-                for (const EdgeUse& use : stretch.top) known.insert(use.edge);
+        for (const Stretch& stretch : rims_ | std::views::join)
+            for (const EdgeUse& use : stretch.top) known.insert(use.edge);
         return known.size() == free_count_;
     }
 
@@ -275,14 +268,11 @@ private:
         double width = 0;
         for (const Vec3& p : from_) width = std::max(width, (p - from_.front()).norm());
         const auto fits = [&] {
-            for (const std::vector<Stretch>& rim : rims_) {
-                for (const Stretch& stretch : rim) {
-                    if (stretch.top.empty()) continue;
-                    const std::vector<Vec3> top = use_places(volume_.model, stretch.top);
-                    for (const Vec3& p :
-                         geometry::even_places(use_places(volume_.model, stretch.foot), kSamples))
-                        if (off_chain(motion_(p), top) > kOnTop * width) return false;
-                }
+            for (const Stretch& stretch : rims_ | std::views::join) {
+                if (stretch.top.empty()) continue;
+                const std::vector<Vec3> top = use_places(volume_.model, stretch.top);
+                for (const Vec3& p : sampled(stretch.foot))
+                    if (off_chain(motion_(p), top) > kOnTop * width) return false;
             }
             for (const auto& [foot, top] : above_) {
                 const Vec3 p = motion_(volume_.model.at(volume_.model[foot].point));
@@ -337,14 +327,11 @@ private:
     /// Whether no part of the rim without walls stays in place, where the ends would coincide.
     [[nodiscard]] bool moves_all(double width) const
     {
-        for (const std::vector<Stretch>& rim : rims_) {
-            for (const Stretch& stretch : rim) {
-                if (!stretch.top.empty()) continue;
-                for (const Vec3& p : geometry::even_places(use_places(volume_.model, stretch.foot), kSamples))
-                    if ((motion_(p) - p).norm() <= kOnTop * width) return false;
-            }
-        }
-        return true;
+        return std::ranges::all_of(rims_ | std::views::join, [&](const Stretch& stretch) {
+            return !stretch.top.empty() || std::ranges::all_of(sampled(stretch.foot), [&](const Vec3& p) {
+                return (motion_(p) - p).norm() > kOnTop * width;
+            });
+        });
     }
 
     /// Whether walls along enough of the end's outline, its longest loop, determine its scale.
@@ -399,14 +386,12 @@ private:
         const std::vector<double> arc = geometry::arc_lengths(low);
         const Vec3 off_from = model.at(model[from].point) - motion_(low.front());
         const Vec3 off_to = model.at(model[to].point) - motion_(low.back());
-        std::vector<Index> points{model[from].point};
+        std::vector<Vec3> between;
         for (std::size_t i = 1; i + 1 < low.size(); ++i) {
             const double f = arc[i] / arc.back();
-            points.push_back(static_cast<Index>(model.points.size()));
-            model.points.push_back(motion_(low[i]) + (1 - f) * off_from + f * off_to);
+            between.push_back(motion_(low[i]) + (1 - f) * off_from + f * off_to);
         }
-        points.push_back(model[to].point);
-        made_edges_.push_back(add_void_edge(model, from, to, std::move(points)));
+        made_edges_.push_back(add_void_edge_through(model, from, to, between));
         return {made_edges_.back(), true};
     }
 
@@ -438,7 +423,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
     if (!mover.can_move()) return std::nullopt;
     stop = known(mover.missing_places());
     if (stop) return std::nullopt;
-    try {
+    return unless_refused([&] {
         mover.move(context);
         MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
         const matching::Match match = matching::match(result.volume, {}, context);
@@ -450,11 +435,7 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
         result.through = mover.has_bare_rim();
         result.holes = !holes_without_walls(open).empty();
         return result;
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
+    });
 }
 
 } // namespace

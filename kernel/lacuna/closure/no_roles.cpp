@@ -10,6 +10,7 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -42,9 +43,7 @@ constexpr int kDigits = 9;
 /// A list of faces in recipe syntax.
 std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
 {
-    std::string text;
-    for (const FaceId face : faces) text += (text.empty() ? "{ " : ", ") + std::to_string(model[face].tag);
-    return text + " }";
+    return "{ " + full_list(faces, [&](FaceId face) { return std::to_string(model[face].tag); }) + " }";
 }
 
 std::string plane_in_words(const Model& model, const Vec3& point, const Vec3& normal)

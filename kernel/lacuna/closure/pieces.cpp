@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/pieces.h>
 
+#include <lacuna/closure/detail/outline.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/auto_roles.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +33,12 @@ struct Part {
 
 class Parter {
 public:
-    Parter(const PartedModel& parted, const std::string& what, const RunContext& context)
-        : parted_(parted), model_(parted.model), what_(what), context_(context), uses_(edge_uses(model_))
+    Parter(const PartedVolume& parted, const std::string& what, const RunContext& context)
+        : parted_(parted),
+          model_(parted.volume.model),
+          what_(what),
+          context_(context),
+          uses_(edge_uses(model_))
     {
     }
 
@@ -121,10 +127,8 @@ private:
             roles.walls = parts_[i].skin;
             roles.walls.insert(roles.walls.end(), parts_[i].partitions.begin(), parts_[i].partitions.end());
             const Model part = open_volume(model_, roles, context_).model;
-            std::vector<Triangle> triangles;
-            for (const Face& face : part.faces)
-                triangles.insert(triangles.end(), face.triangles.begin(), face.triangles.end());
-            const double winding = std::abs(geometry::FacetTree(part.points, triangles).winding_number(p));
+            const geometry::FacetTree facets(part.points, facets_of(part, all_faces(part)));
+            const double winding = std::abs(facets.winding_number(p));
             if (winding <= most) continue;
             most = winding;
             best = i;
@@ -135,29 +139,14 @@ private:
     /// Whether some faces share an edge or a vertex with faces of a role.
     [[nodiscard]] bool touches(const std::vector<FaceId>& faces, const std::vector<FaceId>& ends) const
     {
-        std::set<VertexId> met;
-        for (const FaceId face : faces) {
-            for (const Loop& loop : model_[face].loops)
-                for (const EdgeUse& use : loop.uses) met.insert(use_from(model_, use));
-        }
-        return std::ranges::any_of(ends, [&](FaceId end) {
-            return std::ranges::any_of(model_[end].loops, [&](const Loop& loop) {
-                return std::ranges::any_of(
-                    loop.uses, [&](const EdgeUse& use) { return met.contains(use_from(model_, use)); });
-            });
-        });
+        const std::set<VertexId> met = vertices_of(model_, faces), own = vertices_of(model_, ends);
+        return std::ranges::any_of(own, [&](VertexId vertex) { return met.contains(vertex); });
     }
 
     [[nodiscard]] Roles roles_of(const Part& part) const
     {
         Roles roles;
-        for (const FaceId face : part.skin) {
-            const Role role = parted_.role[face.index()];
-            (role == Role::source   ? roles.source
-             : role == Role::target ? roles.target
-                                    : roles.walls)
-                .push_back(face);
-        }
+        for (const FaceId face : part.skin) list_of(roles, parted_.volume.role[face.index()]).push_back(face);
         std::vector<std::vector<FaceId>> across;
         for (std::vector<FaceId>& cut : connected_parts(model_, part.partitions)) {
             // A cut in the plane of an end that it touches is part of that end.
@@ -169,10 +158,10 @@ private:
                 continue;
             }
             std::vector<FaceId>* const facing = faced_as(cut, part, roles);
-            if (facing != nullptr && !touches(cut, roles.source) && !touches(cut, roles.target))
+            const bool touched = touches(cut, roles.source) || touches(cut, roles.target);
+            if (facing != nullptr && !touched)
                 facing->insert(facing->end(), cut.begin(), cut.end());
-            else if (touches(cut, roles.source) || touches(cut, roles.target) ||
-                     (!roles.source.empty() && !roles.target.empty()))
+            else if (touched || (!roles.source.empty() && !roles.target.empty()))
                 roles.walls.insert(roles.walls.end(), cut.begin(), cut.end());
             else
                 across.push_back(std::move(cut));
@@ -200,8 +189,7 @@ private:
                                                 Roles& roles) const
     {
         if (!parted_.plane || roles.source.empty() || roles.target.empty()) return nullptr;
-        Vec3 area = Vec3::Zero();
-        for (const FaceId face : roles.source) area += face_area_vector(model_, face);
+        const Vec3 area = area_vector_of(model_, roles.source);
         const bool behind = std::ranges::find(part.behind, cut.front()) != part.behind.end();
         const double along = (behind ? 1 : -1) * parted_.plane->normal.dot(area) / area.norm();
         if (along > kAcross) return &roles.source;
@@ -231,7 +219,7 @@ private:
 
     [[nodiscard]] Roles turned(Roles roles) const
     {
-        if (parted_.turned_round) std::swap(roles.source, roles.target);
+        if (parted_.volume.turned_round) std::swap(roles.source, roles.target);
         return roles;
     }
 
@@ -247,7 +235,7 @@ private:
         }
     }
 
-    const PartedModel& parted_;
+    const PartedVolume& parted_;
     const Model& model_;
     const std::string& what_;
     const RunContext& context_;
@@ -257,10 +245,25 @@ private:
 
 } // namespace
 
-std::vector<StepPiece> pieces_of(const PartedModel& parted, const std::string& what,
+std::vector<StepPiece> pieces_of(const PartedVolume& parted, const std::string& what,
                                  const RunContext& context)
 {
     return Parter(parted, what, context).run();
+}
+
+std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces,
+                                const std::function<std::vector<StepPiece>(const OpenVolume&)>& cut)
+{
+    std::vector<StepPiece> result;
+    for (StepPiece& piece : pieces) {
+        try {
+            std::ranges::move(cut(piece.volume), std::back_inserter(result));
+        } catch (const NotSweepable& error) {
+            if (error.code() != "closure.cut_misses") throw;
+            result.push_back(std::move(piece));
+        }
+    }
+    return result;
 }
 
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops)
@@ -295,28 +298,15 @@ std::string partition_name(const Model& model)
 FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loops,
                      const geometry::Plane& plane, const RunContext& context)
 {
-    std::vector<Vec2> flat;
-    std::vector<Index> points;
-    std::vector<std::vector<Index>> rings;
-    for (const std::vector<EdgeUse>& loop : loops) {
-        std::vector<Index>& ring = rings.emplace_back();
-        for (const EdgeUse& use : loop) {
-            const std::vector<Index> along = use_points(model, use);
-            for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-                ring.push_back(static_cast<Index>(points.size()));
-                points.push_back(along[i]);
-                flat.push_back(geometry::to_plane(plane, model.at(along[i])));
-            }
-        }
-    }
-    geometry::TriangulateOptions options;
-    options.interior_points = false;
-    const geometry::Triangulation made = geometry::triangulate(flat, rings, options, context);
+    Outline outline;
+    for (const std::vector<EdgeUse>& loop : loops)
+        outline.add_loop(flat_places(plane, loop_places(model, loop)), loop_points(model, loop));
+    const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
+                                                               {.interior_points = false}, context);
     const std::string name = partition_name(model);
     const FaceId face = add_void_face(model, Geometry::newell);
     model[face].name = name;
-    for (const Triangle& t : made.triangles)
-        model[face].triangles.push_back({points[index(t[0])], points[index(t[1])], points[index(t[2])]});
+    model[face].triangles = filling_of(model, outline, made, [](std::size_t) { return Vec3(); }).triangles;
     return face;
 }
 

@@ -12,7 +12,6 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 namespace lacuna::closure {
@@ -90,22 +89,12 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
 {
     auto floor = read_floor(model, faces, context);
     if (floor && closes_flat(*floor)) return {std::move(*floor)};
-    const RoleOptions near;
-    std::vector<Void> found = voids(model, role_candidates(model, faces, near, context), kMostSealed,
-                                    context);
-    if (found.empty()) { // the likeliest do not seal; less likely ones may
-        RoleOptions far;
-        far.margin = std::numeric_limits<double>::infinity();
-        far.most = kMostTried;
-        const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
-        const auto seals = std::find_if(all.begin(), all.end(), [&](const RoleCandidate& candidate) {
-            return seal(model, candidate.roles, context).has_value();
-        });
-        const auto end = std::find_if(seals, all.end(), [&](const RoleCandidate& candidate) {
-            return candidate.cost > seals->cost + near.margin;
-        });
-        found = voids(model, {seals, end}, kMostSealed, context);
-    }
+    const auto seals = [&](const RoleCandidate& candidate) {
+        return seal(model, candidate.roles, context).has_value();
+    };
+    std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
+    if (found.empty()) // the likeliest do not seal; less likely ones may
+        found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
     if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
     if (auto filled = fill_flat(model, faces, told, context)) add_filled(found, std::move(*filled));

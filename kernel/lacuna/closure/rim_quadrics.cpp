@@ -3,6 +3,7 @@
 
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Dense>
@@ -260,12 +261,9 @@ bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const 
         return std::abs(at.dot(quadric.form * at)) <= kOnQuadric * at.squaredNorm();
     };
     return std::ranges::any_of(model.faces, [&](const Face& face) {
-        const bool beside = std::ranges::any_of(face.loops, [&](const Loop& loop) {
-            return std::ranges::any_of(loop.uses, [&](const EdgeUse& use) { return rim.contains(use.edge); });
-        });
-        return beside && face.origin == Origin::given &&
-               std::ranges::all_of(face.triangles,
-                                   [&](const Triangle& t) { return std::ranges::all_of(t, is_on_it); });
+        return face.origin == Origin::given &&
+               std::ranges::any_of(uses_of(face), [&](const EdgeUse& u) { return rim.contains(u.edge); }) &&
+               std::ranges::all_of(corners_of(face), is_on_it);
     });
 }
 

@@ -6,8 +6,10 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/moved_end.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,12 +52,8 @@ bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 /// The facets of a volume's void faces.
 geometry::FacetTree void_facets(const Sealed& sealed)
 {
-    std::vector<Triangle> facets;
-    for (const FaceId face : sealed.closure.void_faces) {
-        const std::vector<Triangle>& own = sealed.volume.model[face].triangles;
-        facets.insert(facets.end(), own.begin(), own.end());
-    }
-    return {sealed.volume.model.points, facets};
+    const Model& model = sealed.volume.model;
+    return {model.points, facets_of(model, sealed.closure.void_faces)};
 }
 
 /// Whether the corners and centres of one volume's void facets are near those of another.
@@ -63,14 +61,10 @@ bool lies_on(const Sealed& sealed, const geometry::FacetTree& other, double near
 {
     const Model& model = sealed.volume.model;
     const auto on = [&](const Vec3& p) { return other.closest(p, near * near).triangle >= 0; };
-    for (const FaceId face : sealed.closure.void_faces) {
-        for (const Triangle& t : model[face].triangles) {
-            if (!on((model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3)) return false;
-            for (const Index p : t)
-                if (!on(model.at(p))) return false;
-        }
-    }
-    return true;
+    return std::ranges::all_of(facets_of(model, sealed.closure.void_faces), [&](const Triangle& t) {
+        return on((model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3) &&
+               std::ranges::all_of(t, [&](Index p) { return on(model.at(p)); });
+    });
 }
 
 bool enclose_the_same(const Sealed& a, const Sealed& b)
@@ -87,8 +81,7 @@ bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& 
         const OpenVolume open = open_volume(model, roles, context);
         const std::vector<Rim> loops = free_loops(open);
         return fills_each_loop(open, loops.size()) &&
-               std::all_of(loops.begin(), loops.end(),
-                           [&](const Rim& rim) { return is_flat(open.model, rim); });
+               std::ranges::all_of(loops, [&](const Rim& rim) { return is_flat(open.model, rim); });
     } catch (const InvalidInput&) {
         return false; // sealing reports it as well
     }
@@ -120,8 +113,7 @@ bool is_settled(const Void& v)
 void keep_likely(std::vector<Void>& found)
 {
     if (std::ranges::any_of(found, is_settled)) std::erase_if(found, &Void::untold);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Void& a, const Void& b) { return a.cost < b.cost; });
+    std::ranges::stable_sort(found, {}, &Void::cost);
     std::erase_if(found, [&, least = found.empty() ? 0 : found.front().cost](const Void& v) {
         return v.cost > least + RoleOptions{}.margin;
     });
@@ -158,7 +150,7 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
 
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
 {
-    try {
+    return unless_refused([&] {
         Sealed sealed;
         sealed.volume = open_volume(model, roles, context);
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
@@ -166,11 +158,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
         sealed.closure = close_trial(sealed.volume, sealed.match, context);
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
+    });
 }
 
 bool same_volume(double a, double b) { return std::abs(a - b) <= kSameVolume * std::max(a, b); }
@@ -189,14 +177,6 @@ bool leaves_open(const Sealed& sealed)
     return bent_end || has_membranes(sealed);
 }
 
-std::vector<FaceId> as_named(const Roles& roles)
-{
-    std::vector<FaceId> faces = roles.source;
-    faces.insert(faces.end(), roles.target.begin(), roles.target.end());
-    faces.insert(faces.end(), roles.walls.begin(), roles.walls.end());
-    return faces;
-}
-
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
                         const RunContext& context)
 {
@@ -205,9 +185,8 @@ std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& ca
     for (const RoleCandidate& candidate : candidates) {
         check_cancelled(context);
         const bool flat = fills_flat_loops(model, candidate.roles, context);
-        const auto filled = std::find_if(found.begin(), found.end(),
-                                         [&](const Void& v) { return flat && v.fills_flat_loops; });
-        if (filled != found.end()) {
+        const auto filled = std::ranges::find(found, true, &Void::fills_flat_loops);
+        if (flat && filled != found.end()) {
             filled->ways.push_back(candidate);
             continue;
         }
@@ -236,9 +215,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     bool told = true; // all follow from the given faces
     for (MovedEnd& one : moved) {
         Void now;
-        now.sealed.volume = std::move(one.volume);
-        now.sealed.closure = std::move(one.closure);
-        now.sealed.enclosed = one.enclosed;
+        now.sealed = {{{}, std::move(one.volume), std::move(one.closure)}, one.enclosed};
         now.filled = "sealed with the shape of " + name_of(model, one.from) + " at the other end";
         now.first.roles.walls = faces; // in the numbering of its volume
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <iterator>
@@ -25,11 +26,9 @@ int shared_points(const Triangle& a, const Triangle& b)
 std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
-    std::vector<Triangle> made;
-    for (const Face& face : model.faces) {
-        if (face.origin == Origin::made_void)
-            made.insert(made.end(), face.triangles.begin(), face.triangles.end());
-    }
+    std::vector<FaceId> void_faces = all_faces(model);
+    std::erase_if(void_faces, [&](FaceId face) { return model[face].origin != Origin::made_void; });
+    const std::vector<Triangle> made = facets_of(model, void_faces);
     if (made.empty()) return std::nullopt;
     // Given faces may be finely meshed, so only their facets near void faces are checked.
     const geometry::FacetTree all_made(model.points, made, context);
@@ -51,8 +50,8 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
     };
-    for (std::size_t v = 0; v < model.faces.size(); ++v) {
-        if (model.faces[v].origin != Origin::made_void) continue;
+    for (const FaceId void_face : void_faces) {
+        const std::size_t v = void_face.index();
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             if (f == v || (f < v && model.faces[f].origin == Origin::made_void)) continue;
             const bool clear = trees[v].overlaps(trees[f], [&](Index a, Index b) {
@@ -64,7 +63,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
                 if (shared_points(mine, theirs) >= 2) return true;
                 return !geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance);
             });
-            if (!clear) return FaceCrossing{FaceId(v), FaceId(f)};
+            if (!clear) return FaceCrossing{void_face, FaceId(f)};
         }
     }
     return std::nullopt;
@@ -72,8 +71,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
 
 double enclosed_volume(const OpenVolume& volume)
 {
-    const std::vector<FaceId> all = all_faces(volume.model);
-    return volume_integral(volume.model, all);
+    return volume_integral(volume.model, all_faces(volume.model));
 }
 
 bool is_watertight(const OpenVolume& volume)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/smooth_ends.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/patches.h>
 
 #include <algorithm>
@@ -18,16 +19,13 @@ bool is_free_of_meshes(const Face& face) { return face.origin == Origin::given &
 /// Extent of faces along their mean normal over the diameter of a disc of their projected area.
 double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 {
-    Vec3 area = Vec3::Zero();
-    for (const FaceId face : faces) area += face_area_vector(model, face);
+    const Vec3 area = area_vector_of(model, faces);
     const Vec3 normal = area.normalized();
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const FaceId face : faces) {
-        for (const Triangle& t : model[face].triangles) {
-            for (const Index p : t) {
-                low = std::min(low, model.at(p).dot(normal));
-                high = std::max(high, model.at(p).dot(normal));
-            }
+        for (const Index p : corners_of(model[face])) {
+            low = std::min(low, model.at(p).dot(normal));
+            high = std::max(high, model.at(p).dot(normal));
         }
     }
     return (high - low) / std::sqrt(4 * area.norm() / std::numbers::pi);
@@ -43,26 +41,22 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
     std::vector<FaceId> extended = given;
     for (std::size_t i = 0; i < extended.size(); ++i) {
         if (!is_free_of_meshes(model[extended[i]])) return {};
-        for (const Loop& loop : model[extended[i]].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (angle[use.edge.index()] >= kSmooth) continue;
-                for (const FaceUse& user : uses[use.edge.index()]) {
-                    if (std::ranges::find(extended, user.face) != extended.end()) continue;
-                    if (volume.role[user.face.index()] != Role::wall) return {};
-                    extended.push_back(user.face);
-                }
+        for (const EdgeUse& use : uses_of(model[extended[i]])) {
+            if (angle[use.edge.index()] >= kSmooth) continue;
+            for (const FaceUse& user : uses[use.edge.index()]) {
+                if (std::ranges::find(extended, user.face) != extended.end()) continue;
+                if (volume.role[user.face.index()] != Role::wall) return {};
+                extended.push_back(user.face);
             }
         }
     }
     if (extended.size() == given.size()) return {};
-    const std::vector<Rim> now = rims(model, extended);
-    if (now.size() != rims(model, given).size() || depth_by_width(model, extended) > 1) return {};
-    for (const Rim& rim : now) {
-        for (const EdgeUse& use : rim.uses) {
-            for (const FaceUse& user : uses[use.edge.index()]) {
-                const bool own = std::ranges::find(extended, user.face) != extended.end();
-                if (!own && volume.role[user.face.index()] != Role::wall) return {};
-            }
+    if (rims(model, extended).size() != rims(model, given).size() || depth_by_width(model, extended) > 1)
+        return {};
+    for (const EdgeId edge : rim_edges(model, extended)) {
+        for (const FaceUse& user : uses[edge.index()]) {
+            const bool own = std::ranges::find(extended, user.face) != extended.end();
+            if (!own && volume.role[user.face.index()] != Role::wall) return {};
         }
     }
     return {extended.begin() + std::ssize(given), extended.end()};

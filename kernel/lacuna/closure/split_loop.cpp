@@ -3,9 +3,11 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -95,7 +97,7 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
     for (std::size_t r = 0; r < runs.size(); ++r) {
         parts[r].uses = uses_of(rim, runs[r]);
         const VertexId a = use_from(model, parts[r].uses.front()), b = use_to(model, parts[r].uses.back());
-        const EdgeId edge = add_void_edge(model, a, b, {model[a].point, model[b].point});
+        const EdgeId edge = add_void_edge_through(model, a, b);
         parts[r].uses.push_back({edge, true});
         parts.back().uses.push_back({edge, false});
         const std::vector<EdgeUse> rest = uses_of(rim, between(rim, runs, r));
@@ -122,8 +124,7 @@ std::vector<FaceId> faces_at_edges(const Model& model)
 {
     std::vector<FaceId> at(model.edges.size());
     for (const FaceId face : all_faces(model))
-        for (const Loop& loop : model[face].loops)
-            for (const EdgeUse& use : loop.uses) at[use.edge.index()] = face;
+        for (const EdgeUse& use : uses_of(model[face])) at[use.edge.index()] = face;
     return at;
 }
 
@@ -178,9 +179,9 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
         if (run[i] == 0 || run[i] == uses) continue;
         if (run[(i + uses - 1) % uses] > run[i]) continue; // part of a longer run
         const std::vector<EdgeUse> own = uses_of(rim, {i, run[i]});
-        const std::vector<std::vector<Vec3>> points{use_places(model, own)};
-        if (turns(points.front()) < 2 || is_of_ring(model, own)) continue;
-        const geometry::Plane plane = geometry::newell_plane(points);
+        const std::vector<Vec3> points = use_places(model, own);
+        if (turns(points) < 2 || is_of_ring(model, own)) continue;
+        const geometry::Plane plane = geometry::newell_plane({&points, 1});
         const bool given = std::ranges::all_of(
             own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
         if (!given) ends.push_back({i, run[i]});
@@ -264,8 +265,8 @@ std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::
     Model tried = model;
     std::vector<Loop> parts = cut_off(tried, rim, ends);
     if (!is_flat(tried, {parts.back().uses})) return std::nullopt;
-    const std::vector<std::vector<Vec3>> mouth{use_places(tried, parts.back().uses)};
-    const geometry::Plane plane = geometry::newell_plane(mouth);
+    const std::vector<Vec3> mouth = use_places(tried, parts.back().uses);
+    const geometry::Plane plane = geometry::newell_plane({&mouth, 1});
     const auto in_mouth = [&](const Run& run) {
         return std::ranges::all_of(use_places(model, uses_of(rim, run)), [&](const Vec3& p) {
             return std::abs(geometry::height(plane, p)) <= model.tolerance;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/steps.h>
 
+#include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
@@ -8,16 +10,17 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 
 namespace lacuna::closure {
 
@@ -96,19 +99,16 @@ public:
           stepped_(stepped),
           other_(stepped == Role::source ? Role::target : Role::source),
           context_(context),
-          ends_(std::move(steps.parts)),
-          hanging_(std::move(steps.closed))
+          steps_(std::move(steps))
     {
     }
 
     std::vector<StepPiece> run()
     {
-        Vec3 area = Vec3::Zero();
-        for (const FaceId face : volume_.faces(stepped_)) area += face_area_vector(model_, face);
-        along_ = -area.normalized();
-        right_ = along_.unitOrthogonal();
-        up_ = along_.cross(right_);
-        for (const Hanging& hanging : hanging_) hang(hanging);
+        across_.normal = -area_vector_of(model_, volume_.faces(stepped_)).normalized();
+        across_.u = across_.normal.unitOrthogonal();
+        across_.v = across_.normal.cross(across_.u);
+        for (const Hanging& hanging : steps_.closed) hang(hanging);
         for (const FaceId face : volume_.faces(other_)) split(face);
         build_loops(model_);
         return pieces();
@@ -116,8 +116,6 @@ public:
 
 private:
     [[noreturn]] void refuse(const std::string& why) const { throw NotSweepable("closure.steps", why); }
-
-    [[nodiscard]] Vec2 flat(const Vec3& p) const { return {p.dot(right_), p.dot(up_)}; }
 
     const geometry::FacetTree& opposite_tree()
     {
@@ -140,7 +138,7 @@ private:
     /// The point where the line through a point along the sweep meets the opposite end.
     std::optional<Hit> above(const Vec3& p)
     {
-        const auto hit = opposite_tree().first_along(p, along_);
+        const auto hit = opposite_tree().first_along(p, across_.normal);
         if (hit.triangle < 0) return std::nullopt;
         const auto& [face, t] = facet_[index(hit.triangle)];
         Hit found{Vec3::Zero(), face};
@@ -168,7 +166,7 @@ private:
             const Vec3 from = model_.at(p);
             const std::optional<Hit> hit = above(from);
             if (!hit || (image.target.valid() && hit->face != image.target)) {
-                refuse("the rim of the step at " + name_of(model_, ends_[hanging.part].front()) +
+                refuse("the rim of the step at " + name_of(model_, steps_.parts[hanging.part].front()) +
                        (hit ? " lies below " + name_of(model_, image.target) + " and " +
                                   name_of(model_, hit->face) + "; give the opposite end there as one face"
                             : " does not lie below the opposite end everywhere"));
@@ -181,16 +179,14 @@ private:
             return made;
         };
         std::map<VertexId, VertexId> vertex_above;
-        std::map<VertexId, EdgeId> line;
+        std::set<VertexId> lined;
         const auto vertex = [&](VertexId v) {
             const auto known = vertex_above.find(v);
             if (known != vertex_above.end()) return known->second;
             return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
         };
         const auto side_line = [&](VertexId v) {
-            if (line.contains(v)) return;
-            const VertexId top = vertex(v);
-            line.emplace(v, add_void_edge(model_, v, top, {model_[v].point, model_[top].point}));
+            if (lined.insert(v).second) add_void_edge_through(model_, v, vertex(v));
         };
         for (const EdgeUse& use : rim.uses) {
             const std::vector<Index> low = use_points(model_, use);
@@ -212,7 +208,7 @@ private:
             }
             image.points.insert(image.points.end(), high.begin(), high.end() - 1);
         }
-        for (const Index p : image.points) image.flat.push_back(flat(model_.at(p)));
+        image.flat = flat_places(across_, places_at(model_, image.points));
         images_.push_back(std::move(image));
     }
 
@@ -226,7 +222,6 @@ private:
             regions_.push_back(id);
             return;
         }
-        std::vector<std::size_t> region; // by ring: the region inside it
         // All loops, the face's own first; each region is inside one loop and outside the loops directly
         // within it.
         struct Ring {
@@ -235,56 +230,38 @@ private:
         };
         std::vector<Ring> rings;
         for (const Loop& loop : border_loops(model_, id)) {
-            Ring& ring = rings.emplace_back();
-            for (const EdgeUse& use : loop.uses) {
-                const std::vector<Index> points = use_points(model_, use);
-                ring.points.insert(ring.points.end(), points.begin(), points.end() - 1);
-            }
-            for (const Index p : ring.points) ring.flat.push_back(flat(model_.at(p)));
+            std::vector<Index> points = loop_points(model_, loop.uses);
+            std::vector<Vec2> flat = flat_places(across_, places_at(model_, points));
+            rings.push_back({std::move(points), std::move(flat)});
         }
         const std::size_t given = rings.size();
         for (const Imprinted* image : own) rings.push_back({image->points, image->flat});
         const auto depth_in = [&](std::size_t inner, std::size_t outer) {
             return inner != outer && geometry::lies_inside(rings[outer].flat, rings[inner].flat.front());
         };
-        const auto parent = [&](std::size_t ring) {
-            std::size_t best = rings.size();
-            for (std::size_t o = 0; o < rings.size(); ++o) {
-                if (!depth_in(ring, o)) continue;
-                if (best == rings.size() || depth_in(o, best)) best = o;
-            }
-            return best;
-        };
-        std::vector<std::size_t> parents;
-        for (std::size_t i = 0; i < rings.size(); ++i) parents.push_back(parent(i));
-        region.assign(rings.size(), 0);
+        std::vector<std::size_t> parents(rings.size(), rings.size());
+        std::vector<std::size_t> region(rings.size(), 0); // by ring: the region inside it
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            std::size_t& best = parents[i];
+            for (std::size_t o = 0; o < rings.size(); ++o)
+                if (depth_in(i, o) && (best == rings.size() || depth_in(o, best))) best = o;
+        }
 
         const Face before = model_[id];
         const Vec3 area = face_area_vector(model_, id);
-        const bool turned = area.dot(along_) < 0;
+        const bool turned = area.dot(across_.normal) < 0;
         bool first = true;
         for (std::size_t outer = 0; outer < rings.size(); ++outer) {
             // A hole of the face bounds no region.
             if (outer < given && parents[outer] != rings.size()) continue;
-            std::vector<std::vector<Index>> loops;
-            std::vector<Vec2> flat_points;
-            std::vector<Index> points;
-            const auto add = [&](const Ring& ring) {
-                std::vector<Index>& loop = loops.emplace_back();
-                for (std::size_t i = 0; i < ring.points.size(); ++i) {
-                    loop.push_back(static_cast<Index>(points.size()));
-                    points.push_back(ring.points[i]);
-                    flat_points.push_back(ring.flat[i]);
-                }
-            };
-            add(rings[outer]);
+            Outline outline;
+            outline.add_loop(rings[outer].flat, rings[outer].points);
             for (std::size_t i = 0; i < rings.size(); ++i)
-                if (parents[i] == outer) add(rings[i]);
-            geometry::TriangulateOptions options;
-            options.interior_points = before.kind != "plane";
+                if (parents[i] == outer) outline.add_loop(rings[i].flat, rings[i].points);
             geometry::Triangulation made;
             try {
-                made = geometry::triangulate(flat_points, loops, options, context_);
+                made = geometry::triangulate(outline.flat, outline.loops,
+                                             {.interior_points = before.kind != "plane"}, context_);
             } catch (const InvalidInput& error) { // the error names loops, not faces
                 refuse(name_of(model_, id) +
                        " cannot be split along the projected outlines of the steps: " + error.what());
@@ -294,23 +271,18 @@ private:
             face.uv.clear();
             face.given_quads.clear();
             face.keeps_nodes = false;
-            std::vector<Vec2> uv;
-            for (std::size_t p = 0; p < made.points.size(); ++p) {
-                if (p >= points.size()) {
-                    points.push_back(static_cast<Index>(model_.points.size()));
-                    const Vec3 from = made.points[p].x() * right_ + made.points[p].y() * up_ + far_back();
-                    const std::optional<Hit> hit = above(from);
-                    if (!hit)
-                        refuse(name_of(model_, id) + " folds back as seen along the sweep and cannot be cut");
-                    model_.points.push_back(hit->place);
-                    uv_.insert_or_assign(points.back(), hit->uv);
-                }
-            }
-            for (const Triangle& t : made.triangles) {
-                Triangle corner{points[index(t[0])], points[index(t[1])], points[index(t[2])]};
-                if (turned) std::swap(corner[1], corner[2]);
-                face.triangles.push_back(corner);
-            }
+            const auto first_made = static_cast<Index>(model_.points.size());
+            VoidFilling filling = filling_of(model_, outline, made, [&](std::size_t p) {
+                const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()));
+                if (!hit)
+                    refuse(name_of(model_, id) + " folds back as seen along the sweep and cannot be cut");
+                uv_.insert_or_assign(first_made + static_cast<Index>(p - outline.flat.size()), hit->uv);
+                return hit->place;
+            });
+            model_.points.insert(model_.points.end(), filling.points.begin(), filling.points.end());
+            face.triangles = std::move(filling.triangles);
+            if (turned)
+                for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
             if (before.surface) set_uv(before, face);
             region[outer] = regions_.size();
             if (first) {
@@ -324,18 +296,19 @@ private:
         }
         for (std::size_t i = 0; i < own.size(); ++i) {
             if (parents[given + i] == rings.size())
-                refuse("the rim of the step at " + name_of(model_, ends_[own[i]->part].front()) +
+                refuse("the rim of the step at " + name_of(model_, steps_.parts[own[i]->part].front()) +
                        " does not lie within " + name_of(model_, id));
             own[i]->inside = region[given + i];
             own[i]->outside = region[parents[given + i]];
         }
     }
 
-    [[nodiscard]] Vec3 far_back() const
+    /// A height along the sweep below the whole volume.
+    [[nodiscard]] double lowest() const
     {
         double least = std::numeric_limits<double>::infinity();
-        for (const Vec3& p : volume_.model.points) least = std::min(least, p.dot(along_));
-        return (least - volume_.model.diagonal) * along_;
+        for (const Vec3& p : volume_.model.points) least = std::min(least, p.dot(across_.normal));
+        return least - volume_.model.diagonal;
     }
 
     /// Set the corners' surface parameters: those found by projection, and at the old rim those of the old
@@ -355,17 +328,14 @@ private:
         // Find the part of the stepped end below each region of the other end.
         std::vector<Triangle> triangles;
         std::vector<std::size_t> part;
-        for (std::size_t p = 0; p < ends_.size(); ++p) {
-            for (const FaceId face : ends_[p]) {
-                triangles.insert(triangles.end(), model_[face].triangles.begin(),
-                                 model_[face].triangles.end());
-                part.resize(triangles.size(), p);
-            }
+        for (std::size_t p = 0; p < steps_.parts.size(); ++p) {
+            std::ranges::copy(facets_of(model_, steps_.parts[p]), std::back_inserter(triangles));
+            part.resize(triangles.size(), p);
         }
         const geometry::FacetTree ends(model_.points, triangles);
         // A region with no part of the stepped end below it belongs to a missing face: one more part, without
         // faces.
-        const std::size_t none = ends_.size();
+        const std::size_t none = steps_.parts.size();
         std::vector<std::size_t> part_of(regions_.size(), none);
         std::vector<std::vector<FaceId>> opposite(none + 1), walls(none + 1);
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -375,7 +345,7 @@ private:
             for (std::size_t t = 0; t < facets.size(); t += step) {
                 const Vec3 &a = model_.at(facets[t][0]), &b = model_.at(facets[t][1]),
                            &c = model_.at(facets[t][2]);
-                const auto hit = ends.first_along((a + b + c) / 3, -along_);
+                const auto hit = ends.first_along((a + b + c) / 3, -across_.normal);
                 votes[hit.triangle < 0 ? none : part[index(hit.triangle)]] += (b - a).cross(c - a).norm();
             }
             part_of[r] = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first;
@@ -385,7 +355,8 @@ private:
         for (const Imprinted& image : images_) {
             const std::size_t outer = part_beyond(image, part_of);
             if (outer == image.part)
-                refuse("the faces on both sides of the step at " + name_of(model_, ends_[outer].front()) +
+                refuse("the faces on both sides of the step at " +
+                       name_of(model_, steps_.parts[outer].front()) +
                        " have the same end below, seen along the sweep");
             below[image.part] = outer;
             for (const std::size_t p : {image.part, outer})
@@ -402,9 +373,9 @@ private:
                 continue;
             }
             if (opposite[p].empty())
-                refuse("nothing of the opposite end lies over " + name_of(model_, ends_[p].front()) +
+                refuse("nothing of the opposite end lies over " + name_of(model_, steps_.parts[p].front()) +
                        ", seen along the sweep");
-            Roles own{p == none ? std::vector<FaceId>{} : ends_[p], opposite[p], walls[p]};
+            Roles own{p == none ? std::vector<FaceId>{} : steps_.parts[p], opposite[p], walls[p]};
             if (stepped_ == Role::target) std::swap(own.source, own.target);
             if (volume_.turned_round) std::swap(own.source, own.target);
             int level = 0;
@@ -438,20 +409,18 @@ private:
         }
         const std::vector<std::vector<FaceUse>> uses = edge_uses(model_);
         const Imprinted* down = nullptr;
-        std::size_t beside = ends_.size();
+        std::size_t beside = steps_.parts.size();
         for (const FaceId face : faces) {
-            for (const Loop& loop : model_[face].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    if (const auto at = hung.find(use.edge); at != hung.end()) {
-                        down = at->second;
-                        continue;
-                    }
-                    for (const FaceUse& user : uses[use.edge.index()]) {
-                        for (std::size_t p = 0; p < ends_.size(); ++p)
-                            if (std::ranges::find(ends_[p], user.face) != ends_[p].end()) return p;
-                        for (std::size_t p = 0; p < opposite.size(); ++p)
-                            if (std::ranges::find(opposite[p], user.face) != opposite[p].end()) beside = p;
-                    }
+            for (const EdgeUse& use : uses_of(model_[face])) {
+                if (const auto at = hung.find(use.edge); at != hung.end()) {
+                    down = at->second;
+                    continue;
+                }
+                for (const FaceUse& user : uses[use.edge.index()]) {
+                    for (std::size_t p = 0; p < steps_.parts.size(); ++p)
+                        if (std::ranges::find(steps_.parts[p], user.face) != steps_.parts[p].end()) return p;
+                    for (std::size_t p = 0; p < opposite.size(); ++p)
+                        if (std::ranges::find(opposite[p], user.face) != opposite[p].end()) beside = p;
                 }
             }
         }
@@ -462,9 +431,8 @@ private:
     Model model_;
     Role stepped_, other_;
     const RunContext& context_;
-    std::vector<std::vector<FaceId>> ends_; ///< connected parts of the stepped end
-    std::vector<Hanging> hanging_;
-    Vec3 along_ = Vec3::Zero(), right_ = Vec3::Zero(), up_ = Vec3::Zero();
+    Steps steps_;            ///< of the stepped end
+    geometry::Plane across_; ///< its normal is the direction to the other end
     std::vector<Imprinted> images_;
     std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
     std::map<Index, Vec2> uv_;                          ///< of points projected onto the opposite end
@@ -495,22 +463,17 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
 {
     std::vector<StepPiece> pieces{{volume, 0}};
     for (const FaceId face : faces) {
-        std::vector<StepPiece> cut;
-        for (const StepPiece& piece : pieces) {
+        pieces = cut_each(std::move(pieces), [&](const OpenVolume& piece) {
             try {
-                for (StepPiece& own : cut_by_face(piece.volume, volume.model, face, context))
-                    cut.push_back(std::move(own));
+                return cut_by_face(piece, volume.model, face, context);
             } catch (const NotSweepable& error) {
-                if (error.code() == "closure.cut_face")
-                    throw NotSweepable("closure.steps",
-                                       "the step at " + name_of(volume.model, face) +
-                                           " is not flat, so it has no plane to cut by, and its rim is not "
-                                           "closed; cut the volume with cut{ plane = … }");
-                if (error.code() != "closure.cut_misses") throw;
-                cut.push_back(piece);
+                if (error.code() != "closure.cut_face") throw;
+                throw NotSweepable("closure.steps",
+                                   "the step at " + name_of(volume.model, face) +
+                                       " is not flat, so it has no plane to cut by, and its rim is not "
+                                       "closed; cut the volume with cut{ plane = … }");
             }
-        }
-        pieces = std::move(cut);
+        });
     }
     return pieces;
 }
@@ -520,11 +483,6 @@ std::array<Steps, 2> steps_of(const OpenVolume& volume, const RunContext& contex
 {
     const std::vector<double> turns = concave_turns(volume, context);
     return {find_steps(volume, Role::source, turns), find_steps(volume, Role::target, turns)};
-}
-
-void sort_by_level(std::vector<StepPiece>& pieces)
-{
-    std::ranges::stable_sort(pieces, {}, &StepPiece::level);
 }
 
 /// The unit direction from source to target, from their faces.
@@ -545,11 +503,9 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
         const Model& model = piece.volume.model;
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const Face& face : model.faces) {
-            for (const Triangle& t : face.triangles) {
-                for (const Index p : t) {
-                    low = std::min(low, model.at(p).dot(way));
-                    high = std::max(high, model.at(p).dot(way));
-                }
+            for (const Index p : corners_of(face)) {
+                low = std::min(low, model.at(p).dot(way));
+                high = std::max(high, model.at(p).dot(way));
             }
         }
         length.push_back(high - low);
@@ -607,9 +563,15 @@ bool is_stepped(const Steps& steps)
     return steps.parts.size() > 1 || !steps.closed.empty() || !steps.risers.empty();
 }
 
-/// Cut in the planes of all flat steps. If that fails too, `why`, the error of the extrusion, is thrown.
+bool is_stepped(const OpenVolume& volume, const RunContext& context)
+{
+    return std::ranges::any_of(steps_of(volume, context),
+                               [](const Steps& steps) { return is_stepped(steps); });
+}
+
+/// Cut in the planes of all flat steps. Empty if that fails too.
 std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
-                                     const std::exception_ptr& why, const RunContext& context)
+                                     const RunContext& context)
 {
     std::vector<FaceId> faces;
     for (const Steps& own : steps) {
@@ -617,25 +579,19 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
     }
     try {
         std::vector<StepPiece> pieces = cut_by_planes(volume, faces, context);
-        const bool done = std::ranges::none_of(pieces, [&](const StepPiece& piece) {
-            const std::array<Steps, 2> left = steps_of(piece.volume, context);
-            return is_stepped(left[0]) || is_stepped(left[1]);
-        });
-        if (done) return pieces;
+        if (std::ranges::none_of(pieces,
+                                 [&](const StepPiece& piece) { return is_stepped(piece.volume, context); }))
+            return pieces;
     } catch (const Cancelled&) {
         throw;
-    } catch (const Error&) { // the first error is more helpful
+    } catch (const Error&) { // the error of the extrusion is more helpful
     }
-    std::rethrow_exception(why);
+    return {};
 }
 
 } // namespace
 
-bool has_steps(const OpenVolume& volume, const RunContext& context)
-{
-    const std::array<Steps, 2> steps = steps_of(volume, context);
-    return is_stepped(steps[0]) || is_stepped(steps[1]);
-}
+bool has_steps(const OpenVolume& volume, const RunContext& context) { return is_stepped(volume, context); }
 
 std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& context)
 {
@@ -656,19 +612,17 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
                 result.push_back(std::move(own));
             }
         }
-        sort_by_level(result);
-        return result;
+    } else {
+        try {
+            result = hang_all(volume, context, 0);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error&) {
+            result = cut_in_layers(volume, steps, context);
+            if (result.empty()) throw;
+        }
     }
-    std::exception_ptr why;
-    try {
-        result = hang_all(volume, context, 0);
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error&) {
-        why = std::current_exception();
-    }
-    if (why) result = cut_in_layers(volume, steps, why, context);
-    sort_by_level(result);
+    std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/stubs.h>
 
+#include <lacuna/topology/shared/face_parts.h>
+
 #include <algorithm>
 #include <set>
 
@@ -10,22 +12,13 @@ using namespace topology;
 
 namespace {
 
-std::set<EdgeId> rim_edges(const OpenVolume& volume, Role end)
-{
-    std::set<EdgeId> edges;
-    for (const Rim& rim : rims(volume.model, volume.faces(end))) {
-        for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-    }
-    return edges;
-}
-
 /// Number of the part's rims that lie entirely on the end's; -1 if one lies there only partly.
 int whole_rims(const std::vector<Rim>& part, const std::set<EdgeId>& end)
 {
     int whole = 0;
     for (const Rim& rim : part) {
-        const auto on_end = std::count_if(rim.uses.begin(), rim.uses.end(),
-                                          [&](const EdgeUse& use) { return end.contains(use.edge); });
+        const auto on_end = std::ranges::count_if(rim.uses,
+                                                  [&](const EdgeUse& use) { return end.contains(use.edge); });
         if (on_end == 0) continue;
         if (on_end != static_cast<std::ptrdiff_t>(rim.uses.size())) return -1;
         ++whole;
@@ -37,8 +30,8 @@ int whole_rims(const std::vector<Rim>& part, const std::set<EdgeId>& end)
 
 std::vector<FaceId> lend_stubs_to_ends(OpenVolume& volume)
 {
-    const std::set<EdgeId> source = rim_edges(volume, Role::source);
-    const std::set<EdgeId> target = rim_edges(volume, Role::target);
+    const std::set<EdgeId> source = rim_edges(volume.model, volume.faces(Role::source));
+    const std::set<EdgeId> target = rim_edges(volume.model, volume.faces(Role::target));
     std::vector<FaceId> lent;
     for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(Role::wall))) {
         const std::vector<Rim> open = rims(volume.model, part);

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +20,6 @@ namespace {
 std::vector<std::vector<FaceId>> parts_of(const Model& model)
 {
     return connected_parts(model, all_faces(model));
-}
-
-std::vector<Triangle> facets_of(const Model& model, const std::vector<FaceId>& faces)
-{
-    std::vector<Triangle> facets;
-    for (const FaceId face : faces)
-        facets.insert(facets.end(), model[face].triangles.begin(), model[face].triangles.end());
-    return facets;
 }
 
 /// By part, whether it is inside another.
@@ -49,14 +42,7 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
 /// Whether facets face away from their centre.
 bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
 {
-    Vec3 centre = Vec3::Zero();
-    double area = 0;
-    for (const FaceId face : faces) {
-        const double own = face_area(model, face);
-        centre += own * face_centroid(model, face);
-        area += own;
-    }
-    centre /= area;
+    const Vec3 centre = centroid_of(model, faces);
     double sum = 0;
     for (const Triangle& t : facets_of(model, faces)) {
         const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
@@ -99,11 +85,10 @@ private:
         std::vector<Triangle> facets;
         for (std::size_t p = 0; p < parts_.size(); ++p) {
             for (const FaceId face : parts_[p]) {
-                const std::vector<Triangle>& own = model_[face].triangles;
-                facets.insert(facets.end(), own.begin(), own.end());
+                std::ranges::copy(model_[face].triangles, std::back_inserter(facets));
                 face_.resize(facets.size(), face);
-                part_.resize(facets.size(), p);
             }
+            part_.resize(facets.size(), p);
         }
         tree_.emplace(model_.points, facets, context_);
     }

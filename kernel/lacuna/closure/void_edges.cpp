@@ -2,7 +2,9 @@
 #include <lacuna/closure/detail/void_edges.h>
 
 #include <lacuna/closure/detail/climber.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -47,11 +49,6 @@ struct Spacing {
     double length = 0;
     std::size_t segments = 0;
 
-    void add(double more_length, std::size_t more_segments)
-    {
-        length += more_length;
-        segments += more_segments;
-    }
     [[nodiscard]] double mean() const { return segments > 0 ? length / static_cast<double>(segments) : 0; }
 };
 
@@ -60,8 +57,10 @@ void add_edge(const Model& model, EdgeId id, std::vector<Spacing>& at)
 {
     const Edge& edge = model[id];
     const double length = edge_length(model, id);
-    at[edge.from.index()].add(length, edge.points.size() - 1);
-    if (edge.to != edge.from) at[edge.to.index()].add(length, edge.points.size() - 1);
+    for (const VertexId end : std::set{edge.from, edge.to}) {
+        at[end.index()].length += length;
+        at[end.index()].segments += edge.points.size() - 1;
+    }
 }
 
 /// Spacing at every vertex.
@@ -72,6 +71,16 @@ std::vector<Spacing> spacing_of(const Model& model)
     return at;
 }
 
+/// Inner points of a course in so many segments.
+/// @param at  returns the point at a parameter in (0, 1)
+template <class At>
+std::vector<Vec3> inner_points(int segments, const At& at)
+{
+    std::vector<Vec3> points;
+    for (int i = 1; i < segments; ++i) points.push_back(at(static_cast<double>(i) / segments));
+    return points;
+}
+
 /// @param spacing  of the facet points at the gap's start; 0: unknown.
 std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spacing)
 {
@@ -79,12 +88,7 @@ std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spa
     const double wanted = spacing > 0 ? (to - from).norm() / spacing : 1;
     const int segments = static_cast<int>(
         std::clamp(std::round(wanted), 1.0, static_cast<double>(kMostSegments)));
-    std::vector<Vec3> points;
-    for (int i = 1; i < segments; ++i) {
-        const double f = static_cast<double>(i) / segments;
-        points.push_back((1 - f) * from + f * to);
-    }
-    return points;
+    return inner_points(segments, [&](double f) -> Vec3 { return (1 - f) * from + f * to; });
 }
 
 /// Follow the walls between the heights of the gap's ends, shifted to meet the ends.
@@ -103,13 +107,10 @@ std::vector<Vec3> followed_course(const Model& model, const Gap& gap, const Foll
     const std::size_t walls = follower.walls_at(model[gap.source].point);
     const Vec3 off_from = from - follower.morph(source, target, low, walls);
     const Vec3 off_to = to - follower.morph(source, target, high, walls);
-    std::vector<Vec3> points;
-    for (int i = 1; i < kMostSegments; ++i) {
-        const double f = static_cast<double>(i) / kMostSegments;
-        points.push_back(follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
-                         f * off_to);
-    }
-    return points;
+    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+        return follower.morph(source, target, low + f * (high - low), walls) + (1 - f) * off_from +
+               f * off_to;
+    });
 }
 
 /// Normal of an end at a vertex, weighted by the facets' angles; outward or inward like the faces.
@@ -164,19 +165,15 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
 double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
 {
     const Model& model = volume.model;
+    if (walls != nullptr) return 1; // they give the tangents
     double lean = 0, length = 0;
     bool asked = false;
     for (const Gap& gap : gaps) {
         const Vec3 chord = model.at(model[gap.to].point) - model.at(model[gap.from].point);
         length += chord.norm();
-        if (gap.below.empty() && walls == nullptr) {
-            lean += chord.dot(normal_at(volume, Role::source, gap.source));
-            asked = true;
-        }
-        if (gap.above.empty() && walls == nullptr) {
-            lean -= chord.dot(normal_at(volume, Role::target, gap.target));
-            asked = true;
-        }
+        if (gap.below.empty()) lean += chord.dot(normal_at(volume, Role::source, gap.source));
+        if (gap.above.empty()) lean -= chord.dot(normal_at(volume, Role::target, gap.target));
+        asked = asked || gap.below.empty() || gap.above.empty();
     }
     if (asked && !(std::abs(lean) > kFacing * length)) {
         throw NotClosed("closure.no_side",
@@ -196,12 +193,10 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
     const double theta = std::min(turn(tangents.leave) + turn(tangents.arrive), kMostTurn);
     const double handle = chord.norm() / (3 * std::pow(std::cos(theta / 4), 2));
     const Vec3 a = from + handle * tangents.leave, b = to - handle * tangents.arrive;
-    std::vector<Vec3> points;
-    for (int i = 1; i < kMostSegments; ++i) {
-        const double f = static_cast<double>(i) / kMostSegments, g = 1 - f;
-        points.push_back(g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to);
-    }
-    return points;
+    return inner_points(kMostSegments, [&](double f) -> Vec3 {
+        const double g = 1 - f;
+        return g * g * g * from + 3 * g * g * f * a + 3 * g * f * f * b + f * f * f * to;
+    });
 }
 
 // --- given by the user ----------------------------------------------------------------------------------
@@ -215,17 +210,14 @@ VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
                        const std::set<VertexId>& free)
 {
     const Model& model = volume.model;
-    bool known = false;
-    std::string list;
-    for (const VertexId v : free) {
+    for (const VertexId v : free)
         if (model[v].tag == tag) return v;
-        list += (list.empty() ? "" : ", ") + std::to_string(model[v].tag);
-    }
-    for (const Vertex& vertex : model.vertices) known = known || vertex.tag == tag;
+    const bool known = std::ranges::find(model.vertices, tag, &Vertex::tag) != model.vertices.end();
     throw InvalidInput("closure.void_edge_vertex",
                        named(edge) + ": vertex " + std::to_string(tag) +
                            (known ? " is not on a free rim" : " is not in the volume") +
-                           "; the vertices of the free rims are " + list);
+                           "; the vertices of the free rims are " +
+                           full_list(free, [&](VertexId v) { return std::to_string(model[v].tag); }));
 }
 
 /// The course of a user's void edge, without its ends if the user gave them too.
@@ -339,13 +331,7 @@ private:
     void add(VertexId from, VertexId to, const std::vector<Vec3>& between)
     {
         Model& model = volume_.model;
-        std::vector<Index> points{model[from].point};
-        for (const Vec3& place : between) {
-            points.push_back(static_cast<Index>(model.points.size()));
-            model.points.push_back(place);
-        }
-        points.push_back(model[to].point);
-        made_.push_back(add_void_edge(model, from, to, std::move(points)));
+        made_.push_back(add_void_edge_through(model, from, to, between));
         add_edge(model, made_.back(), spacing_);
         pairs_.insert(std::minmax(from, to));
     }

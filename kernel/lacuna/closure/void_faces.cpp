@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/void_faces.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <map>
@@ -31,18 +32,19 @@ public:
 
     [[nodiscard]] bool open(EdgeUse half) const { return halves_.contains(half); }
 
-    /// Walk from a half-edge until it is reached again; empty if the walk reaches a dead end.
-    [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse start, int depth) const
+    /// The shortest walk from a half-edge up to, but without, another one; empty if it reaches a dead end.
+    /// @param depth  number of branchings at which the ways on are compared
+    [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse from, EdgeUse goal, int depth) const
     {
-        std::vector<EdgeUse> path{start};
-        std::set<EdgeUse> on_path{start};
+        std::vector<EdgeUse> path{from};
+        std::set<EdgeUse> on_path{from};
         for (;;) {
-            const std::vector<EdgeUse> choices = ways_on(path.back(), start, on_path);
+            const std::vector<EdgeUse> choices = ways_on(path.back(), goal, on_path);
             if (choices.empty()) return std::nullopt;
+            if (std::ranges::find(choices, goal) != choices.end()) return path;
             std::optional<EdgeUse> next = choices.front();
-            if (choices.size() > 1 && depth > 0) next = shortest(choices, start, depth);
+            if (choices.size() > 1 && depth > 0) next = shortest(choices, goal, depth);
             if (!next) return std::nullopt;
-            if (*next == start) return path;
             on_path.insert(*next);
             path.push_back(*next);
         }
@@ -76,37 +78,18 @@ private:
         return first.empty() ? (came_by_void ? made : given) : first;
     }
 
-    std::optional<EdgeUse> shortest(const std::vector<EdgeUse>& choices, EdgeUse start, int depth) const
+    /// The half-edge with the shortest walk to a goal.
+    std::optional<EdgeUse> shortest(const std::vector<EdgeUse>& choices, EdgeUse goal, int depth) const
     {
         std::optional<EdgeUse> best;
         std::size_t least = 0;
         for (const EdgeUse& choice : choices) {
-            if (choice == start) return choice;
-            const auto rest = walk_to(choice, start, depth - 1);
-            if (rest && (!best || *rest < least)) {
-                best = choice;
-                least = *rest;
-            }
+            const auto rest = walk(choice, goal, depth - 1);
+            if (!rest || (best && rest->size() >= least)) continue;
+            best = choice;
+            least = rest->size();
         }
         return best;
-    }
-
-    /// Number of half-edges from `from` to `goal`.
-    std::optional<std::size_t> walk_to(EdgeUse from, EdgeUse goal, int depth) const
-    {
-        std::set<EdgeUse> on_path{from};
-        EdgeUse at = from;
-        for (std::size_t steps = 1; steps <= halves_.size(); ++steps) {
-            const std::vector<EdgeUse> choices = ways_on(at, goal, on_path);
-            if (choices.empty()) return std::nullopt;
-            std::optional<EdgeUse> next = choices.front();
-            if (std::find(choices.begin(), choices.end(), goal) != choices.end()) return steps;
-            if (choices.size() > 1 && depth > 0) next = shortest(choices, goal, depth);
-            if (!next) return std::nullopt;
-            on_path.insert(*next);
-            at = *next;
-        }
-        return std::nullopt;
     }
 
     const Model& model_;
@@ -133,9 +116,8 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
     const Model& model = volume.model;
     Walker walker(model, void_edges);
     std::vector<EdgeUse> starts;
-    for (const Rim& rim : rims(model, volume.faces(Role::source))) {
-        for (const EdgeUse& use : rim.uses) starts.push_back({use.edge, !use.reversed});
-    }
+    for (const EdgeUse& use : rim_uses(model, volume.faces(Role::source)))
+        starts.push_back({use.edge, !use.reversed});
     for (const EdgeId edge : free_edges(volume)) {
         starts.push_back({edge, false});
         starts.push_back({edge, true});
@@ -143,7 +125,7 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
     std::vector<Loop> loops;
     for (const EdgeUse& start : starts) {
         if (!walker.open(start)) continue;
-        const auto path = walker.walk(start, kLookAhead);
+        const auto path = walker.walk(start, start, kLookAhead);
         if (!path) {
             throw NotClosed("closure.walk_open",
                             "the walk from free " + name_of(model, start.edge) +

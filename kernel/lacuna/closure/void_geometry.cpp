@@ -8,12 +8,14 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -38,14 +40,9 @@ NewellOutline newell_outline(const Model& model, const std::vector<Loop>& loops)
     for (const Loop& loop : loops) rims.push_back(loop_places(model, loop.uses));
     result.plane = geometry::newell_plane(rims);
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::vector<Index> points = loop_points(model, loops[l].uses);
-        std::vector<Index>& numbers = result.outline.loops.emplace_back();
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            numbers.push_back(static_cast<Index>(result.outline.flat.size()));
-            result.outline.model_point.push_back(points[i]);
-            result.outline.flat.push_back(geometry::to_plane(result.plane, rims[l][i]));
-            result.bulge = std::max(result.bulge, std::abs(geometry::height(result.plane, rims[l][i])));
-        }
+        result.outline.add_loop(flat_places(result.plane, rims[l]), loop_points(model, loops[l].uses));
+        for (const Vec3& p : rims[l])
+            result.bulge = std::max(result.bulge, std::abs(geometry::height(result.plane, p)));
     }
     return result;
 }
@@ -149,10 +146,29 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> fit(normal);
     if (fit.eigenvalues()(0) < kManyConics * fit.eigenvalues()(5)) return std::nullopt;
     result.coefficient = normal.ldlt().solve(right);
-    const bool on_it = std::all_of(samples.begin(), samples.end(), [&](const Sample& s) {
+    const bool on_it = std::ranges::all_of(samples, [&](const Sample& s) {
         return std::abs(result.at(s.place) - s.height) <= kOnIt * newell.bulge;
     });
     return on_it ? std::optional(result) : std::nullopt;
+}
+
+/// A face at heights over the Newell plane, by Algorithm 4.
+VoidFilling filling_at(const Model& model, const NewellOutline& newell, const geometry::Triangulation& flat,
+                       const std::vector<double>& heights)
+{
+    VoidFilling result = filling_of(model, newell.outline, flat, [&](std::size_t i) {
+        return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
+    });
+    result.algorithm = "Algorithm 4";
+    return result;
+}
+
+/// The outline triangulated with facets of one size.
+geometry::Triangulation fine_facets(const Outline& outline, double facet_size, const RunContext& context)
+{
+    geometry::TriangulateOptions fine;
+    fine.size = [=](const Vec2&) { return facet_size; };
+    return geometry::triangulate(outline.flat, outline.loops, fine, context);
 }
 
 /// @param on  the quadratic height of the rim, if there is one
@@ -169,12 +185,7 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
         heights = harmonic_heights(flat, left, context);
         for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += bent.at(flat.points[i]);
     }
-    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
-        return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
-    });
-    result.geometry = Geometry::newell;
-    result.algorithm = "Algorithm 4";
-    return result;
+    return filling_at(model, newell, flat, heights);
 }
 
 /// A void face on a sheet given by its rim; empty if the sheet does not cover the face.
@@ -186,21 +197,14 @@ std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;
     for (const Vec2& place : outline.flat) box.extend(place);
-    geometry::TriangulateOptions fine;
-    fine.size = [size = box.diagonal().norm() / kFacets](const Vec2&) { return size; };
-    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, fine, context);
+    const geometry::Triangulation flat = fine_facets(outline, box.diagonal().norm() / kFacets, context);
     std::vector<double> heights(flat.points.size());
     for (std::size_t i = outline.flat.size(); i < heights.size(); ++i) {
         const std::optional<double> height = sheet.height(flat.points[i]);
         if (!height) return std::nullopt;
         heights[i] = *height;
     }
-    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
-        return geometry::from_plane(newell.plane, flat.points[i], heights[i]);
-    });
-    result.geometry = Geometry::newell;
-    result.algorithm = "Algorithm 4";
-    return result;
+    return filling_at(model, newell, flat, heights);
 }
 
 /// A void face on the first sheet of its rim that covers it.
@@ -266,15 +270,8 @@ std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops
 
 std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
 {
-    const auto edges_of = [&](Role role) {
-        std::set<EdgeId> edges;
-        for (const Rim& rim : rims(volume.model, volume.faces(role))) {
-            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-        }
-        return edges;
-    };
-    const std::set<EdgeId> source = edges_of(Role::source);
-    const std::set<EdgeId> target = edges_of(Role::target);
+    const std::set<EdgeId> source = rim_edges(volume.model, volume.faces(Role::source));
+    const std::set<EdgeId> target = rim_edges(volume.model, volume.faces(Role::target));
     const std::size_t n = loop.uses.size();
     const auto kind = [&](std::size_t i) {
         const EdgeId edge = loop.uses[i % n].edge;
@@ -351,9 +348,7 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
                             " cannot be projected to a plane: " + crossing_in_words(model, loops, *crossing) +
                             " cross there, so it cannot be parallel to the given end; use cap = \"flat\"");
     }
-    geometry::TriangulateOptions fine;
-    fine.size = [=](const Vec2&) { return facet_size; };
-    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, fine, context);
+    const geometry::Triangulation flat = fine_facets(outline, facet_size, context);
     std::vector<double> heights;
     for (const Vec2& place : flat.points) {
         check_cancelled(context);
@@ -368,13 +363,21 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
     std::vector<double> left = rim_heights(model, newell);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= heights[i];
     const std::vector<double> moved = harmonic_heights(flat, left, context);
-    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) {
-        return geometry::from_plane(newell.plane, flat.points[i], heights[i] + moved[i]);
-    });
+    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += moved[i];
+    VoidFilling result = filling_at(model, newell, flat, heights);
     result.loops = loops;
     result.geometry = Geometry::parallel;
-    result.algorithm = "Algorithm 4";
     return result;
+}
+
+EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
+{
+    std::vector<Index> points(between.size() + 2);
+    std::iota(points.begin() + 1, points.end(), static_cast<Index>(model.points.size()));
+    points.front() = model[from].point;
+    points.back() = model[to].point;
+    model.points.insert(model.points.end(), between.begin(), between.end());
+    return add_void_edge(model, from, to, std::move(points));
 }
 
 FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)

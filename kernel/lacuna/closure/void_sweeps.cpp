@@ -6,6 +6,7 @@
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <functional>
@@ -26,9 +27,8 @@ constexpr std::size_t kMostOthers = 3;
 /// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
 bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
 {
-    OpenVolume volume{skin, std::vector<Role>(skin.faces.size(), Role::wall), {}, false};
-    for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
-    for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
+    OpenVolume volume{skin, std::vector<Role>(skin.faces.size())};
+    set_ends(volume, roles);
     try {
         if (has_steps(volume, context)) cut_steps(volume, context);
         return true;
@@ -52,7 +52,7 @@ GivenPart given_part(const std::vector<FaceId>& faces, const std::vector<FaceId>
         else
             part.all = false;
     }
-    std::sort(part.faces.begin(), part.faces.end());
+    std::ranges::sort(part.faces);
     return part;
 }
 
@@ -63,7 +63,7 @@ struct Ends {
 
 std::vector<FaceId> rising(std::vector<FaceId> faces)
 {
-    std::sort(faces.begin(), faces.end());
+    std::ranges::sort(faces);
     return faces;
 }
 
@@ -105,8 +105,8 @@ bool has_ends(const RoleCandidate& way, const Ends& ends)
 /// accessible there, then those with given ends, then those between faces that closing made.
 std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
 {
-    const auto same = std::find_if(ways.begin(), ways.end(),
-                                   [&](const RoleCandidate& way) { return has_ends(way, ends); });
+    const auto same = std::ranges::find_if(ways,
+                                           [&](const RoleCandidate& way) { return has_ends(way, ends); });
     if (same == ways.end()) return 3;
     return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
 }
@@ -116,13 +116,10 @@ RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
                         const std::function<Ends(const RoleCandidate&)>& ends_of,
                         const std::vector<RoleCandidate>& ways)
 {
-    const auto end = std::find_if(sweeps.begin(), sweeps.end(), [&](const RoleCandidate& way) {
-        return way.irregular > sweeps.front().irregular;
-    });
-    const auto best = std::min_element(sweeps.begin(), end,
-                                       [&](const RoleCandidate& a, const RoleCandidate& b) {
-                                           return openness(ends_of(a), ways) < openness(ends_of(b), ways);
-                                       });
+    const auto end = std::ranges::find_if(
+        sweeps, [&](const RoleCandidate& way) { return way.irregular > sweeps.front().irregular; });
+    const auto best = std::ranges::min_element(
+        sweeps.begin(), end, {}, [&](const RoleCandidate& way) { return openness(ends_of(way), ways); });
     RoleCandidate taken = std::move(*best);
     sweeps.erase(best);
     if (sweeps.size() > kMostOthers) sweeps.resize(kMostOthers);
@@ -134,44 +131,43 @@ RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
 std::vector<RoleCandidate> best_sweeps(const Model& skin, const RunContext& context)
 {
     const auto fails = [&](const RoleCandidate& way) { return !can_be_cut(skin, way.roles, context); };
-    const RoleOptions near;
-    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), near, context);
+    std::vector<RoleCandidate> all = role_candidates(skin, all_faces(skin), {}, context);
     const bool any = !all.empty();
     std::erase_if(all, fails);
     if (any && all.empty()) { // the likeliest cannot be swept; less likely ones may
-        RoleOptions far;
-        far.margin = std::numeric_limits<double>::infinity();
-        all = role_candidates(skin, all_faces(skin), far, context);
-        all.erase(all.begin(), std::ranges::find_if_not(all, fails));
-        std::erase_if(all, [&, least = all.empty() ? 0 : all.front().cost](const RoleCandidate& way) {
-            return way.cost > least + near.margin || fails(way);
-        });
+        all = less_likely(skin, all_faces(skin), RoleOptions{}.most, std::not_fn(fails), context);
+        std::erase_if(all, fails);
     }
-    std::stable_sort(all.begin(), all.end(), [](const RoleCandidate& a, const RoleCandidate& b) {
-        return a.irregular < b.irregular;
-    });
+    std::ranges::stable_sort(all, {}, &RoleCandidate::irregular);
     return all;
+}
+
+std::vector<RoleCandidate> less_likely(const Model& model, const std::vector<FaceId>& faces, std::size_t most,
+                                       const std::function<bool(const RoleCandidate&)>& suits,
+                                       const RunContext& context)
+{
+    const RoleOptions far{std::numeric_limits<double>::infinity(), most};
+    const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
+    const auto first = std::ranges::find_if(all, suits);
+    return {first, std::find_if(first, all.end(), [&](const RoleCandidate& candidate) {
+                return candidate.cost > first->cost + RoleOptions{}.margin;
+            })};
 }
 
 Classification class_as_given(const Model& model, const Roles& roles)
 {
     OpenVolume open;
-    std::vector<FaceId> faces;
-    for (const auto& [list, role] : {std::pair{&roles.source, Role::source},
-                                     {&roles.target, Role::target},
-                                     {&roles.walls, Role::wall}}) {
-        faces.insert(faces.end(), list->begin(), list->end());
-        open.role.insert(open.role.end(), list->size(), role);
-    }
-    open.model = extract(model, faces);
+    open.role.assign(roles.source.size(), Role::source);
+    open.role.insert(open.role.end(), roles.target.size(), Role::target);
+    open.role.insert(open.role.end(), roles.walls.size(), Role::wall);
+    open.model = extract(model, all_faces(roles));
     orient_consistently(open.model);
-    Classification found = classify(open);
-    return found;
+    return classify(open);
 }
 
 void set_ends(OpenVolume& volume, const Roles& roles)
 {
-    std::fill(volume.role.begin(), volume.role.end(), Role::wall);
+    std::ranges::fill(volume.role, Role::wall);
     for (const FaceId f : roles.source) volume.role[f.index()] = Role::source;
     for (const FaceId f : roles.target) volume.role[f.index()] = Role::target;
     volume.turned_round = false;
@@ -219,11 +215,10 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
     reading.guess = guess_of_bent(found.sealed.volume, found.sealed.closure, RolesBy::finding);
-    if (reading.guess.empty())
-        note_hole(model, found.through, as_named(found.first.roles), found.sealed, reading);
-    reading.ways = std::max<std::size_t>(1, found.ways.size());
     const RoleCandidate& first = found.first;
-    const std::vector<FaceId> names = as_named(first.roles);
+    const std::vector<FaceId> names = all_faces(first.roles);
+    if (reading.guess.empty()) note_hole(model, found.through, names, found.sealed, reading);
+    reading.ways = std::max<std::size_t>(1, found.ways.size());
     std::vector<RoleCandidate> sweeps;
     // A void with nothing but two ends was given as such.
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
@@ -247,7 +242,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
         if (std::ranges::any_of(other->ways, is_same) || std::ranges::any_of(other->bent, is_same))
             return std::nullopt;
     }
-    const auto same = std::find_if(found.ways.begin(), found.ways.end(), is_same);
+    const auto same = std::ranges::find_if(found.ways, is_same);
     const long irregular = best.irregular;
     if (!sweeps.empty())
         reading.others = std::make_shared<const OtherSweeps>(

@@ -5,6 +5,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/topology/shared/auto_walls.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <utility>
@@ -38,14 +39,6 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
                           " already");
     }
     return reasons;
-}
-
-std::vector<FaceId> faces_of(const Roles& roles)
-{
-    std::vector<FaceId> all = roles.source;
-    all.insert(all.end(), roles.target.begin(), roles.target.end());
-    all.insert(all.end(), roles.walls.begin(), roles.walls.end());
-    return all;
 }
 
 /// Find the roles of faces, also when only walls were named. None: use the named roles.
@@ -103,7 +96,7 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         Roles roles = *request.roles;
         if (request.find_walls) {
             volume.role_reasons = find_walls(model, roles, context);
-            topology::require_none_left_out(model, faces_of(roles), "walls");
+            topology::require_none_left_out(model, topology::all_faces(roles), "walls");
         }
         volume.volume = topology::open_volume(model, roles, context);
     }

@@ -29,8 +29,7 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     for (std::size_t i = 0; i < n; ++i) {
         const auto pair = hard.find(source.vertices[i]);
         if (pair == hard.end()) continue;
-        const std::size_t j = backward ? (shift + n - i) % n : (shift + i) % n;
-        if (target.vertices[j] != pair->second) return false;
+        if (target.vertices[partner_place(i, n, shift, backward)] != pair->second) return false;
     }
     return true;
 }
@@ -56,58 +55,49 @@ void rate(Alignment& alignment, const Problem& problem, const LoopShape& source,
     alignment.score += kTurnWeight * (turn_of(alignment) + overturned(source, target, alignment.backward));
 }
 
-std::vector<Alignment> sorted(std::vector<Alignment> list)
-{
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Alignment& x, const Alignment& y) { return x.score < y.score; });
-    return list;
-}
-
 std::vector<Vec3> with(std::vector<Vec3> points, const std::vector<Vec3>& more)
 {
     points.insert(points.end(), more.begin(), more.end());
     return points;
 }
 
-std::vector<Alignment> alignments_by_vertices(const Problem& problem, const Hard& hard,
-                                              const LoopShape& source, const LoopShape& target,
-                                              bool with_scale, const PointPairs& known)
-{
-    const std::vector<Vec3> from = with(edge_samples(source, 0, false), known.from);
-    std::vector<Alignment> result;
-    for (const bool backward : {true, false}) {
-        if (problem.backward && *problem.backward != backward) continue;
-        for (std::size_t shift = 0; shift < target.vertices.size(); ++shift) {
-            check_cancelled(problem.context);
-            if (!allowed(hard, source, target, shift, backward)) continue;
-            Alignment& alignment = result.emplace_back(Alignment{shift, 0, backward, 0, {}});
-            rate(alignment, problem, source, target, from, edge_samples(target, shift, backward), known,
-                 with_scale);
-        }
-    }
-    return sorted(std::move(result));
-}
-
 /// Number of possible starts on a loop paired by length: its given nodes, or samples.
 std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
 
-std::vector<Alignment> alignments_by_length(const Problem& problem, const LoopShape& source,
-                                            const LoopShape& target, bool with_scale, const PointPairs& known)
+/// The samples of a target under an alignment, which correspond to those of the source from its start.
+std::vector<Vec3> target_samples(const LoopShape& target, const Alignment& alignment, bool by_length)
 {
-    const std::vector<Vec3> from = with(even_samples(source, 0, false), known.from);
-    const std::size_t places = places_of(target);
+    return by_length ? even_samples(target, target.length * alignment.offset, alignment.backward)
+                     : edge_samples(target, alignment.shift, alignment.backward);
+}
+
+std::vector<Vec3> source_samples(const LoopShape& source, bool by_length)
+{
+    return by_length ? even_samples(source, 0, false) : edge_samples(source, 0, false);
+}
+
+/// Every alignment, best first.
+/// @param hard  pairs to keep; null: pair by length.
+std::vector<Alignment> rated(const Problem& problem, const Hard* hard, const LoopShape& source,
+                             const LoopShape& target, bool with_scale, const PointPairs& known)
+{
+    const bool by_length = hard == nullptr;
+    const std::vector<Vec3> from = with(source_samples(source, by_length), known.from);
+    const std::size_t places = by_length ? places_of(target) : target.vertices.size();
     std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
         if (problem.backward && *problem.backward != backward) continue;
         for (std::size_t shift = 0; shift < places; ++shift) {
             check_cancelled(problem.context);
-            const double offset = static_cast<double>(shift) / static_cast<double>(places);
+            if (!by_length && !allowed(*hard, source, target, shift, backward)) continue;
+            const double offset = by_length ? static_cast<double>(shift) / static_cast<double>(places) : 0;
             Alignment& alignment = result.emplace_back(Alignment{shift, offset, backward, 0, {}});
-            rate(alignment, problem, source, target, from,
-                 even_samples(target, target.length * alignment.offset, backward), known, with_scale);
+            rate(alignment, problem, source, target, from, target_samples(target, alignment, by_length),
+                 known, with_scale);
         }
     }
-    return sorted(std::move(result));
+    std::ranges::stable_sort(result, {}, &Alignment::score);
+    return result;
 }
 
 Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape& target,
@@ -117,8 +107,7 @@ Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape&
     const auto at = [&](double offset) {
         Alignment moved = alignment;
         moved.offset = offset - std::floor(offset);
-        rate(moved, problem, source, target, from,
-             even_samples(target, target.length * moved.offset, alignment.backward), known, true);
+        rate(moved, problem, source, target, from, target_samples(target, moved, true), known, true);
         return moved;
     };
     const double golden = (std::sqrt(5.0) - 1) / 2, step = 1.0 / kSamples;
@@ -149,7 +138,7 @@ double mean_twist(const LoopShape& source, const LoopShape& target, const Alignm
     const double sign = by_length.backward ? -1 : 1;
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t j = (by_vertices.backward ? by_vertices.shift + n - i : by_vertices.shift + i) % n;
+        const std::size_t j = partner_place(i, n, by_vertices.shift, by_vertices.backward);
         const double apart = sign * (target.vertex_arc[j] / target.length - by_length.offset) -
                              source.vertex_arc[i] / source.length;
         sum += apart - std::round(apart);
@@ -169,23 +158,21 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     const auto low = corners(source), high = corners(target);
     const auto all = static_cast<std::ptrdiff_t>(n);
     if (problem.hard.empty() && low == all && high == all) return false;
-    const std::vector<Alignment> found = alignments_by_vertices(problem, problem.hard, source, target, true,
-                                                                problem.led);
+    const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.led);
     // Do not split edges because of the user's pairs alone: if they contradict, they are refused.
-    if (found.empty())
-        return alignments_by_vertices(problem, problem.walls, source, target, true, {}).empty();
+    if (found.empty()) return rated(problem, &problem.walls, source, target, true, {}).empty();
     if (low == all && high == all) return false;
     std::ptrdiff_t unlike = 0, met = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Alignment& alignment = found.front();
-        const std::size_t j = (alignment.backward ? alignment.shift + n - i : alignment.shift + i) % n;
+        const std::size_t j = partner_place(i, n, alignment.shift, alignment.backward);
         unlike += source.corner[i] != target.corner[j] ? 1 : 0;
         met += source.corner[i] && target.corner[j] ? 1 : 0;
     }
     if (unlike > std::abs(low - high)) return true;
     if (met > 0 || problem.has_hard(s)) return false;
     const Alignment straight = slid(problem, source, target,
-                                    alignments_by_length(problem, source, target, true, problem.led).front(),
+                                    rated(problem, nullptr, source, target, true, problem.led).front(),
                                     problem.led);
     return straight.backward != found.front().backward ||
            mean_twist(source, target, found.front(), straight) > kMostTwist;
@@ -207,11 +194,8 @@ double turn_of(const Alignment& alignment)
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                                      const PointPairs& known)
 {
-    const PointPairs all = with_led(problem, known);
-    if (problem.paired_by_length(s, t))
-        return alignments_by_length(problem, problem.source[s], problem.target[t], with_scale, all);
-    return alignments_by_vertices(problem, problem.hard, problem.source[s], problem.target[t], with_scale,
-                                  all);
+    return rated(problem, problem.paired_by_length(s, t) ? nullptr : &problem.hard, problem.source[s],
+                 problem.target[t], with_scale, with_led(problem, known));
 }
 
 Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
@@ -222,12 +206,9 @@ Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Al
 
 PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)
 {
-    const LoopShape& source = problem.source[s];
-    const LoopShape& target = problem.target[t];
-    if (!problem.paired_by_length(s, t))
-        return {edge_samples(source, 0, false), edge_samples(target, alignment.shift, alignment.backward)};
-    return {even_samples(source, 0, false),
-            even_samples(target, target.length * alignment.offset, alignment.backward)};
+    const bool by_length = problem.paired_by_length(s, t);
+    return {source_samples(problem.source[s], by_length),
+            target_samples(problem.target[t], alignment, by_length)};
 }
 
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b)
@@ -252,8 +233,7 @@ std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, c
         const std::vector<std::size_t> nodes = first_sides(target);
         std::size_t met = 0;
         for (const std::size_t node : first_sides(source)) {
-            const std::size_t at =
-                (alignment.backward ? alignment.shift + all - node : alignment.shift + node) % all;
+            const std::size_t at = partner_place(node, all, alignment.shift, alignment.backward);
             met += std::ranges::binary_search(nodes, at) ? 1 : 0;
         }
         return std::min(n, nodes.size()) - met;

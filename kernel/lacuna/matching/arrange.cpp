@@ -75,8 +75,7 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
 /// Keep the two best arrangements with different pairs and, for each, the two best alignments that differ.
 void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement>& best)
 {
-    const auto same = std::find_if(
-        best.begin(), best.end(), [&](const Arrangement& other) { return other.target == candidate.target; });
+    const auto same = std::ranges::find(best, candidate.target, &Arrangement::target);
     if (same == best.end()) {
         best.push_back(std::move(candidate));
     } else {
@@ -92,8 +91,7 @@ void keep(const Problem& problem, Arrangement candidate, std::vector<Arrangement
                 same->next = alignment;
         }
     }
-    std::stable_sort(best.begin(), best.end(),
-                     [](const Arrangement& a, const Arrangement& b) { return a.score < b.score; });
+    std::ranges::stable_sort(best, {}, &Arrangement::score);
     if (best.size() > 2) best.pop_back();
 }
 
@@ -104,8 +102,7 @@ std::vector<Arrangement> arrange(const Problem& problem)
     const std::size_t n = problem.source.size();
     double reach = 0;
     for (const LoopShape& shape : problem.target) reach = std::max(reach, shape.length);
-    const auto first_forced = std::find_if(problem.forced.begin(), problem.forced.end(),
-                                           [](int t) { return t >= 0; });
+    const auto first_forced = std::ranges::find_if(problem.forced, [](int t) { return t >= 0; });
     const auto anchor = first_forced == problem.forced.end()
                             ? std::size_t{0}
                             : static_cast<std::size_t>(first_forced - problem.forced.begin());

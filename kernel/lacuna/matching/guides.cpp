@@ -7,6 +7,8 @@
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Geometry>
 
@@ -104,7 +106,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         return Vec3((1 - f) * of[a] + f * of[b]);
     };
     std::map<FacetSide, FacetSide> next;
-    std::map<FacetSide, bool> entered;
+    std::set<FacetSide> entered;
     LevelLine line;
     for (const Triangle& triangle : triangles) {
         FacetSide from{-1, -1}, to{-1, -1};
@@ -115,7 +117,7 @@ std::optional<LevelLine> level_line(const Model& model, const std::vector<Triang
         }
         if (from.first < 0 || to.first < 0) continue;
         next[from] = to;
-        entered[to] = true;
+        entered.insert(to);
         const double piece = (crossing(to, model.points) - crossing(from, model.points)).norm();
         line.rise += piece * (crossing(from, up) + crossing(to, up));
     }
@@ -221,8 +223,7 @@ void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::v
 void start_at_first_anchor(LevelLine& line)
 {
     if (!line.closed || line.anchors.empty()) return;
-    const auto first = std::min_element(line.anchors.begin(), line.anchors.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto first = std::ranges::min_element(line.anchors, {}, [](const auto& at) { return at.second; });
     const std::size_t shift = first->first;
     line.points.pop_back();
     const std::size_t n = line.points.size();
@@ -364,9 +365,8 @@ std::pair<bool, bool> ends_anchored(const LevelLine& line)
 /// @return  false if the lines end differently and share fewer than two side lines.
 bool cut_to_shared(std::vector<LevelLine>& lines)
 {
-    const bool alike = std::all_of(lines.begin(), lines.end(), [&](const LevelLine& line) {
-        return ends_anchored(line) == ends_anchored(lines.front());
-    });
+    const bool alike = std::ranges::all_of(
+        lines, [&](const LevelLine& line) { return ends_anchored(line) == ends_anchored(lines.front()); });
     if (alike || lines.front().closed) return true;
     if (lines.front().anchors.size() < 2) return false;
     for (LevelLine& line : lines) {
@@ -427,22 +427,16 @@ void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, con
                   std::vector<LoopSections>& loops)
 {
     const Model& model = volume.model;
-    std::set<EdgeId> edges;
-    for (const FaceId face : part) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
+    const std::set<EdgeId> edges = edges_of(model, part);
     for (const Rim& rim : rims(model, volume.faces(Role::source))) {
         if (std::ranges::none_of(rim.uses, [&](const EdgeUse& use) { return edges.contains(use.edge); }))
             continue;
         std::vector<Index> points;
         for (const EdgeUse& use : rim.uses)
             points.insert(points.end(), model[use.edge].points.begin(), model[use.edge].points.end());
-        std::vector<Vec3> places;
-        for (const Index p : points) places.push_back(model.at(p));
         const std::span<const Vec3> rim_section(sections.points.front());
-        if (!says_the_rest(rim_section.first(rim_section.size() - kAdded), places)) continue;
+        if (!says_the_rest(rim_section.first(rim_section.size() - kAdded), places_at(model, points)))
+            continue;
         auto loop = std::ranges::find(loops, points, &LoopSections::rim);
         if (loop == loops.end()) {
             loop = loops.insert(loops.end(), {points, {}, {}});

@@ -30,10 +30,10 @@ constexpr double kUnsureBesideSides = 0.6;
 /// equal: a plain prism is not twisted to suit its target mesh. Rules of thumb.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
-/// Confidence in an alignment compared to another.
-double sureness(const Alignment& best, const Alignment& second)
+/// Confidence in a score compared to another.
+double sureness(double best, double second)
 {
-    return 1 - std::min(1.0, std::max(best.score, 1e-12) / std::max(second.score, 1e-12));
+    return 1 - std::min(1.0, std::max(best, 1e-12) / std::max(second, 1e-12));
 }
 
 /// Report a second alignment that fits about as well, so that the user can choose.
@@ -91,7 +91,7 @@ private:
     {
         const std::size_t t = target(s);
         const std::vector<int>& flips = problem_.options.flip;
-        const bool flip = std::find(flips.begin(), flips.end(), static_cast<int>(s)) != flips.end();
+        const bool flip = std::ranges::find(flips, static_cast<int>(s)) != flips.end();
         std::vector<Alignment> found;
         if (arrangement != nullptr) {
             found = {arrangement->alignment};
@@ -127,7 +127,7 @@ private:
         const Alignment likeliest = found.front();
         for (const Alignment& other : alignments_of(problem_, s, t, true)) {
             const bool turns_more = turn_of(other) > turn_of(likeliest) + kAsMuch;
-            if (sureness(likeliest, other) >= (turns_more ? kTie : kUnsureBesideSides)) continue;
+            if (sureness(likeliest.score, other.score) >= (turns_more ? kTie : kUnsureBesideSides)) continue;
             const std::size_t unlike = unlike_sides(problem_, s, t, other);
             if (unlike >= least) continue;
             least = unlike;
@@ -144,12 +144,11 @@ private:
     {
         const std::size_t t = target(s);
         const Alignment& best = found.front();
-        const auto second = std::find_if(found.begin(), found.end(), [&](const Alignment& other) {
-            return differ(problem_, s, t, best, other);
-        });
+        const auto second = std::ranges::find_if(
+            found, [&](const Alignment& other) { return differ(problem_, s, t, best, other); });
         if (second == found.end() || problem_.has_hard(s)) return;
         // Loop pairs may have been chosen by shape and need not be the best by position.
-        const double sure = sureness(best, *second);
+        const double sure = sureness(best.score, second->score);
         match_.confidence = std::min(match_.confidence, sure);
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
@@ -179,11 +178,9 @@ private:
         const std::vector<VertexId>& source = problem_.source[s].vertices;
         const std::vector<VertexId>& target_vertices = problem_.target[target(s)].vertices;
         const Alignment& alignment = chosen_[s];
-        const std::size_t k = source.size();
-        for (std::size_t i = 0; i < k; ++i)
-            add_pair(
-                source[i],
-                target_vertices[(alignment.backward ? alignment.shift + k - i : alignment.shift + i) % k]);
+        const std::size_t n = source.size();
+        for (std::size_t i = 0; i < n; ++i)
+            add_pair(source[i], target_vertices[partner_place(i, n, alignment.shift, alignment.backward)]);
     }
 
     void pair_by_length(std::size_t s)
@@ -192,11 +189,7 @@ private:
         const LoopShape& source = problem_.source[s];
         const LoopShape& high = problem_.target[t];
         const ArcLoop low_loop = arc_loop(source), high_loop = arc_loop(high);
-        std::vector<std::pair<VertexId, VertexId>> hard;
-        for (const VertexId v : source.vertices) {
-            const auto pair = problem_.hard.find(v);
-            if (pair != problem_.hard.end()) hard.emplace_back(*pair);
-        }
+        const std::vector<std::pair<VertexId, VertexId>> hard = hard_pairs(s);
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             throw NotClosed("matching.vertices_contradict",
                             "the vertex pairs fixed by the walls or the recipe on source loop " +
@@ -205,17 +198,10 @@ private:
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
                                            kMostTwist);
         for (const auto& [from, to] : pairs.vertices) add_pair(from, to);
-        for (const auto& [vertex, share] : pairs.split_target) {
-            Split split = split_at(match_.target_loops[t], high, share);
-            split.vertex = vertex;
-            match_.splits.push_back(split);
-        }
-        for (const auto& [vertex, share] : pairs.split_source) {
-            Split split = split_at(match_.source_loops[s], source, share);
-            split.vertex = vertex;
-            split.on_target = false;
-            match_.splits.push_back(split);
-        }
+        for (const auto& [vertex, share] : pairs.split_target)
+            match_.splits.push_back(split_at(vertex, true, match_.target_loops[t], high, share));
+        for (const auto& [vertex, share] : pairs.split_source)
+            match_.splits.push_back(split_at(vertex, false, match_.source_loops[s], source, share));
         note_lengths(s, pairs.split_source.size() + pairs.split_target.size());
     }
 
@@ -249,16 +235,22 @@ private:
         return loop;
     }
 
+    [[nodiscard]] std::vector<std::pair<VertexId, VertexId>> hard_pairs(std::size_t s) const
+    {
+        std::vector<std::pair<VertexId, VertexId>> pairs;
+        for (const VertexId v : problem_.source[s].vertices) {
+            const auto pair = problem_.hard.find(v);
+            if (pair != problem_.hard.end()) pairs.emplace_back(*pair);
+        }
+        return pairs;
+    }
+
     [[nodiscard]] std::string fixed_in_words(std::size_t s) const
     {
         const Model& model = problem_.volume.model;
-        std::string list;
-        for (const VertexId v : problem_.source[s].vertices) {
-            const auto pair = problem_.hard.find(v);
-            if (pair == problem_.hard.end()) continue;
-            list += (list.empty() ? "" : ", ") + std::to_string(model[v].tag) + " to " +
-                    std::to_string(model[pair->second].tag);
-        }
+        const std::string list = full_list(hard_pairs(s), [&](const auto& pair) {
+            return std::to_string(model[pair.first].tag) + " to " + std::to_string(model[pair.second].tag);
+        });
         return list.empty() ? list : " (vertices " + list + ")";
     }
 
@@ -268,24 +260,6 @@ private:
     PointPairs known_; ///< of the loops aligned so far
     std::optional<bool> backward_;
 };
-
-/// The paper's own method.
-void by_nearest(const Problem& problem, Match& match)
-{
-    NearestInput input{match.source_loops,
-                       match.target_loops,
-                       problem.hard,
-                       problem.forced,
-                       std::vector<bool>(problem.source.size(), false),
-                       problem.backward};
-    for (const int s : problem.options.flip) input.turned[static_cast<std::size_t>(s)] = true;
-    NearestMatch found = match_nearest(problem.volume.model, input, problem.context);
-    match.loops = std::move(found.loops);
-    match.vertices = std::move(found.vertices);
-    match.confidence = found.confidence;
-    match.notes = std::move(found.notes);
-    for (const auto& pair : match.vertices) match.hard.push_back(problem.hard.contains(pair.first));
-}
 
 /// Loop numbers as in the recipe, from 1.
 std::string numbers(const std::vector<int>& list)
@@ -335,13 +309,12 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
         try {
-            by_nearest(problem, result);
+            return match_nearest(problem, std::move(result));
         } catch (const NotClosed& error) {
             if (!can_be_aligned(volume, options, context)) throw;
             throw NotClosed(error.code(),
                             std::string(error.what()) + "; try method = \"aligned\", which matches them");
         }
-        return result;
     }
 
     choose_how(problem);
@@ -353,9 +326,9 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)
         result.loops[s] = {static_cast<int>(s), found.front().target[s], false};
-    const bool open = std::find(problem.forced.begin(), problem.forced.end(), -1) != problem.forced.end();
+    const bool open = std::ranges::find(problem.forced, -1) != problem.forced.end();
     if (open && found.size() > 1) {
-        result.confidence = 1 - std::max(found[0].score, 1e-12) / std::max(found[1].score, 1e-12);
+        result.confidence = sureness(found[0].score, found[1].score);
         if (result.confidence < kUnsure) {
             result.notes.push_back("the source loops were paired, in order, with target loops " +
                                    numbers(found[0].target) + ", and " + numbers(found[1].target) +

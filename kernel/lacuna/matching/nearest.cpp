@@ -5,8 +5,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/geometry/newell.h>
-#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,18 +37,17 @@ struct Ends {
 };
 
 /// Step 3: positions of the vertices of each loop.
-Ends ends_of(const Model& model, const std::vector<Rim>& loops)
+Ends ends_of(const Model& model, const std::vector<LoopShape>& loops)
 {
     Ends ends;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         ends.first.push_back(ends.vertex.size());
-        for (const EdgeUse& use : loops[l].uses) {
-            const VertexId v = use_from(model, use);
+        for (const VertexId v : loops[l].vertices) {
             ends.vertex.push_back(v);
             ends.at.push_back(model.at(model[v].point));
             ends.loop.push_back(l);
         }
-        ends.area.push_back(geometry::newell_vector(loop_places(model, loops[l].uses)));
+        ends.area.push_back(loops[l].area);
     }
     ends.first.push_back(ends.vertex.size());
     return ends;
@@ -58,30 +55,30 @@ Ends ends_of(const Model& model, const std::vector<Rim>& loops)
 
 class Nearest {
 public:
-    Nearest(const Model& model, const NearestInput& input, const RunContext& context)
-        : model_(model),
-          context_(context),
-          input_(input),
-          source_(ends_of(model, input.source_loops)),
-          target_(ends_of(model, input.target_loops)),
+    Nearest(const Problem& problem, Match match)
+        : problem_(problem),
+          model_(problem.volume.model),
+          source_(ends_of(model_, problem.source)),
+          target_(ends_of(model_, problem.target)),
           partner_(source_.vertex.size(), kNone),
-          fixed_(source_.vertex.size(), kNone)
+          fixed_(source_.vertex.size(), kNone),
+          result_(std::move(match))
     {
         for (std::size_t s = 0; s < fixed_.size(); ++s) {
-            const auto known = input.fixed.find(source_.vertex[s]);
-            if (known == input.fixed.end()) continue;
-            const auto found = std::find(target_.vertex.begin(), target_.vertex.end(), known->second);
+            const auto known = problem.hard.find(source_.vertex[s]);
+            if (known == problem.hard.end()) continue;
+            const auto found = std::ranges::find(target_.vertex, known->second);
             if (found != target_.vertex.end())
                 fixed_[s] = static_cast<std::size_t>(found - target_.vertex.begin());
         }
         for (std::size_t s = 0; s < fixed_.size(); ++s) {
-            check_cancelled(context);
+            check_cancelled(problem.context);
             nearest_to_source_.push_back(
                 nearest(source_.at[s], target_, [&](std::size_t t) { return may(s, t); }));
         }
     }
 
-    NearestMatch run()
+    Match run()
     {
         match_vertices();
         match_loops();
@@ -110,9 +107,9 @@ private:
     [[nodiscard]] bool may(std::size_t s, std::size_t t) const
     {
         if (fixed_[s] != kNone) return fixed_[s] == t;
-        const int loop = input_.loops[source_.loop[s]];
+        const int loop = problem_.forced[source_.loop[s]];
         if (loop >= 0 && static_cast<std::size_t>(loop) != target_.loop[t]) return false;
-        return std::find(fixed_.begin(), fixed_.end(), t) == fixed_.end();
+        return std::ranges::find(fixed_, t) == fixed_.end();
     }
 
     template <class Allowed>
@@ -129,273 +126,258 @@ private:
         return best;
     }
 
-    void match_vertices();
-    void match_loops();
-    void validate();
-    void find_direction();
-    void align(std::size_t l);
-    static Way best_of(const std::vector<Way>& list);
-    [[nodiscard]] std::vector<Way> ways(std::size_t l, std::size_t m) const;
-    [[nodiscard]] double clearness() const;
-    [[noreturn]] void refuse_loop(std::size_t l, const std::string& why) const;
-    [[nodiscard]] std::string clashes(std::size_t l) const;
+    /// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the nearest
+    /// source vertex of each target vertex that has no partner or several.
+    void match_vertices()
+    {
+        std::vector<int> met(target_.vertex.size(), 0);
+        for (const std::size_t t : nearest_to_source_) {
+            if (t != kNone) ++met[t];
+        }
+        if (std::ranges::all_of(met, [](int count) { return count == 1; })) {
+            partner_ = nearest_to_source_;
+            return;
+        }
+        std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+        for (std::size_t s = 0; s < partner_.size(); ++s) {
+            const std::size_t t = nearest_to_source_[s];
+            if (t != kNone && met[t] == 1) pairs.emplace_back(fixed_[s] != kNone ? -1 : distance(s, t), s, t);
+        }
+        for (std::size_t t = 0; t < met.size(); ++t) {
+            if (met[t] == 1) continue;
+            const std::size_t s = nearest(target_.at[t], source_, [&](std::size_t i) { return may(i, t); });
+            if (s != kNone) pairs.emplace_back(distance(s, t), s, t);
+        }
+        std::sort(pairs.begin(), pairs.end());
+        std::vector<bool> taken(met.size(), false);
+        for (const auto& [d, s, t] : pairs) {
+            if (partner_[s] != kNone || taken[t]) continue;
+            partner_[s] = t;
+            taken[t] = true;
+        }
+    }
+
+    /// Step 6: a loop is paired with the loop that most of its vertices vote for.
+    void match_loops()
+    {
+        const std::size_t n = problem_.source.size();
+        loop_.assign(n, kNone);
+        std::vector<std::size_t> claimed(n, kNone);
+        for (std::size_t l = 0; l < n; ++l) {
+            check_cancelled(problem_.context);
+            std::vector<std::size_t> votes(n, 0);
+            for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
+                if (partner_[s] != kNone) ++votes[target_.loop[partner_[s]]];
+            }
+            const auto most = std::ranges::max_element(votes);
+            if (problem_.forced[l] >= 0) {
+                loop_[l] = static_cast<std::size_t>(problem_.forced[l]);
+            } else {
+                if (*most == 0) refuse_loop(l, "none of its vertices is the nearest to one of the target");
+                if (std::count(votes.begin(), votes.end(), *most) > 1)
+                    refuse_loop(l, "its vertices are equally close to several target loops");
+                loop_[l] = static_cast<std::size_t>(most - votes.begin());
+            }
+            const std::size_t other = std::exchange(claimed[loop_[l]], l);
+            if (other != kNone) {
+                refuse_loop(l, "it and source loop " + std::to_string(other + 1) +
+                                   " are both nearest to target loop " + std::to_string(loop_[l] + 1));
+            }
+            if (source_.count(l) != target_.count(loop_[l])) {
+                throw NotClosed("matching.edge_counts",
+                                "method \"nearest\": source loop " + std::to_string(l + 1) + " has " +
+                                    std::to_string(source_.count(l)) + " edges and target loop " +
+                                    std::to_string(loop_[l] + 1) + " has " +
+                                    std::to_string(target_.count(loop_[l])) + "; it needs as many on both");
+            }
+        }
+    }
+
+    /// Step 7: matches far from the mean distance are dropped and paired again.
+    void validate()
+    {
+        for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) {
+            std::vector<std::size_t> matched;
+            double sum = 0;
+            for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
+                if (partner_[s] == kNone) continue;
+                if (target_.loop[partner_[s]] != loop_[l]) {
+                    partner_[s] = kNone;
+                    continue;
+                }
+                matched.push_back(s);
+                sum += distance(s, partner_[s]);
+            }
+            const double count = static_cast<double>(std::max<std::size_t>(matched.size(), 1));
+            const double mean = sum / count;
+            double squares = 0;
+            for (const std::size_t s : matched) squares += std::pow(distance(s, partner_[s]) - mean, 2);
+            // Equal distances differ by rounding, which is no deviation.
+            const double reach = kDeviations * std::sqrt(squares / count) + model_.tolerance;
+            std::size_t within = 0;
+            for (const std::size_t s : matched) {
+                if (std::abs(distance(s, partner_[s]) - mean) <= reach)
+                    ++within;
+                else if (fixed_[s] == kNone)
+                    partner_[s] = kNone;
+            }
+            if (static_cast<double>(within) < kShare * count)
+                refuse_loop(l, "the distances of its vertices vary too much");
+        }
+    }
+
+    [[nodiscard]] std::vector<Way> ways(std::size_t l, std::size_t m) const
+    {
+        const std::size_t n = source_.count(l);
+        std::vector<Way> result;
+        for (const bool backward : {true, false}) {
+            for (std::size_t shift = 0; shift < n; ++shift) {
+                check_cancelled(problem_.context);
+                Way way{shift, backward, 0, 0};
+                bool keeps = true;
+                for (std::size_t i = 0; i < n; ++i) {
+                    const std::size_t s = source_.first[l] + i;
+                    const std::size_t t = target_.first[m] + partner_place(i, n, shift, backward);
+                    keeps = keeps && (fixed_[s] == kNone || fixed_[s] == t);
+                    way.agree += partner_[s] == t ? 1 : 0;
+                    way.distance += distance(s, t);
+                }
+                if (keeps) result.push_back(way);
+            }
+        }
+        return result;
+    }
+
+    /// The alignment that most vertices agree on; of equal ones the nearest.
+    static Way best_of(const std::vector<Way>& list)
+    {
+        return *std::ranges::min_element(list, [](const Way& a, const Way& b) {
+            return std::tie(b.agree, a.distance) < std::tie(a.agree, b.distance);
+        });
+    }
+
+    /// Step 6, the direction: one for all loops, as both ends are seen from one side. Loops of one or two
+    /// vertices do not determine it; if no other loop does, the area vectors decide.
+    void find_direction()
+    {
+        std::size_t backward = 0, forward = 0;
+        Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+        for (std::size_t l = 0; l < loop_.size(); ++l) {
+            low += source_.area[l];
+            high += target_.area[loop_[l]];
+            std::size_t most[2] = {0, 0};
+            for (const Way& way : ways(l, loop_[l]))
+                most[way.backward ? 0 : 1] = std::max(most[way.backward ? 0 : 1], way.agree);
+            if (source_.count(l) <= 2) continue;
+            backward += most[0];
+            forward += most[1];
+        }
+        backward_ = problem_.backward.value_or(backward == forward ? low.dot(high) < 0 : backward > forward);
+    }
+
+    /// Align a loop as its matches agree; dropped and unpaired vertices follow the others.
+    void align(std::size_t l)
+    {
+        const std::size_t m = loop_[l], n = source_.count(l);
+        std::vector<Way> found = ways(l, m);
+        std::erase_if(found, [&](const Way& other) { return other.backward != backward_; });
+        if (found.empty())
+            refuse_loop(l, "no alignment with target loop " + std::to_string(m + 1) +
+                               " keeps its fixed vertex pairs");
+        Way way = best_of(found);
+        const auto partner = [&](std::size_t i) {
+            return target_.first[m] + partner_place(i, n, way.shift, way.backward);
+        };
+        // A fixed pair leaves one alignment only.
+        const auto first = fixed_.begin() + static_cast<std::ptrdiff_t>(source_.first[l]);
+        const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
+                                         [](std::size_t t) { return t != kNone; });
+        if (!settled && static_cast<double>(way.agree) < kShare * static_cast<double>(n)) {
+            refuse_loop(l, "the nearest vertices do not keep the order along the loop" + clashes(l));
+        }
+        if (way.agree < n) {
+            std::string list;
+            for (std::size_t i = 0; i < n; ++i) {
+                if (partner_[source_.first[l] + i] != partner(i))
+                    list += (list.empty() ? "" : ", ") + tag(source_.vertex[source_.first[l] + i]);
+            }
+            result_.notes.push_back("source loop " + std::to_string(l + 1) +
+                                    ": the target vertices nearest to vertices " + list +
+                                    " are taken by others; they follow the other vertices of the loop");
+            result_.confidence = std::min(result_.confidence,
+                                          static_cast<double>(way.agree) / static_cast<double>(n));
+        }
+        if (std::ranges::find(problem_.options.flip, static_cast<int>(l)) != problem_.options.flip.end()) {
+            std::vector<Way> turned = ways(l, m);
+            std::erase_if(turned, [&](const Way& other) { return other.backward == way.backward; });
+            if (turned.empty())
+                refuse_loop(l, "reversed by match{ flip = … }, it cannot keep its fixed vertex pairs");
+            way = *std::ranges::min_element(turned, {}, &Way::distance);
+        }
+        result_.loops.push_back({static_cast<int>(l), static_cast<int>(m), !way.backward});
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t s = source_.first[l] + i;
+            partner_[s] = partner(i);
+            result_.vertices.emplace_back(source_.vertex[s], target_.vertex[partner_[s]]);
+            result_.hard.push_back(problem_.hard.contains(source_.vertex[s]));
+        }
+    }
+
+    /// How much closer the matched vertices are than the second closest of their loop.
+    [[nodiscard]] double clearness() const
+    {
+        double matched = 0, second = 0;
+        for (std::size_t s = 0; s < partner_.size(); ++s) {
+            if (fixed_[s] != kNone) continue;
+            const std::size_t next = nearest(source_.at[s], target_,
+                                             [&](std::size_t t) { return t != partner_[s]; });
+            if (next == kNone) continue;
+            matched += distance(s, partner_[s]);
+            second += distance(s, next);
+        }
+        return second > 0 ? std::clamp(1 - matched / second, 0.0, 1.0) : 1;
+    }
+
+    /// The vertices of a loop that share a nearest target vertex, for messages.
+    [[nodiscard]] std::string clashes(std::size_t l) const
+    {
+        for (std::size_t a = source_.first[l]; a < source_.first[l + 1]; ++a) {
+            for (std::size_t b = 0; b < partner_.size(); ++b) {
+                if (a == b || nearest_to_source_[a] == kNone ||
+                    nearest_to_source_[a] != nearest_to_source_[b])
+                    continue;
+                return " (vertices " + tag(source_.vertex[a]) + " and " + tag(source_.vertex[b]) +
+                       " are both nearest to vertex " + tag(target_.vertex[nearest_to_source_[a]]) + ")";
+            }
+        }
+        return {};
+    }
+
+    [[noreturn]] void refuse_loop(std::size_t l, const std::string& why) const
+    {
+        const std::span<const VertexId> loop(source_.vertex.data() + source_.first[l],
+                                             source_.first[l + 1] - source_.first[l]);
+        const std::string list = short_list(loop, [&](VertexId v) { return tag(v); });
+        throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match source loop " +
+                                                       std::to_string(l + 1) + " (vertices " + list +
+                                                       "): " + why);
+    }
 
     [[nodiscard]] std::string tag(VertexId v) const { return std::to_string(model_[v].tag); }
 
+    const Problem& problem_;
     const Model& model_;
-    const RunContext& context_;
-    const NearestInput& input_;
     Ends source_, target_;
     std::vector<std::size_t> partner_;           ///< target of each source vertex
     std::vector<std::size_t> fixed_;             ///< target of each fixed source vertex
     std::vector<std::size_t> nearest_to_source_; ///< step 4 i, kept for messages
     std::vector<std::size_t> loop_;              ///< target loop of each source loop
     bool backward_ = true;                       ///< target loops are traversed against their own direction
-    NearestMatch result_;
+    Match result_;
 };
-
-/// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the nearest
-/// source vertex of each target vertex that has no partner or several.
-void Nearest::match_vertices()
-{
-    std::vector<int> met(target_.vertex.size(), 0);
-    for (const std::size_t t : nearest_to_source_) {
-        if (t != kNone) ++met[t];
-    }
-    if (std::all_of(met.begin(), met.end(), [](int count) { return count == 1; })) {
-        partner_ = nearest_to_source_;
-        return;
-    }
-    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-    for (std::size_t s = 0; s < partner_.size(); ++s) {
-        const std::size_t t = nearest_to_source_[s];
-        if (t != kNone && met[t] == 1) pairs.emplace_back(fixed_[s] != kNone ? -1 : distance(s, t), s, t);
-    }
-    for (std::size_t t = 0; t < met.size(); ++t) {
-        if (met[t] == 1) continue;
-        const std::size_t s = nearest(target_.at[t], source_, [&](std::size_t i) { return may(i, t); });
-        if (s != kNone) pairs.emplace_back(distance(s, t), s, t);
-    }
-    std::sort(pairs.begin(), pairs.end());
-    std::vector<bool> taken(met.size(), false);
-    for (const auto& [d, s, t] : pairs) {
-        if (partner_[s] != kNone || taken[t]) continue;
-        partner_[s] = t;
-        taken[t] = true;
-    }
-}
-
-/// Step 6: a loop is paired with the loop that most of its vertices vote for.
-void Nearest::match_loops()
-{
-    const std::size_t n = input_.source_loops.size();
-    loop_.assign(n, kNone);
-    std::vector<std::size_t> claimed(n, kNone);
-    for (std::size_t l = 0; l < n; ++l) {
-        check_cancelled(context_);
-        std::vector<std::size_t> votes(n, 0);
-        for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
-            if (partner_[s] != kNone) ++votes[target_.loop[partner_[s]]];
-        }
-        const auto most = std::max_element(votes.begin(), votes.end());
-        if (input_.loops[l] >= 0) {
-            loop_[l] = static_cast<std::size_t>(input_.loops[l]);
-        } else {
-            if (*most == 0) refuse_loop(l, "none of its vertices is the nearest to one of the target");
-            if (std::count(votes.begin(), votes.end(), *most) > 1)
-                refuse_loop(l, "its vertices are equally close to several target loops");
-            loop_[l] = static_cast<std::size_t>(most - votes.begin());
-        }
-        const std::size_t other = std::exchange(claimed[loop_[l]], l);
-        if (other != kNone) {
-            refuse_loop(l, "it and source loop " + std::to_string(other + 1) +
-                               " are both nearest to target loop " + std::to_string(loop_[l] + 1));
-        }
-        if (source_.count(l) != target_.count(loop_[l])) {
-            throw NotClosed("matching.edge_counts",
-                            "method \"nearest\": source loop " + std::to_string(l + 1) + " has " +
-                                std::to_string(source_.count(l)) + " edges and target loop " +
-                                std::to_string(loop_[l] + 1) + " has " +
-                                std::to_string(target_.count(loop_[l])) + "; it needs as many on both");
-        }
-    }
-}
-
-/// Step 7: matches far from the mean distance are dropped and paired again.
-void Nearest::validate()
-{
-    for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) {
-        std::vector<std::size_t> matched;
-        double sum = 0;
-        for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
-            if (partner_[s] == kNone) continue;
-            if (target_.loop[partner_[s]] != loop_[l]) {
-                partner_[s] = kNone;
-                continue;
-            }
-            matched.push_back(s);
-            sum += distance(s, partner_[s]);
-        }
-        const double count = static_cast<double>(std::max<std::size_t>(matched.size(), 1));
-        const double mean = sum / count;
-        double squares = 0;
-        for (const std::size_t s : matched) squares += std::pow(distance(s, partner_[s]) - mean, 2);
-        // Equal distances differ by rounding, which is no deviation.
-        const double reach = kDeviations * std::sqrt(squares / count) + model_.tolerance;
-        std::size_t within = 0;
-        for (const std::size_t s : matched) {
-            if (std::abs(distance(s, partner_[s]) - mean) <= reach)
-                ++within;
-            else if (fixed_[s] == kNone)
-                partner_[s] = kNone;
-        }
-        if (static_cast<double>(within) < kShare * count)
-            refuse_loop(l, "the distances of its vertices vary too much");
-    }
-}
-
-std::vector<Nearest::Way> Nearest::ways(std::size_t l, std::size_t m) const
-{
-    const std::size_t n = source_.count(l);
-    std::vector<Way> result;
-    for (const bool backward : {true, false}) {
-        for (std::size_t shift = 0; shift < n; ++shift) {
-            check_cancelled(context_);
-            Way way{shift, backward, 0, 0};
-            bool keeps = true;
-            for (std::size_t i = 0; i < n; ++i) {
-                const std::size_t s = source_.first[l] + i;
-                const std::size_t t = target_.first[m] + (backward ? shift + n - i : shift + i) % n;
-                keeps = keeps && (fixed_[s] == kNone || fixed_[s] == t);
-                way.agree += partner_[s] == t ? 1 : 0;
-                way.distance += distance(s, t);
-            }
-            if (keeps) result.push_back(way);
-        }
-    }
-    return result;
-}
-
-/// The alignment that most vertices agree on; of equal ones the nearest.
-Nearest::Way Nearest::best_of(const std::vector<Way>& list)
-{
-    return *std::min_element(list.begin(), list.end(), [](const Way& a, const Way& b) {
-        return std::make_tuple(b.agree, a.distance) < std::make_tuple(a.agree, b.distance);
-    });
-}
-
-/// Step 6, the direction: one for all loops, as both ends are seen from one side. Loops of one or two
-/// vertices do not determine it; if no other loop does, the area vectors decide.
-void Nearest::find_direction()
-{
-    std::size_t backward = 0, forward = 0;
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-    for (std::size_t l = 0; l < loop_.size(); ++l) {
-        low += source_.area[l];
-        high += target_.area[loop_[l]];
-        std::size_t most[2] = {0, 0};
-        for (const Way& way : ways(l, loop_[l]))
-            most[way.backward ? 0 : 1] = std::max(most[way.backward ? 0 : 1], way.agree);
-        if (source_.count(l) <= 2) continue;
-        backward += most[0];
-        forward += most[1];
-    }
-    if (input_.opposite)
-        backward_ = *input_.opposite;
-    else
-        backward_ = backward == forward ? low.dot(high) < 0 : backward > forward;
-}
-
-/// Align a loop as its matches agree; dropped and unpaired vertices follow the others.
-void Nearest::align(std::size_t l)
-{
-    const std::size_t m = loop_[l], n = source_.count(l);
-    std::vector<Way> found = ways(l, m);
-    std::erase_if(found, [&](const Way& other) { return other.backward != backward_; });
-    if (found.empty())
-        refuse_loop(l, "no alignment with target loop " + std::to_string(m + 1) +
-                           " keeps its fixed vertex pairs");
-    Way way = best_of(found);
-    // A fixed pair leaves one alignment only.
-    const auto first = fixed_.begin() + static_cast<std::ptrdiff_t>(source_.first[l]);
-    const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
-                                     [](std::size_t t) { return t != kNone; });
-    if (!settled && static_cast<double>(way.agree) < kShare * static_cast<double>(n)) {
-        refuse_loop(l, "the nearest vertices do not keep the order along the loop" + clashes(l));
-    }
-    if (way.agree < n) {
-        std::string list;
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t t = target_.first[m] + (way.backward ? way.shift + n - i : way.shift + i) % n;
-            if (partner_[source_.first[l] + i] != t)
-                list += (list.empty() ? "" : ", ") + tag(source_.vertex[source_.first[l] + i]);
-        }
-        result_.notes.push_back("source loop " + std::to_string(l + 1) +
-                                ": the target vertices nearest to vertices " + list +
-                                " are taken by others; they follow the other vertices of the loop");
-        result_.confidence = std::min(result_.confidence,
-                                      static_cast<double>(way.agree) / static_cast<double>(n));
-    }
-    if (input_.turned[l]) {
-        std::vector<Way> turned = ways(l, m);
-        std::erase_if(turned, [&](const Way& other) { return other.backward == way.backward; });
-        if (turned.empty())
-            refuse_loop(l, "reversed by match{ flip = … }, it cannot keep its fixed vertex pairs");
-        way = *std::min_element(turned.begin(), turned.end(),
-                                [](const Way& a, const Way& b) { return a.distance < b.distance; });
-    }
-    result_.loops.push_back({static_cast<int>(l), static_cast<int>(m), !way.backward});
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t t = target_.first[m] + (way.backward ? way.shift + n - i : way.shift + i) % n;
-        partner_[source_.first[l] + i] = t;
-        result_.vertices.emplace_back(source_.vertex[source_.first[l] + i], target_.vertex[t]);
-    }
-}
-
-/// How much closer the matched vertices are than the second closest of their loop.
-double Nearest::clearness() const
-{
-    double matched = 0, second = 0;
-    for (std::size_t s = 0; s < partner_.size(); ++s) {
-        if (fixed_[s] != kNone) continue;
-        const std::size_t next = nearest(source_.at[s], target_,
-                                         [&](std::size_t t) { return t != partner_[s]; });
-        if (next == kNone) continue;
-        matched += distance(s, partner_[s]);
-        second += distance(s, next);
-    }
-    return second > 0 ? std::clamp(1 - matched / second, 0.0, 1.0) : 1;
-}
-
-/// The vertices of a loop that share a nearest target vertex, for messages.
-std::string Nearest::clashes(std::size_t l) const
-{
-    for (std::size_t a = source_.first[l]; a < source_.first[l + 1]; ++a) {
-        for (std::size_t b = 0; b < partner_.size(); ++b) {
-            if (a == b || nearest_to_source_[a] == kNone || nearest_to_source_[a] != nearest_to_source_[b])
-                continue;
-            return " (vertices " + tag(source_.vertex[a]) + " and " + tag(source_.vertex[b]) +
-                   " are both nearest to vertex " + tag(target_.vertex[nearest_to_source_[a]]) + ")";
-        }
-    }
-    return {};
-}
-
-void Nearest::refuse_loop(std::size_t l, const std::string& why) const
-{
-    const std::span<const VertexId> loop(source_.vertex.data() + source_.first[l],
-                                         source_.first[l + 1] - source_.first[l]);
-    const std::string list = short_list(loop, [&](VertexId v) { return tag(v); });
-    throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match source loop " +
-                                                   std::to_string(l + 1) + " (vertices " + list +
-                                                   "): " + why);
-}
 
 } // namespace
 
-NearestMatch match_nearest(const Model& model, const NearestInput& input, const RunContext& context)
-{
-    return Nearest(model, input, context).run();
-}
+Match match_nearest(const Problem& problem, Match match) { return Nearest(problem, std::move(match)).run(); }
 
 } // namespace lacuna::matching

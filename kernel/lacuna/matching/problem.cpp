@@ -2,10 +2,13 @@
 #include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/matching/shared/guides.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 #include <string>
 
@@ -18,11 +21,10 @@ namespace {
 /// Number of the loop with a vertex; -1: none.
 int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
 {
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        if (std::find(loops[l].vertices.begin(), loops[l].vertices.end(), vertex) != loops[l].vertices.end())
-            return static_cast<int>(l);
-    }
-    return -1;
+    const auto loop = std::ranges::find_if(loops, [&](const LoopShape& shape) {
+        return std::ranges::find(shape.vertices, vertex) != shape.vertices.end();
+    });
+    return loop == loops.end() ? -1 : static_cast<int>(loop - loops.begin());
 }
 
 void force(Problem& problem, int s, int t, const std::string& because)
@@ -48,21 +50,17 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
               "by its walls");
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
-        std::vector<int> s, t;
-        for (const FaceId face : part) {
-            for (const Loop& loop : model[face].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    const int on_s = loop_with(problem.source, use_from(model, use));
-                    const int on_t = loop_with(problem.target, use_from(model, use));
-                    if (on_s >= 0 && std::find(s.begin(), s.end(), on_s) == s.end()) s.push_back(on_s);
-                    if (on_t >= 0 && std::find(t.begin(), t.end(), on_t) == t.end()) t.push_back(on_t);
-                }
-            }
+        std::set<int> s, t;
+        for (const VertexId vertex : vertices_of(model, part)) {
+            s.insert(loop_with(problem.source, vertex));
+            t.insert(loop_with(problem.target, vertex));
         }
+        s.erase(-1);
+        t.erase(-1);
         if (!s.empty() && !t.empty())
             problem.backward = true; // the rims run in opposite directions, as the walls orient them
         if (s.size() == 1 && t.size() == 1)
-            force(problem, s.front(), t.front(), "by " + name_of(model, part.front()));
+            force(problem, *s.begin(), *t.begin(), "by " + name_of(model, part.front()));
     }
 }
 
@@ -73,9 +71,8 @@ constexpr int kLevels = 64;
 /// of a bend.
 PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lines)
 {
-    const bool bare = std::any_of(problem.source.begin(), problem.source.end(), [&](const LoopShape& loop) {
-        return std::none_of(loop.vertices.begin(), loop.vertices.end(),
-                            [&](VertexId v) { return problem.on_wall[v.index()]; });
+    const bool bare = std::ranges::any_of(problem.source, [&](const LoopShape& loop) {
+        return std::ranges::none_of(loop.vertices, [&](VertexId v) { return problem.on_wall[v.index()]; });
     });
     if (!bare || !problem.backward) return {};
     Sections sections = cut_sections(problem.volume, lines, kLevels, problem.context);
@@ -85,16 +82,13 @@ PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lin
 VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag,
                          const std::string& end)
 {
-    std::string known;
-    for (const LoopShape& loop : loops) {
-        for (const VertexId v : loop.vertices) {
-            if (model[v].tag == tag) return v;
-            known += (known.empty() ? "" : ", ") + std::to_string(model[v].tag);
-        }
-    }
-    throw InvalidInput("matching.unknown_vertex", "vertex " + std::to_string(tag) +
-                                                      " is not on the rim of the " + end +
-                                                      ", whose vertices are " + known);
+    const auto vertices = loops | std::views::transform(&LoopShape::vertices) | std::views::join;
+    const auto tag_of = [&](VertexId v) { return model[v].tag; };
+    if (const auto found = std::ranges::find(vertices, tag, tag_of); found != vertices.end()) return *found;
+    throw InvalidInput("matching.unknown_vertex",
+                       "vertex " + std::to_string(tag) + " is not on the rim of the " + end +
+                           ", whose vertices are " +
+                           full_list(vertices, [&](VertexId v) { return std::to_string(tag_of(v)); }));
 }
 
 void read_options(Problem& problem)
@@ -136,9 +130,8 @@ void read_options(Problem& problem)
                                    " with vertex " + std::to_string(model[known->second].tag) +
                                    " and cannot be paired with vertex " + std::to_string(t));
         }
-        const auto taken = std::find_if(problem.hard.begin(), problem.hard.end(), [&](const auto& pair) {
-            return pair.second == to && pair.first != from;
-        });
+        const auto taken = std::ranges::find_if(
+            problem.hard, [&](const auto& pair) { return pair.second == to && pair.first != from; });
         if (taken != problem.hard.end()) {
             throw InvalidInput(
                 "matching.vertices_contradict",
@@ -170,8 +163,7 @@ void count_given_sides(Problem& problem)
 
 bool Problem::has_hard(std::size_t s) const
 {
-    const std::vector<VertexId>& vertices = source[s].vertices;
-    return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return hard.contains(v); });
+    return std::ranges::any_of(source[s].vertices, [&](VertexId v) { return hard.contains(v); });
 }
 
 Problem problem_of(const OpenVolume& volume, const MatchOptions& options, Match& match,

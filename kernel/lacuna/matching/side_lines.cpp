@@ -4,6 +4,7 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -28,26 +29,11 @@ constexpr double kLevel = 0.5;
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
 {
     std::vector<Index> points;
-    for (const Rim& rim : rims(model, faces)) {
-        for (const EdgeUse& use : rim.uses) {
-            const std::vector<Index>& chain = model[use.edge].points;
-            points.insert(points.end(), chain.begin(), chain.end());
-        }
-    }
-    std::sort(points.begin(), points.end());
+    for (const EdgeId edge : rim_edges(model, faces))
+        points.insert(points.end(), model[edge].points.begin(), model[edge].points.end());
+    std::ranges::sort(points);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
-}
-
-std::set<EdgeId> edges_of(const OpenVolume& volume, Role role)
-{
-    std::set<EdgeId> edges;
-    for (const FaceId face : volume.faces(role)) {
-        for (const Loop& loop : volume.model[face].loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
-    return edges;
 }
 
 /// Share of its side line's length below each point between the rims.
@@ -66,14 +52,12 @@ std::map<Index, double> heights_along(const Model& model, const std::vector<Side
 std::vector<Index> points_of(const std::vector<Triangle>& triangles, std::vector<Index>& local)
 {
     std::vector<Index> used;
-    for (const Triangle& t : triangles) {
-        for (const Index p : t) {
-            if (local[index(p)] >= 0) continue;
-            local[index(p)] = 0;
-            used.push_back(p);
-        }
+    for (const Index p : triangles | std::views::join) {
+        if (local[index(p)] >= 0) continue;
+        local[index(p)] = 0;
+        used.push_back(p);
     }
-    std::sort(used.begin(), used.end());
+    std::ranges::sort(used);
     for (std::size_t i = 0; i < used.size(); ++i) local[index(used[i])] = static_cast<Index>(i);
     return used;
 }
@@ -95,10 +79,8 @@ PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, co
                          std::vector<Index>& local)
 {
     PartHeights result;
-    std::vector<Triangle>& triangles = result.triangles;
-    for (const FaceId face : part)
-        triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
-    result.used = points_of(triangles, local);
+    result.triangles = facets_of(model, part);
+    result.used = points_of(result.triangles, local);
     const auto fix = [&](Index p, double value) {
         if (local[index(p)] < 0) return false;
         result.fixed.push_back(local[index(p)]);
@@ -114,8 +96,7 @@ PartHeights part_heights(const Model& model, const std::vector<FaceId>& part, co
     const bool joins_target = fix_all(high, 1);
     result.joins = joins_source && joins_target;
     for (const auto& [p, height] : on_lines) fix(p, height);
-    for (Triangle& t : triangles)
-        for (Index& p : t) p = local[index(p)];
+    for (Index& p : result.triangles | std::views::join) p = local[index(p)];
     for (const Index p : result.used) local[index(p)] = -1;
     return result;
 }
@@ -169,18 +150,17 @@ using Rises = std::map<VertexId, std::vector<Rise>>;
 /// Edges between two walls that may climb.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
-    std::set<EdgeId> between = edges_of(volume, Role::wall);
+    std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
     for (const Role end : {Role::source, Role::target})
-        for (const EdgeId edge : edges_of(volume, end)) between.erase(edge);
+        for (const EdgeId edge : edges_of(volume.model, volume.faces(end))) between.erase(edge);
     return between;
 }
 
 std::set<VertexId> rim_vertices(const OpenVolume& volume, Role role)
 {
     std::set<VertexId> vertices;
-    for (const Rim& rim : rims(volume.model, volume.faces(role))) {
-        for (const EdgeUse& use : rim.uses) vertices.insert(use_from(volume.model, use));
-    }
+    for (const EdgeUse& use : rim_uses(volume.model, volume.faces(role)))
+        vertices.insert(use_from(volume.model, use));
     return vertices;
 }
 
@@ -237,7 +217,7 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     const auto in_doubt = [](double u) { return std::abs(std::abs(u) - kLevel) <= kDoubt; };
     if (!has_choices(volume, between))
         up = climbs(volume, between, heights_of(volume, parts, {}, Digits::nine, context));
-    if (up.empty() || std::any_of(up.begin(), up.end(), in_doubt))
+    if (up.empty() || std::ranges::any_of(up, in_doubt))
         up = climbs(volume, between, heights_of(volume, parts, {}, Digits::all, context));
     Rises result;
     const std::set<VertexId> low = rim_vertices(volume, Role::source),
@@ -317,10 +297,8 @@ std::vector<double> height_gradient(const OpenVolume& volume, const std::vector<
             const Vec3 b = model.at(t[2]) - model.at(t[0]);
             const Vec3 normal = a.cross(b);
             const double area2 = normal.squaredNorm();
-            const double ha = heights[static_cast<std::size_t>(t[1])] -
-                              heights[static_cast<std::size_t>(t[0])];
-            const double hb = heights[static_cast<std::size_t>(t[2])] -
-                              heights[static_cast<std::size_t>(t[0])];
+            const double ha = heights[index(t[1])] - heights[index(t[0])];
+            const double hb = heights[index(t[2])] - heights[index(t[0])];
             if (!(area2 > 0) || std::isnan(ha) || std::isnan(hb)) continue;
             const Vec3 gradient = (ha * b.cross(normal) + hb * normal.cross(a)) / area2;
             const double area = std::sqrt(area2);
@@ -363,8 +341,7 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
     std::vector<SideLine> lines;
     while (!waiting.empty()) {
         check_cancelled(context);
-        const auto best = std::min_element(waiting.begin(), waiting.end(),
-                                           [](const Path& a, const Path& b) { return a.cost < b.cost; });
+        const auto best = std::ranges::min_element(waiting, {}, &Path::cost);
         std::set<VertexId> gone; // vertices that this line takes from others
         for (const EdgeUse& use : best->line.uses) gone.insert(use_to(model, use));
         taken.insert(gone.begin(), gone.end());
@@ -372,16 +349,15 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
         waiting.erase(best);
         // A path that loses no vertex is still the cheapest.
         std::erase_if(waiting, [&](Path& path) {
-            const bool loses = std::any_of(path.line.uses.begin(), path.line.uses.end(),
-                                           [&](EdgeUse use) { return gone.contains(use_to(model, use)); });
+            const bool loses = std::ranges::any_of(
+                path.line.uses, [&](EdgeUse use) { return gone.contains(use_to(model, use)); });
             if (!loses) return false;
             auto other = climb_from(path.line.source, graph, targets, taken, model);
             if (other) path = std::move(*other);
             return !other.has_value();
         });
     }
-    std::sort(lines.begin(), lines.end(),
-              [](const SideLine& a, const SideLine& b) { return a.source < b.source; });
+    std::ranges::sort(lines, {}, &SideLine::source);
     return lines;
 }
 

@@ -37,9 +37,7 @@ void sort_pairs(const Model& model, Match& match)
     }
     std::vector<std::size_t> order(match.vertices.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return place[match.vertices[a].first] < place[match.vertices[b].first];
-    });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return place[match.vertices[i].first]; });
     Match sorted;
     for (const std::size_t i : order) {
         sorted.vertices.push_back(match.vertices[i]);
@@ -61,7 +59,7 @@ double length_at(const LoopShape& shape, double place)
 
 } // namespace
 
-Split split_at(const Rim& rim, const LoopShape& shape, double share)
+Split split_at(VertexId vertex, bool on_target, const Rim& rim, const LoopShape& shape, double share)
 {
     const double wanted = share * shape.length;
     std::size_t i = rim.uses.size() - 1;
@@ -70,10 +68,7 @@ Split split_at(const Rim& rim, const LoopShape& shape, double share)
     const double from = length_at(shape, shape.vertex_arc[i]);
     const double along = std::clamp((length_at(shape, wanted) - from) / (length_at(shape, end) - from), 0.0,
                                     1.0);
-    Split split;
-    split.edge = rim.uses[i].edge;
-    split.fraction = rim.uses[i].reversed ? 1 - along : along;
-    return split;
+    return {vertex, on_target, rim.uses[i].edge, rim.uses[i].reversed ? 1 - along : along};
 }
 
 void apply_splits(OpenVolume& volume, Match& match)
@@ -82,10 +77,8 @@ void apply_splits(OpenVolume& volume, Match& match)
     Model& model = volume.model;
     const auto uses = edge_uses(model);
     // Split each edge from its end, so that the part before a split keeps the edge's id.
-    std::vector<Split> splits = std::move(match.splits);
-    match.splits.clear();
-    std::stable_sort(splits.begin(), splits.end(),
-                     [](const Split& a, const Split& b) { return a.fraction > b.fraction; });
+    std::vector<Split> splits = std::exchange(match.splits, {});
+    std::ranges::stable_sort(splits, std::greater{}, &Split::fraction);
     std::map<EdgeId, double> length;
     for (const Split& split : splits) length.try_emplace(split.edge, edge_length(model, split.edge));
     for (const Split& split : splits) {

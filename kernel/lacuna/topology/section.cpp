@@ -597,6 +597,14 @@ private:
 
 } // namespace
 
+Vec3 place_at(const Model& model, const SectionPlace& place, const geometry::Plane& plane)
+{
+    const Vec3& a = model.at(place.a);
+    if (place.b < 0) return a;
+    const double ha = geometry::height(plane, a), hb = geometry::height(plane, model.at(place.b));
+    return a + ha / (ha - hb) * (model.at(place.b) - a);
+}
+
 std::vector<SectionWalk> section_walks(const Model& model, const std::vector<FaceId>& faces,
                                        const geometry::Plane& plane, double tolerance)
 {

@@ -2,18 +2,37 @@
 #pragma once
 
 #include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/triangulate.h>
 
+#include <numeric>
 #include <vector>
 
 namespace lacuna::closure {
 
 /// Boundary points of a face in its triangulation plane; the points of a seam are listed twice.
 struct Outline {
-    std::vector<Index> model_point;
+    std::vector<Index> model_point; ///< empty: the points are none of the model
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
+
+    /// Add a loop of new points.
+    void add_loop(const std::vector<Vec2>& places, const std::vector<Index>& points = {})
+    {
+        std::vector<Index>& loop = loops.emplace_back(places.size());
+        std::iota(loop.begin(), loop.end(), static_cast<Index>(flat.size()));
+        flat.insert(flat.end(), places.begin(), places.end());
+        model_point.insert(model_point.end(), points.begin(), points.end());
+    }
 };
+
+/// Coordinates of projected points along the axes of a plane.
+inline std::vector<Vec2> flat_places(const geometry::Plane& plane, const std::vector<Vec3>& places)
+{
+    std::vector<Vec2> flat;
+    for (const Vec3& p : places) flat.push_back(geometry::to_plane(plane, p));
+    return flat;
+}
 
 /// Convert the triangulation of an outline to a filling; `lift` returns the position of an added point.
 template <class Lift>

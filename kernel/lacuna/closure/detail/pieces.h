@@ -6,6 +6,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,11 +22,9 @@ struct Partition {
 };
 
 /// The split faces of a volume, and its partitions.
-struct PartedModel {
-    topology::Model model;
-    std::vector<topology::Role> role; ///< by face; partitions: wall
-    std::vector<Partition> partitions;
-    bool turned_round = false;              ///< as in the volume
+struct PartedVolume {
+    topology::OpenVolume volume; ///< partitions have the role of walls
+    std::vector<Partition> partitions{};
     std::optional<geometry::Plane> plane{}; ///< common plane of all partitions, if there is one
 };
 
@@ -33,8 +32,14 @@ struct PartedModel {
 /// `build_loops()`.
 /// @param what  the cutting tool, for messages: "the plane".
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
-std::vector<StepPiece> pieces_of(const PartedModel& parted, const std::string& what,
+std::vector<StepPiece> pieces_of(const PartedVolume& parted, const std::string& what,
                                  const RunContext& context);
+
+/// Cut every piece that a cut meets; the others stay as they are.
+/// @throw  as `cut`, except "closure.cut_misses".
+std::vector<StepPiece> cut_each(
+    std::vector<StepPiece> pieces,
+    const std::function<std::vector<StepPiece>(const topology::OpenVolume&)>& cut);
 
 /// Sort planar loops, given by their points, into regions: an outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops);

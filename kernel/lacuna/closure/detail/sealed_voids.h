@@ -45,9 +45,6 @@ bool has_membranes(const Sealed& sealed);
 /// without walls that determine its bend.
 bool leaves_open(const Sealed& sealed);
 
-/// The faces of the model in the order of a volume with these roles.
-std::vector<FaceId> as_named(const topology::Roles& roles);
-
 /// The candidates, sealed and grouped by the volume they enclose.
 /// @param most  number of candidates to seal
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/sealed_voids.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace lacuna::closure {
 /// The likeliest sweep directions of a closed skin that can be cut if necessary: those with the fewest
 /// irregular nodes first, then those with the most even cells.
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
+
+/// Of all candidates, however unlikely, the first that suits and those about as likely.
+/// @param most  number of candidates that are checked in full
+std::vector<topology::RoleCandidate> less_likely(
+    const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most,
+    const std::function<bool(const topology::RoleCandidate&)>& suits, const RunContext& context);
 
 /// The class of the given faces alone, with their roles on a sealed skin.
 topology::Classification class_as_given(const topology::Model& model, const topology::Roles& roles);

@@ -1,33 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/matching/match.h>
-
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+#include <lacuna/matching/detail/problem.h>
 
 namespace lacuna::matching {
-
-/// Pairs fixed by walls or by the user before distances are measured.
-struct NearestInput {
-    std::vector<topology::Rim> source_loops, target_loops; ///< the same number of loops
-    std::map<VertexId, VertexId> fixed;                    ///< source vertex → target vertex
-    std::vector<int> loops;                                ///< target loop of each source loop, -1: not fixed
-    std::vector<bool> turned;                              ///< source loops whose direction the user reverses
-    std::optional<bool> opposite; ///< rims run in opposite directions (joined by walls), or alike; empty:
-                                  ///< unknown
-};
-
-struct NearestMatch {
-    std::vector<LoopPair> loops;
-    std::vector<std::pair<VertexId, VertexId>> vertices; ///< source loop by source loop in walking order
-    /// 1 − mean distance / mean distance to the second nearest; at most the share of vertices that agree.
-    double confidence = 1;
-    std::vector<std::string> notes;
-};
 
 /// Algorithm 1 as in the paper: each vertex is paired with the nearest.
 ///
@@ -36,10 +12,12 @@ struct NearestMatch {
 /// direction from their area vectors. Step 7 requires half of the distances to be within two standard
 /// deviations of the mean, but by Chebyshev at least three quarters always are. So whenever there are
 /// outliers or unpaired vertices, they are paired by the shift and direction that most vertices of their loop
-/// agree on, at least half of them.
+/// agree on, at least half of them. The confidence is 1 − mean distance / mean distance to the second
+/// nearest, at most the share of vertices that agree.
+/// @param match  with the loops of both ends.
+/// @return  the match with pairs of loops and of vertices.
 /// @throw NotClosed  loops with different numbers of edges; loops or vertices whose distances give no
 ///         one-to-one map that keeps the order along the loops; names them.
-NearestMatch match_nearest(const topology::Model& model, const NearestInput& input,
-                           const RunContext& context);
+Match match_nearest(const Problem& problem, Match match);
 
 } // namespace lacuna::matching

@@ -6,8 +6,9 @@
 
 namespace lacuna::matching {
 
-/// The split of an edge at a share of the rim's length.
+/// The split that makes a partner of a vertex at a share of a rim's length.
 /// @param shape  of the rim.
-Split split_at(const topology::Rim& rim, const LoopShape& shape, double share);
+Split split_at(VertexId vertex, bool on_target, const topology::Rim& rim, const LoopShape& shape,
+               double share);
 
 } // namespace lacuna::matching

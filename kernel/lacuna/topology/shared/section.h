@@ -18,6 +18,9 @@ struct SectionPlace {
     friend constexpr auto operator<=>(const SectionPlace&, const SectionPlace&) = default;
 };
 
+/// Where a place is, for a plane that crosses its side.
+Vec3 place_at(const Model& model, const SectionPlace& place, const geometry::Plane& plane);
+
 /// A chain of places where a plane crosses facets. It is oriented as the boundary of the facets behind the
 /// plane: these are on its left, seen from the side they face.
 struct SectionWalk {
