@@ -2,8 +2,8 @@
 // usage: bench_quality_io [quads a side = 200] [layers = 25] [folder = the system's for temporary files]
 #include "bench.h"
 
+#include <lacuna/io/deck.h>
 #include <lacuna/io/msh.h>
-#include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/metrics.h>
@@ -150,9 +150,9 @@ void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std
 
     remove();
     io::write_msh(mesh, path);
-    io::MshCells cells;
+    io::Deck deck;
     const auto timing = bench::time_of(
-        kRuns, [] {}, [&] { cells = io::read_msh(path); });
+        kRuns, [] {}, [&] { deck = io::read_deck(path); });
     bench::report("io/read_msh_binary/" + size, 1, timing, least);
     remove();
 }

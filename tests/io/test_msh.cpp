@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
+#include "msh_cells.h"
 #include "support/blocks.h"
 #include "support/prove_cells.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/shared/msh_reader.h>
 #include <lacuna/quality/quality.h>
 
 #include <doctest/doctest.h>
@@ -25,14 +25,14 @@ Vec3 crooked(const Vec3& p)
     return Vec3(p.x() + std::sin(p.y()) / 3, p.y() * 1e-3 - 1e5, p.z() / 7 + p.x() * p.y() * 1e-9);
 }
 
-io::MshCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& options)
+test::MshCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& options)
 {
     const test::Folder folder;
     io::write_msh(mesh, folder.file("a.msh"), options);
-    return io::read_msh(folder.file("a.msh"));
+    return test::read_msh_cells(folder.file("a.msh"));
 }
 
-const io::MshGroup* find_group(const io::MshCells& cells, const std::string& name)
+const test::MshGroup* find_group(const test::MshCells& cells, const std::string& name)
 {
     const auto found = std::find_if(cells.groups.begin(), cells.groups.end(),
                                     [&](const auto& g) { return g.name == name; });
@@ -49,7 +49,7 @@ TEST_CASE("nodes, cells and skin come back from every format bit for bit, in the
               test::block({.columns = 60, .rows = 50, .layers = 9, .map = crooked})}) {
             CAPTURE(options.version);
             CAPTURE(options.binary);
-            const io::MshCells cells = written_and_read(mesh, options);
+            const test::MshCells cells = written_and_read(mesh, options);
             CHECK(cells.nodes == mesh.nodes);
             REQUIRE(cells.hexes.size() == mesh.hex_count());
             bool same = true;
@@ -75,7 +75,7 @@ TEST_CASE("a mesh read back is proved, its skin included")
 {
     const auto mesh = test::ring(12, 5);
     for (const auto& options : kFormats) {
-        const io::MshCells cells = written_and_read(mesh, options);
+        const test::MshCells cells = written_and_read(mesh, options);
         CHECK(test::prove_cells(cells.nodes, cells.hexes, cells.quads).quality.hexes == mesh.hex_count());
     }
 }
@@ -87,18 +87,18 @@ TEST_CASE("every group has its name and its surfaces; a name over several patche
     std::fill(mesh.wall_patch.begin() + 4, mesh.wall_patch.end(), 3);
     mesh.volume_groups = {"volume", "inlet"};
     for (const bool binary : {true, false}) {
-        const io::MshCells cells = written_and_read(mesh, {.binary = binary, .all_groups = true});
+        const test::MshCells cells = written_and_read(mesh, {.binary = binary, .all_groups = true});
         const auto entities = [&](const char* name) {
-            const io::MshGroup* group = find_group(cells, name);
-            return group == nullptr ? std::vector<int>{-1} : group->entities;
+            const test::MshGroup* group = find_group(cells, name);
+            return group == nullptr ? std::set<int>{-1} : group->entities;
         };
-        CHECK(entities("source") == std::vector<int>{7});
-        CHECK(entities("inlet") == std::vector<int>{7, 31});
-        CHECK(entities("target") == std::vector<int>{2});
-        CHECK(entities("surface:50") == std::vector<int>{50});
+        CHECK(entities("source") == std::set<int>{7});
+        CHECK(entities("inlet") == std::set<int>{7, 31});
+        CHECK(entities("target") == std::set<int>{2});
+        CHECK(entities("surface:50") == std::set<int>{50});
         CHECK(find_group(cells, "nothing") == nullptr);
         std::size_t volumes = 0;
-        for (const io::MshGroup& group : cells.groups)
+        for (const test::MshGroup& group : cells.groups)
             if (group.dimension == 3) ++volumes;
         CHECK(volumes == 2);
         CHECK(cells.groups.size() == 6);
@@ -122,9 +122,9 @@ TEST_CASE("entities are in one group each, with fields, in parts and in every ve
             for (const int parts : {0, 2}) {
                 if (parts > 0 && options.version == 2.2) continue;
                 options.partition.parts = parts;
-                const io::MshCells cells = written_and_read(mesh, options);
+                const test::MshCells cells = written_and_read(mesh, options);
                 std::map<std::pair<int, int>, std::vector<std::string>> groups; // of each entity
-                for (const io::MshGroup& group : cells.groups)
+                for (const test::MshGroup& group : cells.groups)
                     for (const int entity : group.entities)
                         groups[{group.dimension, entity}].push_back(group.name);
                 CHECK(groups.size() == 5);
@@ -144,7 +144,7 @@ TEST_CASE("names the format cannot hold are changed, and stay different from eac
     mesh.patches[0].groups = {"say \"so\"", "two\nlines", std::string(300, 'a') + "1",
                               std::string(300, 'a') + "2", umlauts};
     for (const bool binary : {true, false}) {
-        const io::MshCells cells = written_and_read(mesh, {.binary = binary, .all_groups = true});
+        const test::MshCells cells = written_and_read(mesh, {.binary = binary, .all_groups = true});
         CHECK(find_group(cells, "say 'so'") != nullptr);
         CHECK(find_group(cells, "two lines") != nullptr);
         CHECK(find_group(cells, std::string(127, 'a')) != nullptr);

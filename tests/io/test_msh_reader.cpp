@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
+#include "msh_cells.h"
 #include "support/blocks.h"
 
 #include <lacuna/io/msh.h>
-#include <lacuna/io/shared/msh_reader.h>
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <random>
 
 using namespace lacuna;
@@ -18,7 +19,7 @@ namespace {
 std::string code_of(const test::Folder& folder, const std::string& bytes)
 {
     test::put_bytes(folder.file("x.msh"), bytes);
-    return test::error_code([&] { io::read_msh(folder.file("x.msh")); });
+    return test::error_code([&] { io::read_deck(folder.file("x.msh")); });
 }
 
 std::string sample(const test::Folder& folder, const io::MshOptions& options)
@@ -88,8 +89,9 @@ TEST_CASE("counts that lie cost no memory")
 TEST_CASE("what is no mesh is refused by name and place")
 {
     const test::Folder folder;
-    CHECK(test::error_code([&] { io::read_msh(folder.file("none.msh")); }) == "io.no_file");
-    CHECK(test::error_code([&] { io::read_msh(folder.file("")); }) == "io.not_a_file");
+    CHECK(test::error_code([&] { io::read_deck(folder.file("none.msh")); }) == "io.no_file");
+    std::filesystem::create_directory(folder.file("folder.msh"));
+    CHECK(test::error_code([&] { io::read_deck(folder.file("folder.msh")); }) == "io.not_a_file");
     CHECK(code_of(folder, "") == "io.empty_file");
     CHECK(code_of(folder, "solid cube\n") == "io.unreadable");
     CHECK(code_of(folder, "$MeshFormat\n4 0 8\n$EndMeshFormat\n") == "io.unreadable");
@@ -114,7 +116,7 @@ TEST_CASE("tags need be neither dense nor in order, other cells are counted, cur
     text += "\n3 4 2 0 4 1000000 2000000 3000000 4000000\n4 3 2 8 6 1000000 2000000 3000000 "
             "4000000\n$EndElements\n";
     test::put_bytes(folder.file("x.msh"), text);
-    const io::MshCells cells = io::read_msh(folder.file("x.msh"));
+    const test::MshCells cells = test::read_msh_cells(folder.file("x.msh"));
     REQUIRE(cells.hexes.size() == 1);
     for (std::size_t i = 0; i < 8; ++i)
         CHECK(cells.nodes[std::size_t(cells.hexes[0][i])] == Vec3(corner[i][0], corner[i][1], corner[i][2]));
@@ -122,13 +124,15 @@ TEST_CASE("tags need be neither dense nor in order, other cells are counted, cur
     CHECK(cells.hex_entity == std::vector<int>{4});
     CHECK(cells.quads.size() == 1);
     CHECK(cells.quad_entity == std::vector<int>{6});
-    REQUIRE(cells.others.size() == 2);
-    CHECK(cells.others[1].type == 4);
-    CHECK(cells.others[1].count == 1);
+    REQUIRE(cells.others.size() == 1);
+    CHECK(cells.others[0].type == "4");
+    CHECK(cells.others[0].count() == 1);
+    REQUIRE(cells.notes.size() == 1);
+    CHECK(cells.notes[0].ends_with("passed over 1 cells of type 15"));
     bool found = false;
     for (const auto& group : cells.groups)
         found = found || (group.dimension == 3 && group.tag == 9 && group.name == "a b" &&
-                          group.entities == std::vector<int>{4});
+                          group.entities == std::set<int>{4});
     CHECK(found);
 }
 

@@ -18,13 +18,6 @@
 namespace lacuna::io {
 namespace {
 
-std::string upper(std::string_view text)
-{
-    std::string result(text);
-    for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return result;
-}
-
 /// Families of elements whose names are a word, the count of nodes and letters: S4R, C3D8I.
 struct Family {
     std::string_view word;
@@ -48,15 +41,11 @@ bool shape_of(std::string_view type, DeckShape& shape)
         rest.remove_prefix(digits);
         if (!std::ranges::all_of(rest, [](unsigned char c) { return std::isalnum(c) != 0; })) continue;
         if (family.word == "STRI" && nodes == 65) nodes = 6;
-        const int corners = family.dimension == 3 ? (nodes == 4 || nodes == 10   ? 4
-                                                     : nodes == 5 || nodes == 13 ? 5
-                                                     : nodes == 6 || nodes == 15 ? 6
-                                                     : nodes == 8 || nodes == 20 ? 8
-                                                                                 : 0)
-                                                  : (nodes == 3 || nodes == 6                 ? 3
-                                                     : nodes == 4 || nodes == 8 || nodes == 9 ? 4
-                                                                                              : 0);
-        if (corners > 0 && find_shape(family.dimension, corners, nodes, shape)) return true;
+        constexpr std::array<int, 5> kCorners{3, 4, 5, 6, 8};
+        const bool centred = family.dimension == 3 &&
+                             (nodes == 14 || nodes == 18 || nodes == 27); // not Abaqus's
+        for (const int corners : kCorners)
+            if (!centred && find_shape(family.dimension, corners, nodes, shape)) return true;
     }
     return false;
 }
@@ -373,14 +362,6 @@ private:
 
     // --- data ----------------------------------------------------------------------------------------------
 
-    static std::string_view next_field(std::string_view& line)
-    {
-        const std::size_t end = std::min(line.find(','), line.size());
-        const std::string_view field = trimmed(line.substr(0, end));
-        line.remove_prefix(std::min(end + 1, line.size()));
-        return field;
-    }
-
     Index whole(std::string_view word) const
     {
         const auto value = parse_integer<Index>(word);
@@ -540,14 +521,11 @@ private:
         scope.builder.resolve(
             nodes, [&](std::uint64_t place, const std::string& what) { files_.place_of(place).fail(what); });
         if (scope.sections.empty()) return;
-        std::vector<DeckTag> tags;
+        const std::vector<DeckTag> tags = element_tags(deck);
         std::vector<Index*> regions;
         for (DeckBlock& block : deck.blocks)
-            for (std::size_t e = 0; e < block.count(); ++e) {
-                tags.push_back(block.tags[e]);
-                regions.push_back(&block.regions[e]);
-            }
-        const TagPlaces elements(tags, [](Index, Index) {});
+            for (Index& region : block.regions) regions.push_back(&region);
+        const TagPlaces elements(tags);
         for (const Scope::Section& section : scope.sections) {
             const Index region = region_called(scope, section.name);
             deck.regions[index(region)].material = section.material;
@@ -616,15 +594,11 @@ private:
             deck.regions.push_back(std::move(region));
         }
         for (const DeckBlock& block : part.blocks) {
-            DeckBlock& all = deck.blocks[into_.block_of(block.shape, block.type)];
-            for (const Index node : block.nodes) all.nodes.push_back(node < 0 ? -1 : first + node);
-            for (const DeckTag tag : block.tags) all.tags.push_back(tag + offset);
-            for (const Index region : block.regions) all.regions.push_back(first_region + region);
+            const std::size_t to = into_.block_of(block.shape, block.type);
+            append_block(block, first, first_region, offset, deck.blocks[to]);
         }
         for (const DeckSet& set : part.sets) {
-            DeckSet& own_set = deck.sets.emplace_back(set);
-            for (DeckTag& tag : own_set.members) tag += offset;
-            for (DeckSide& side : own_set.sides) side.element += offset;
+            raise_numbers(deck.sets.emplace_back(set), offset, offset);
             set_instance_.push_back(static_cast<Index>(deck.instances.size()) - 1);
         }
     }
@@ -721,9 +695,7 @@ Keyword parse_keyword(std::string_view words)
     Keyword keyword;
     words.remove_prefix(1);
     for (bool first = true; !words.empty() || first; first = false) {
-        const std::size_t end = std::min(words.find(','), words.size());
-        const std::string_view field = trimmed(words.substr(0, end));
-        words.remove_prefix(std::min(end + 1, words.size()));
+        const std::string_view field = next_field(words);
         const std::size_t equals = std::min(field.find('='), field.size());
         std::string key = upper(field.substr(0, equals));
         std::erase_if(key, [](char c) { return is_blank(c); });

@@ -95,20 +95,18 @@ private:
 
     void add_nodes()
     {
-        file_.sections.push_back({"*NODE\n", bulk_.points(), kNumberBytes + 3 * (kWidth + 2) + 1,
-                                  [bulk = bulk_](std::size_t begin, std::size_t end, char* out) {
-                                      bulk.each_point(begin, end,
-                                                      [&](std::size_t, DeckTag tag, const Vec3& point) {
-                                                          out = put_text(out, static_cast<long long>(tag));
-                                                          for (const double x : point) {
-                                                              *out++ = ',';
-                                                              *out++ = ' ';
-                                                              out = put_real(out, x, kWidth);
-                                                          }
-                                                          *out++ = '\n';
-                                                      });
-                                      return out;
-                                  }});
+        const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
+            out = put_text(out, tag);
+            for (const double x : point) {
+                *out++ = ',';
+                *out++ = ' ';
+                out = put_real(out, x, kWidth);
+            }
+            *out++ = '\n';
+            return out;
+        };
+        file_.sections.push_back(
+            section_of_points("*NODE\n", bulk_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
     }
 
     /// A set that is all elements of a region is made as its elements are written.
@@ -227,12 +225,12 @@ private:
     static char* put_element(const BulkReader& bulk, const DeckBlock& block, std::size_t e, char* out)
     {
         bulk.element(block, e, [&](DeckTag tag, Index, std::span<const Index> nodes) {
-            out = put_text(out, static_cast<long long>(tag));
+            out = put_text(out, tag);
             std::size_t written = 1;
             for (const Index node : nodes) {
                 *out++ = ',';
                 *out++ = written++ % kPerLine == 0 ? '\n' : ' ';
-                out = put_text(out, static_cast<long long>(bulk.point_tag(node)));
+                out = put_text(out, bulk.point_tag(node));
             }
             *out++ = '\n';
         });
@@ -256,7 +254,7 @@ private:
             {"*" + word + ", " + word + "=" + name + "\n", bulk_.count(set), kNumberBytes + 2,
              [bulk = bulk_, &set](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = begin; i < end; ++i) {
-                     out = put_text(out, static_cast<long long>(bulk.member(set, i)));
+                     out = put_text(out, bulk.member(set, i));
                      const bool last = (i + 1) % kPerLine == 0 || i + 1 == bulk.count(set);
                      *out++ = last ? '\n' : ',';
                      if (!last) *out++ = ' ';
@@ -267,10 +265,10 @@ private:
 
     static char* put_side(const DeckSide& side, char* out)
     {
-        out = put_text(out, static_cast<long long>(side.element));
+        out = put_text(out, side.element);
         if (side.side < 1) return put_words(out, side.side == 0 ? ", SPOS\n" : ", SNEG\n");
         out = put_words(out, ", S");
-        out = put_text(out, static_cast<long long>(side.side));
+        out = put_text(out, side.side);
         *out++ = '\n';
         return out;
     }

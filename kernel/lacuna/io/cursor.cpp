@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::io {
 namespace {
@@ -59,6 +58,29 @@ bool same_word(std::string_view a, std::string_view b)
 {
     return std::ranges::equal(
         a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::string upper(std::string_view text)
+{
+    std::string result(text);
+    for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return result;
+}
+
+std::string_view next_word(std::string_view& text, std::string_view separators)
+{
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    const std::string_view word = text.substr(0, text.find_first_of(separators));
+    text.remove_prefix(word.size());
+    return word;
+}
+
+std::string_view next_field(std::string_view& line)
+{
+    const std::size_t end = std::min(line.find(','), line.size());
+    const std::string_view field = trimmed(line.substr(0, end));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    return field;
 }
 
 std::string shown(std::string_view text)

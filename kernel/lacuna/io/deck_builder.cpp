@@ -23,10 +23,55 @@ bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
 
 } // namespace
 
+std::vector<char> used_regions(const Deck& deck)
+{
+    std::vector<char> used(deck.regions.size(), 0);
+    for (const DeckBlock& block : deck.blocks)
+        for (const Index region : block.regions)
+            if (region >= 0) used[index(region)] = 1;
+    return used;
+}
+
+std::vector<DeckTag> element_tags(const Deck& deck)
+{
+    std::vector<DeckTag> tags;
+    for (const DeckBlock& block : deck.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+    return tags;
+}
+
+std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type)
+{
+    // Formats have a few dozen words at most.
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (blocks[b].shape == shape && blocks[b].type == type) return b;
+    blocks.push_back({.shape = shape, .type = std::string(type)});
+    return blocks.size() - 1;
+}
+
+void copy_element(const DeckBlock& from, std::size_t e, DeckBlock& to)
+{
+    const std::span<const Index> nodes = from.element(e);
+    to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
+    to.tags.push_back(from.tags[e]);
+    to.regions.push_back(from.regions[e]);
+}
+
+void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to)
+{
+    for (const Index node : from.nodes) to.nodes.push_back(node < 0 ? -1 : first_point + node);
+    for (const DeckTag tag : from.tags) to.tags.push_back(tag + raise);
+    for (const Index region : from.regions) to.regions.push_back(region < 0 ? -1 : first_region + region);
+}
+
+void raise_numbers(DeckSet& set, DeckTag nodes, DeckTag elements)
+{
+    for (DeckTag& member : set.members) member += set.kind == DeckSet::Kind::nodes ? nodes : elements;
+    for (DeckSide& side : set.sides) side.element += elements;
+}
+
 void DeckBuilder::add_point(DeckTag tag, const Vec3& point, const Cursor& cursor)
 {
-    if (deck_.points.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-        cursor.fail("too many nodes");
+    if (!is_index(deck_.points.size() + 1)) cursor.fail("too many nodes");
     deck_.point_tags.push_back(tag);
     deck_.points.push_back(point);
 }
@@ -46,12 +91,9 @@ Index DeckBuilder::region_of(int tag, std::string_view name, int group)
 
 std::size_t DeckBuilder::block_of(DeckShape shape, std::string_view type)
 {
-    // Formats have a few dozen words at most.
-    for (std::size_t b = 0; b < deck_.blocks.size(); ++b)
-        if (deck_.blocks[b].shape == shape && deck_.blocks[b].type == type) return b;
-    deck_.blocks.push_back({.shape = shape, .type = std::string(type)});
-    places_.emplace_back();
-    return deck_.blocks.size() - 1;
+    const std::size_t block = io::block_of(deck_.blocks, shape, type);
+    places_.resize(deck_.blocks.size());
+    return block;
 }
 
 void DeckBuilder::add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,

@@ -9,6 +9,7 @@
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <map>
@@ -126,8 +127,8 @@ private:
         const bool any = std::ranges::any_of(
             deck_.sets, [](const DeckSet& set) { return set.kind != DeckSet::Kind::nodes; });
         if (!any) return;
-        const TagPlaces shells(shells_.tags(), [](Index, Index) {});
-        const TagPlaces solids(solids_.tags(), [](Index, Index) {});
+        const TagPlaces shells(shells_.tags());
+        const TagPlaces solids(solids_.tags());
         for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
             const DeckSet& set = deck_.sets[s];
             const auto put = [&](Index shell) {
@@ -378,20 +379,16 @@ private:
             for (const Index region : block.regions) ++elements[index(region)];
         for (std::size_t r = 0; r < names_.size(); ++r) {
             const DeckRegion& region = deck_.regions[r];
-            for (const std::string& name : {region.name, region.part})
-                if (!name.empty() && std::ranges::find(names_[r], name) == names_[r].end())
-                    names_[r].push_back(name);
+            for (const std::string& name : {region.name, region.part}) add_once(names_[r], name);
         }
-        const TagPlaces solids(solids_.tags(), [](Index, Index) {});
+        const TagPlaces solids(solids_.tags());
         for (const DeckSet& set : deck_.sets) {
             if (set.kind != DeckSet::Kind::elements || set.name.empty()) continue;
             std::map<Index, std::size_t> held;
             for (const DeckTag tag : set.members)
                 if (const Index solid = solids.find(tag); solid >= 0) ++held[solids_[index(solid)].region()];
             for (const auto& [region, count] : held)
-                if (count == elements[index(region)] &&
-                    std::ranges::find(names_[index(region)], set.name) == names_[index(region)].end())
-                    names_[index(region)].push_back(set.name);
+                if (count == elements[index(region)]) add_once(names_[index(region)], set.name);
         }
         for (std::size_t r = 0; r < names_.size(); ++r)
             if (names_[r].empty()) names_[r].push_back("region:" + std::to_string(deck_.regions[r].tag));
@@ -408,10 +405,7 @@ private:
             for (const int s : lists_[label.sets])
                 if (const std::string& name = deck_.sets[index(s)].name; !name.empty())
                     about.groups.push_back(name);
-            if (label.shell >= 0)
-                if (const std::string& name = deck_.regions[index(label.shell)].name;
-                    !name.empty() && std::ranges::find(about.groups, name) == about.groups.end())
-                    about.groups.push_back(name);
+            if (label.shell >= 0) add_once(about.groups, deck_.regions[index(label.shell)].name);
             for (const Index region : {label.a, label.b})
                 if (region >= 0) about.regions.push_back(names_[index(region)]);
             if (about.regions.empty() && !about.groups.empty()) {

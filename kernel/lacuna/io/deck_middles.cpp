@@ -2,7 +2,7 @@
 #include <lacuna/io/shared/deck_middles.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/edge_key.h>
+#include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <algorithm>
@@ -17,81 +17,30 @@ std::string patch_name(const mesh::SkinPatch& patch)
     return patch.groups.empty() ? "face " + std::to_string(patch.face) : patch.groups.front();
 }
 
-} // namespace
+/// Corners of an element, and the node in their middle.
+template <std::size_t N>
+using Middle = std::pair<std::array<Index, N>, int>;
 
-std::vector<Index> middles_between(const Deck& deck, std::span<const Segment> pairs)
+/// Sides of a shape that have a node in the middle.
+std::vector<Middle<2>> middles_in(DeckShape shape, const Segment&)
 {
-    std::unordered_map<std::uint64_t, Index> middle;
-    std::vector<std::uint8_t> asked(deck.points.size(), 0);
-    for (const Segment& pair : pairs) {
-        middle.emplace(edge_key(pair[0], pair[1]), -1);
-        for (const Index point : pair) asked[index(point)] = 1;
-    }
-    for (const DeckBlock& block : deck.blocks) {
-        const auto sides = side_corners(block.shape);
-        const auto corners = index(shape_info(block.shape).corners);
-        if (index(shape_info(block.shape).nodes) < corners + sides.size()) continue;
-        for (std::size_t e = 0; e < block.count(); ++e) {
-            const std::span<const Index> nodes = block.element(e);
-            for (std::size_t k = 0; k < sides.size(); ++k) {
-                const Index a = nodes[index(sides[k].first)], b = nodes[index(sides[k].second)];
-                if (asked[index(a)] == 0 || asked[index(b)] == 0 || nodes[corners + k] < 0) continue;
-                const auto found = middle.find(edge_key(a, b));
-                if (found != middle.end() && found->second < 0) found->second = nodes[corners + k];
-            }
-        }
-    }
-    std::vector<Index> found;
-    found.reserve(pairs.size());
-    for (const Segment& pair : pairs) found.push_back(middle.at(edge_key(pair[0], pair[1])));
-    return found;
-}
-
-std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
-                                  double tolerance, double scale)
-{
-    const NodesAt first = nodes_at(deck, from, tolerance, scale),
-                  second = nodes_at(deck, to, tolerance, scale);
-    std::vector<Segment> pairs;
-    std::vector<std::size_t> of;
-    for (std::size_t i = 0; i < from.size(); ++i)
-        for (const Index a : first.at(i))
-            for (const Index b : second.at(i)) {
-                pairs.push_back({a, b});
-                of.push_back(i);
-            }
-    std::vector<Vec3> middles(from.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-    const std::vector<Index> found = middles_between(deck, pairs);
-    for (std::size_t i = found.size(); i-- > 0;) // of several the first stays
-        if (found[i] >= 0) middles[of[i]] = deck.points[index(found[i])] * scale;
+    std::vector<Middle<2>> middles;
+    const auto sides = side_corners(shape);
+    const DeckShapeInfo& info = shape_info(shape);
+    if (index(info.nodes) < index(info.corners) + sides.size()) return middles;
+    for (const auto& [a, b] : sides)
+        middles.push_back({{a, b}, info.corners + static_cast<int>(middles.size())});
     return middles;
 }
 
-namespace {
-
-struct QuadHash {
-    std::size_t operator()(const Quad& quad) const
-    {
-        return std::hash<std::uint64_t>()(edge_key(quad[0], quad[1]) * 0x9e3779b97f4a7c15ULL ^
-                                          edge_key(quad[2], quad[3]));
-    }
-};
-
-Quad rising(Quad quad)
+/// Quads of a shape that have one.
+std::span<const Middle<4>> middles_in(DeckShape shape, const Quad&)
 {
-    std::sort(quad.begin(), quad.end());
-    return quad;
-}
-
-/// Quads of a shape that have a node in the middle, and which.
-std::span<const std::pair<Quad, int>> centred_quads(DeckShape shape)
-{
-    using Centre = std::pair<Quad, int>;
-    static constexpr Centre kQuad9[] = {{{0, 1, 2, 3}, 8}};
-    static constexpr Centre kPyramid14[] = {{{0, 1, 2, 3}, 13}};
-    static constexpr Centre kWedge18[] = {{{0, 1, 4, 3}, 15}, {{1, 2, 5, 4}, 16}, {{2, 0, 3, 5}, 17}};
-    static constexpr Centre kHex27[] = {{{0, 4, 7, 3}, 20}, {{1, 2, 6, 5}, 21}, {{0, 1, 5, 4}, 22},
-                                        {{3, 7, 6, 2}, 23}, {{0, 3, 2, 1}, 24}, {{4, 5, 6, 7}, 25}};
+    static constexpr Middle<4> kQuad9[] = {{{0, 1, 2, 3}, 8}};
+    static constexpr Middle<4> kPyramid14[] = {{{0, 1, 2, 3}, 13}};
+    static constexpr Middle<4> kWedge18[] = {{{0, 1, 4, 3}, 15}, {{1, 2, 5, 4}, 16}, {{2, 0, 3, 5}, 17}};
+    static constexpr Middle<4> kHex27[] = {{{0, 4, 7, 3}, 20}, {{1, 2, 6, 5}, 21}, {{0, 1, 5, 4}, 22},
+                                           {{3, 7, 6, 2}, 23}, {{0, 3, 2, 1}, 24}, {{4, 5, 6, 7}, 25}};
     switch (shape) {
     case DeckShape::quad9:
         return kQuad9;
@@ -106,58 +55,83 @@ std::span<const std::pair<Quad, int>> centred_quads(DeckShape shape)
     }
 }
 
-} // namespace
-
-std::vector<Index> centres_of(const Deck& deck, std::span<const Quad> quads)
+/// The node that elements of the deck have in the middle of some corners, whichever way they are listed; -1:
+/// none.
+template <std::size_t N>
+std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Index, N>> wanted)
 {
-    std::unordered_map<Quad, Index, QuadHash> centre;
+    std::unordered_map<std::array<Index, N>, Index, CornerHash<N>> middle;
     std::vector<std::uint8_t> asked(deck.points.size(), 0);
-    for (const Quad& quad : quads) {
-        centre.emplace(rising(quad), -1);
-        for (const Index point : quad) asked[index(point)] = 1;
+    for (const auto& corners : wanted) {
+        middle.emplace(rising(corners), -1);
+        for (const Index point : corners) asked[index(point)] = 1;
     }
     for (const DeckBlock& block : deck.blocks) {
-        const auto own = centred_quads(block.shape);
+        const auto own = middles_in(block.shape, std::array<Index, N>());
         for (std::size_t e = 0; e < (own.empty() ? 0 : block.count()); ++e) {
             const std::span<const Index> nodes = block.element(e);
-            for (const auto& [corners, middle] : own) {
-                Quad quad{};
-                for (std::size_t k = 0; k < 4; ++k) quad[k] = nodes[index(corners[k])];
-                if (nodes[index(middle)] < 0 ||
-                    !std::ranges::all_of(quad, [&](Index point) { return asked[index(point)] != 0; }))
+            for (const auto& [corners, place] : own) {
+                std::array<Index, N> points;
+                for (std::size_t k = 0; k < N; ++k) points[k] = nodes[index(corners[k])];
+                if (nodes[index(place)] < 0 ||
+                    !std::ranges::all_of(points, [&](Index point) { return asked[index(point)] != 0; }))
                     continue;
-                const auto found = centre.find(rising(quad));
-                if (found != centre.end() && found->second < 0) found->second = nodes[index(middle)];
+                const auto found = middle.find(rising(points));
+                if (found != middle.end() && found->second < 0) found->second = nodes[index(place)];
             }
         }
     }
     std::vector<Index> found;
-    found.reserve(quads.size());
-    for (const Quad& quad : quads) found.push_back(centre.at(rising(quad)));
+    found.reserve(wanted.size());
+    for (const auto& corners : wanted) found.push_back(middle.at(rising(corners)));
     return found;
+}
+
+/// The same by the places of the corners, of which each may be several nodes of the deck.
+template <std::size_t N>
+std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3, N>> wanted,
+                               double tolerance, double scale)
+{
+    std::vector<Vec3> places;
+    for (const auto& corners : wanted) places.insert(places.end(), corners.begin(), corners.end());
+    const NodesAt at = nodes_at(deck, places, tolerance, scale);
+    std::vector<std::array<Index, N>> all;
+    std::vector<std::size_t> of;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        std::vector<std::array<Index, N>> choices(1);
+        for (std::size_t k = 0; k < N; ++k) {
+            std::vector<std::array<Index, N>> longer;
+            for (std::array<Index, N>& choice : choices)
+                for (const Index node : at.at(N * i + k)) {
+                    choice[k] = node;
+                    longer.push_back(choice);
+                }
+            choices = std::move(longer);
+        }
+        all.insert(all.end(), choices.begin(), choices.end());
+        of.resize(all.size(), i);
+    }
+    std::vector<Vec3> middles(wanted.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    const std::vector<Index> found = find_middles<N>(deck, all);
+    for (std::size_t i = found.size(); i-- > 0;) // of several the first stays
+        if (found[i] >= 0) middles[of[i]] = deck.points[index(found[i])] * scale;
+    return middles;
+}
+
+} // namespace
+
+std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
+                                  double tolerance, double scale)
+{
+    std::vector<std::array<Vec3, 2>> pairs;
+    for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
+    return find_middles<2>(deck, pairs, tolerance, scale);
 }
 
 std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 4>> quads, double tolerance,
                              double scale)
 {
-    std::vector<Vec3> corners;
-    for (const auto& quad : quads) corners.insert(corners.end(), quad.begin(), quad.end());
-    const NodesAt at = nodes_at(deck, corners, tolerance, scale);
-    std::vector<Quad> all;
-    std::vector<std::size_t> of;
-    for (std::size_t q = 0; q < quads.size(); ++q)
-        for (const Index a : at.at(4 * q))
-            for (const Index b : at.at(4 * q + 1))
-                for (const Index c : at.at(4 * q + 2))
-                    for (const Index d : at.at(4 * q + 3)) {
-                        all.push_back({a, b, c, d});
-                        of.push_back(q);
-                    }
-    std::vector<Vec3> centres(quads.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-    const std::vector<Index> found = centres_of(deck, all);
-    for (std::size_t i = found.size(); i-- > 0;) // of several the first stays
-        if (found[i] >= 0) centres[of[i]] = deck.points[index(found[i])] * scale;
-    return centres;
+    return find_middles<4>(deck, quads, tolerance, scale);
 }
 
 namespace {
@@ -175,7 +149,7 @@ void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
         for (std::size_t k = 0; k < 4; ++k) quad[k] = points[index(nodes.node[k])];
         of.push_back(i);
     }
-    const std::vector<Index> found = centres_of(deck, quads);
+    const std::vector<Index> found = find_middles<4>(deck, quads);
     const bool full = mesh.order() == 2 && mesh.middles.full;
     for (std::size_t q = 0; q < quads.size(); ++q) {
         if (found[q] < 0 && !full) continue;
@@ -220,7 +194,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
             sides.push_back({mesh.order() == 1 ? 0 : index(nodes.node[4 + k]), i});
         }
     }
-    const std::vector<Index> found = middles_between(deck, pairs);
+    const std::vector<Index> found = find_middles<2>(deck, pairs);
     points.resize(mesh.node_count(), -1);
     const auto refuse = [&](std::size_t s, const std::string& why) {
         const mesh::SkinPatch& patch = mesh.patches[index(skin_quad(mesh, sides[s].quad).patch)];

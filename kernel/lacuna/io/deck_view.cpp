@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/deck_view.h>
 
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <array>
@@ -24,13 +25,10 @@ public:
 
     void find()
     {
-        std::vector<DeckTag> tags;
-        for (const DeckBlock& block : deck_.blocks) {
-            tags.insert(tags.end(), block.tags.begin(), block.tags.end());
-            dimension_.resize(tags.size(), shape_info(block.shape).dimension);
-        }
-        const TagPlaces places(tags, [](Index, Index) {});
-        list_.assign(tags.size(), 0);
+        for (const DeckBlock& block : deck_.blocks)
+            dimension_.resize(dimension_.size() + block.count(), shape_info(block.shape).dimension);
+        const TagPlaces places(element_tags(deck_));
+        list_.assign(dimension_.size(), 0);
         for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
             if (deck_.sets[s].kind != DeckSet::Kind::elements) continue;
             for (const DeckTag tag : deck_.sets[s].members)
@@ -66,15 +64,11 @@ private:
         entity.dimension = dimension;
         entity.number = static_cast<int>(view_.entities.size());
         place_of_region_.push_back(region);
-        const auto add = [&](const std::string& name) {
-            if (!name.empty() && std::ranges::find(entity.groups, name) == entity.groups.end())
-                entity.groups.push_back(name);
-        };
-        for (const int set : lists_[list]) add(deck_.sets[index(set)].name);
+        for (const int set : lists_[list]) add_once(entity.groups, deck_.sets[index(set)].name);
         if (region < 0) return at->second;
         const DeckRegion& own = deck_.regions[index(region)];
         entity.region = own.tag;
-        add(own.name);
+        add_once(entity.groups, own.name);
         if (!own.name.empty())
             entity.main = static_cast<std::size_t>(std::ranges::find(entity.groups, own.name) -
                                                    entity.groups.begin());
@@ -136,7 +130,7 @@ private:
         std::optional<TagPlaces> places;
         for (const DeckSet& set : deck_.sets) {
             if (set.kind != DeckSet::Kind::nodes) continue;
-            if (!places) places.emplace(deck_.point_tags, [](Index, Index) {});
+            if (!places) places.emplace(deck_.point_tags);
             std::vector<int> points;
             for (const DeckTag tag : set.members)
                 if (const Index point = places->find(tag); point >= 0) points.push_back(point);
@@ -225,14 +219,18 @@ mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition)
     std::vector<Index> lowest(deck.points.size(),
                               partition.parts - 1);                                // part that owns a point
     std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts; // by part and list, block
+    std::vector<std::vector<Index>> used(index(partition.parts));
     for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
         const DeckBlock& block = deck.blocks[b];
         mesh::Runs& runs = parts.of.emplace_back();
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index part = partition.part[b][e], list = partition.ghost_of[b][e];
             mesh::add_run(runs, e + 1, part);
-            for (const Index node : block.element(e))
+            for (const Index node : block.element(e)) {
                 lowest[index(node)] = std::min(lowest[index(node)], part);
+                used[index(part)].push_back(node);
+                for (const int other : partition.lists[index(list)]) used[index(other)].push_back(node);
+            }
             if (list != 0) ghosts[{part, list}][b].add(e, e + 1);
         }
     }
@@ -241,101 +239,14 @@ mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition)
         for (std::size_t p = 0; p < lowest.size(); ++p)
             if (lowest[p] == part) own.add(p, p + 1);
         parts.points.emplace_back(part, std::move(own));
+        mesh::Ranges& points = parts.used.emplace_back();
+        tidy(used[index(part)]);
+        for (const Index p : used[index(part)]) points.add(index(p), index(p) + 1);
     }
     for (const auto& [key, blocks] : ghosts)
         for (const auto& [block, cells] : blocks)
             parts.ghosts.push_back({key.first, partition.lists[index(key.second)], block, cells});
     return parts;
-}
-
-PieceView piece_of(const std::shared_ptr<const MeshView>& whole, const mesh::ViewParts& parts, Index part)
-{
-    struct Piece {
-        std::vector<mesh::Ranges> cells; ///< for each block of the whole view
-        std::vector<mesh::Runs> ghosts;  ///< for each block of the piece: 1 for ghosts
-        mesh::Ranges points;
-        mesh::Runs ghost_points;
-        std::vector<Index> place; ///< index in the piece of each point of the whole view
-    };
-    const auto piece = std::make_shared<Piece>();
-    auto view = std::make_shared<MeshView>(*whole);
-    std::vector<char> used(whole->points, 0);
-    for (std::size_t b = 0; b < whole->blocks.size(); ++b) {
-        const MeshView::Block& from = whole->blocks[b];
-        std::vector<std::array<std::size_t, 3>> found; // first, last, whether ghosts
-        mesh::each_run(parts.of[b], 0, from.count, [&](std::size_t first, std::size_t last, Index of) {
-            if (of == part) found.push_back({first, last, 0});
-        });
-        for (const mesh::ViewParts::Ghosts& ghosts : parts.ghosts)
-            if (ghosts.block == b && std::ranges::binary_search(ghosts.of, part))
-                ghosts.cells.each(0, ghosts.cells.count(), [&](std::size_t first, std::size_t last) {
-                    found.push_back({first, last, 1});
-                });
-        std::ranges::sort(found);
-        mesh::Ranges& cells = piece->cells.emplace_back();
-        mesh::Runs& ghosts = piece->ghosts.emplace_back();
-        MeshView::Block& own = view->blocks[b];
-        own.entities.clear();
-        mesh::Ranges tags;
-        for (const auto& [first, last, ghost] : found) {
-            mesh::each_run(from.entities, first, last, [&](std::size_t low, std::size_t high, Index entity) {
-                cells.add(low, high);
-                mesh::add_run(own.entities, cells.count(), entity);
-            });
-            mesh::add_run(ghosts, cells.count(), static_cast<Index>(ghost));
-            from.tags.each(first, last, [&](std::size_t, std::int64_t tag) {
-                tags.add(static_cast<std::size_t>(tag), static_cast<std::size_t>(tag) + 1);
-            });
-            from.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
-                for (const Index node : nodes) used[index(node)] = 1;
-            });
-        }
-        own.count = cells.count();
-        own.tags = mesh::Numbers(std::move(tags));
-        own.nodes = [whole, piece, b](std::size_t begin, std::size_t end, Index* out) {
-            const MeshView::Block& of = whole->blocks[b];
-            piece->cells[b].each(begin, end, [&](std::size_t first, std::size_t last) {
-                of.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
-                    for (const Index node : nodes) *out++ = piece->place[index(node)];
-                });
-            });
-        };
-    }
-    std::vector<char> owned(whole->points, 0);
-    for (const auto& [of, points] : parts.points)
-        if (of == part)
-            points.each(0, points.count(), [&](std::size_t first, std::size_t last) {
-                std::fill(owned.begin() + static_cast<std::ptrdiff_t>(first),
-                          owned.begin() + static_cast<std::ptrdiff_t>(last), 1);
-            });
-    mesh::Ranges tags;
-    piece->place.assign(whole->points, -1);
-    for (std::size_t p = 0; p < used.size(); ++p) {
-        if (used[p] == 0) continue;
-        piece->place[p] = static_cast<Index>(piece->points.count());
-        piece->points.add(p, p + 1);
-        mesh::add_run(piece->ghost_points, piece->points.count(), owned[p] != 0 ? 0 : 1);
-        const auto tag = static_cast<std::size_t>(whole->point_tags[p]);
-        tags.add(tag, tag + 1);
-    }
-    view->points = piece->points.count();
-    view->point_tags = mesh::Numbers(std::move(tags));
-    view->each_point = [whole, piece](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
-        piece->points.each(
-            begin, end, [&](std::size_t first, std::size_t last) { whole->each_point(first, last, take); });
-    };
-    const auto mark = [](const mesh::Runs& runs, std::size_t begin, std::size_t end, std::uint8_t* out) {
-        mesh::each_run(runs, begin, end, [&](std::size_t first, std::size_t last, Index ghost) {
-            out = std::fill_n(out, last - first, static_cast<std::uint8_t>(ghost));
-        });
-    };
-    return {std::move(view),
-            [=](std::size_t begin, std::size_t end, std::uint8_t* out) {
-                mark(piece->ghost_points, begin, end, out);
-            },
-            [=](std::size_t b, std::size_t begin, std::size_t end, std::uint8_t* out) {
-                mark(piece->ghosts[b], begin, end, out);
-            }};
 }
 
 } // namespace lacuna::io

@@ -62,11 +62,9 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
     const auto starts = [&](std::string_view word) { return same_word(line.substr(0, word.size()), word); };
     if (starts("SPOINT")) {
         line.remove_prefix(6);
-        while (!line.empty()) {
-            const std::size_t end = std::min(line.find_first_of(", \t"), line.size());
-            if (const auto tag = parse_integer<DeckTag>(line.substr(0, end))) numbers.nodes.insert(*tag);
-            line.remove_prefix(std::min(end + 1, line.size()));
-        }
+        constexpr std::string_view kBetween = ", \t";
+        for (auto word = next_word(line, kBetween); !word.empty(); word = next_word(line, kBetween))
+            if (const auto tag = parse_integer<DeckTag>(word)) numbers.nodes.insert(*tag);
         return;
     }
     const auto tag = parse_integer<DeckTag>(second_field(line));
@@ -100,11 +98,8 @@ void each_keyword(std::string_view text, const Take& take)
 std::vector<std::int64_t> numbers_of(std::string_view line)
 {
     std::vector<std::int64_t> numbers;
-    while (!(line = trimmed(line)).empty()) {
-        const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
-        numbers.push_back(parse_integer<std::int64_t>(line.substr(0, length)).value_or(0));
-        line.remove_prefix(length);
-    }
+    for (auto word = next_word(line); !word.empty(); word = next_word(line))
+        numbers.push_back(parse_integer<std::int64_t>(word).value_or(0));
     return numbers;
 }
 
@@ -247,13 +242,10 @@ TextNumbers numbers_in_text(const Deck& deck)
 std::vector<std::string> materials_in_text(const Deck& deck)
 {
     std::vector<std::string> found;
-    const auto add = [&](const std::string& name) {
-        if (!name.empty() && std::ranges::find(found, name) == found.end()) found.push_back(name);
-    };
     for (const DeckText& text : deck.texts) {
         if (deck.format == DeckFormat::abaqus)
             each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
-                if (keyword.name == "MATERIAL") add(keyword.value("NAME"));
+                if (keyword.name == "MATERIAL") add_once(found, keyword.value("NAME"));
                 return true;
             });
         if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
@@ -262,7 +254,8 @@ std::vector<std::string> materials_in_text(const Deck& deck)
             if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) return;
             if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
                 return;
-            if (const auto tag = parse_integer<DeckTag>(second_field(line))) add(std::to_string(*tag));
+            if (const auto tag = parse_integer<DeckTag>(second_field(line)))
+                add_once(found, std::to_string(*tag));
         });
     }
     return found;
@@ -301,6 +294,15 @@ void add_model_cards(Deck& deck, const std::string& cards)
         return;
     }
     deck.texts.push_back({DeckText::Place::cards, "", cards});
+}
+
+void check_numbers(const Deck& deck, DeckTag most, const std::string& format, const std::string& remedy)
+{
+    const auto is_high = [&](DeckTag tag) { return tag > most; };
+    const auto has_high = [&](const DeckBlock& block) { return std::ranges::any_of(block.tags, is_high); };
+    if (std::ranges::any_of(deck.point_tags, is_high) || std::ranges::any_of(deck.blocks, has_high))
+        throw InvalidInput("io.number_taken", deck.path + " has numbers above " + std::to_string(most) +
+                                                  ", more than " + format + " holds; " + remedy);
 }
 
 void refuse_element(std::size_t count, std::string_view type, DeckShape shape, std::string_view format,

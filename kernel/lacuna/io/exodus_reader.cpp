@@ -227,8 +227,7 @@ private:
         const std::size_t count = head_.dimension("num_nodes");
         const std::size_t axes = head_.dimension("num_dim");
         if (axes < 2 || axes > 3) cursor_.fail("expected 2 or 3 as num_dim, found " + std::to_string(axes));
-        if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many nodes");
+        if (!is_index(count)) cursor_.fail("too many nodes");
         const NcArray* together = head_.find("coord");
         std::string_view all;
         if (together != nullptr) all = head_.bytes(*together, "coord", axes * count);

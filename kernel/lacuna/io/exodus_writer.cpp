@@ -296,8 +296,7 @@ private:
     {
         std::set<std::string> names;
         std::set<int> ids;
-        int next = 0;
-        for (const DeckRegion& region : deck_.regions) next = std::max(next, region.tag);
+        int next = highest_tag(deck_.regions);
         for (Block& block : blocks_) {
             const int tag = block.region < 0 ? 0 : deck_.regions[index(block.region)].tag;
             block.id = tag > 0 && ids.insert(tag).second ? tag : ++next;
@@ -319,8 +318,8 @@ private:
                 tags.push_back(deck_.blocks[block.of].tags[e]);
                 shapes.push_back(deck_.blocks[block.of].shape);
             }
-        const TagPlaces held_cells(tags, [](Index, Index) {});
-        const TagPlaces held_points(deck_.point_tags, [](Index, Index) {});
+        const TagPlaces held_cells(tags);
+        const TagPlaces held_points(deck_.point_tags);
         const auto find_cell = [&](DeckTag tag) {
             return layered_ != nullptr ? place_of_cell(*layered_, static_cast<std::size_t>(tag - 1))
                                        : held_cells.find(tag);
@@ -459,16 +458,8 @@ private:
 
 DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered)
 {
-    constexpr DeckTag kMost = std::numeric_limits<std::int32_t>::max();
-    const auto too_high = [](const std::vector<DeckTag>& tags) {
-        return std::ranges::any_of(tags, [](DeckTag tag) { return tag > kMost; });
-    };
-    bool high = too_high(deck.point_tags);
-    for (const DeckBlock& block : deck.blocks) high = high || too_high(block.tags);
-    if (high)
-        throw InvalidInput("io.number_taken",
-                           deck.path + " has numbers above " + std::to_string(kMost) +
-                               ", more than an Exodus file holds; give first_node and first_cell");
+    check_numbers(deck, std::numeric_limits<std::int32_t>::max(), "an Exodus file",
+                  "give first_node and first_cell");
     return ExodusWriter(deck, layered).write();
 }
 

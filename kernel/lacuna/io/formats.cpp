@@ -80,11 +80,15 @@ std::vector<FormatRow> make_table()
                       read_abaqus);
     row.options = "element with without renumber first_node first_cell interfaces";
     table.push_back(row);
-    for (const char* ending : {".bdf", ".nas", ".dat"})
-        table.push_back(deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes,
-                                    nastran_file, read_nastran));
-    table.push_back(
-        deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv));
+    for (const char* ending : {".bdf", ".nas", ".dat"}) {
+        row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
+                          read_nastran);
+        row.unwritten_sets = "sets of sides are not written: Nastran has none";
+        table.push_back(row);
+    }
+    row = deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv);
+    row.unwritten_sets = "sets of sides are not written: a UNV has none";
+    table.push_back(row);
     for (const char* ending : {".exo", ".e"}) {
         row = deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,
                           exodus_file, read_exodus);

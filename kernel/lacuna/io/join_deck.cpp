@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/join_sets.h>
 
 #include <algorithm>
 #include <map>
@@ -16,30 +17,11 @@ namespace {
 /// to the bit, but for the scale.
 constexpr double kTogether = 1e-9;
 
-/// Nodes rising: sides and faces are known by them.
-template <std::size_t N>
-struct Hash {
-    std::size_t operator()(const std::array<Index, N>& nodes) const
-    {
-        std::uint64_t all = 0;
-        for (const Index node : nodes)
-            all = (all ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(node))) *
-                  0x9e3779b97f4a7c15ULL;
-        return static_cast<std::size_t>(all ^ (all >> 32));
-    }
-};
-template <std::size_t N>
-std::array<Index, N> sorted(std::array<Index, N> nodes)
-{
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-}
-
 /// A face by its corners; a triangle of the mesh, whose last corner stands twice, by three.
 Quad key_of(Quad face)
 {
     if (mesh::is_triangle(face)) face[3] = -1;
-    return sorted(face);
+    return rising(face);
 }
 
 class Joiner {
@@ -108,12 +90,12 @@ private:
         by_face_.assign(mesh_.nodes.size(), {-1, -1});
         by_side_ = by_face_;
         matched_.assign(mesh_.skin_count(), false);
-        std::unordered_map<Quad, std::uint32_t, Hash<4>> faces;
-        std::unordered_map<Segment, char, Hash<2>> sides;
+        std::unordered_map<Quad, std::uint32_t, CornerHash<4>> faces;
+        std::unordered_map<Segment, char, CornerHash<2>> sides;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             const Quad quad = skin_quad(mesh_, i).nodes;
             faces.emplace(key_of(quad), static_cast<std::uint32_t>(i));
-            for (std::size_t k = 0; k < 4; ++k) sides.emplace(sorted(Segment{quad[k], quad[(k + 1) % 4]}), 0);
+            for (std::size_t k = 0; k < 4; ++k) sides.emplace(rising(Segment{quad[k], quad[(k + 1) % 4]}), 0);
         }
         touching_.assign(deck_.regions.size(), 0);
         const auto take = [&](std::span<const Index> points, Index region) {
@@ -124,14 +106,14 @@ private:
                 nodes[k] = node_of_[index(points[k])];
                 all = all && nodes[k] >= 0;
             }
-            if (const auto found = all ? faces.find(sorted(nodes)) : faces.end(); found != faces.end()) {
+            if (const auto found = all ? faces.find(rising(nodes)) : faces.end(); found != faces.end()) {
                 matched_[found->second] = true;
                 if (region >= 0) ++touching_[index(region)];
                 for (std::size_t k = 0; k < corners; ++k) vote(by_face_, nodes[k], points[k]);
             }
             for (std::size_t k = 0; k < corners; ++k) {
                 const std::size_t next = (k + 1) % corners;
-                if (!sides.contains(sorted(Segment{nodes[k], nodes[next]}))) continue;
+                if (!sides.contains(rising(Segment{nodes[k], nodes[next]}))) continue;
                 vote(by_side_, nodes[k], points[k]);
                 vote(by_side_, nodes[next], points[next]);
             }

@@ -63,20 +63,19 @@ public:
         cells_ = named ? solids_called(gone, added.volume) : solids_of(gone);
         std::map<Quad, std::vector<Face>> faces;
         std::map<Quad, DeckTag> shells;
-        for (const DeckBlock& block : gone.blocks)
-            for (std::size_t e = 0; e < block.count(); ++e) {
-                const std::span<const Index> nodes = block.element(e);
-                if (shape_info(block.shape).dimension == 2) shells[shell_key(block, e)] = block.tags[e];
-                int side = 0;
-                for (const Quad& face : face_corners(block.shape)) {
-                    Quad corners = face; // the last of a triangle stands twice
-                    for (Index& k : corners) k = nodes[index(k < 0 ? face[2] : k)];
-                    faces[face_key(block, e, face)].push_back({corners, {block.tags[e], ++side}});
-                }
-                for (const Index node : nodes)
-                    if (node >= 0 && std::ranges::binary_search(cells_, block.tags[e]))
-                        nodes_.push_back(gone.point_tags[index(node)]);
+        each_element(gone, [&](const DeckBlock& block, std::size_t e, std::size_t) {
+            const std::span<const Index> nodes = block.element(e);
+            if (shape_info(block.shape).dimension == 2) shells[shell_key(block, e)] = block.tags[e];
+            int side = 0;
+            for (const Quad& face : face_corners(block.shape)) {
+                Quad corners = face; // the last of a triangle stands twice
+                for (Index& k : corners) k = nodes[index(k < 0 ? face[2] : k)];
+                faces[face_key(block, e, face)].push_back({corners, {block.tags[e], ++side}});
             }
+            for (const Index node : nodes)
+                if (node >= 0 && std::ranges::binary_search(cells_, block.tags[e]))
+                    nodes_.push_back(gone.point_tags[index(node)]);
+        });
         add(nodes_, {});
         for (auto& [key, of] : faces) {
             if (of.size() > 1) continue;

@@ -55,11 +55,9 @@ struct CardReader {
 private:
     void use_all(std::string_view line) const
     {
-        while (!(line = trimmed(line)).empty()) {
-            const std::size_t length = std::min(line.find_first_of(", \t"), line.size());
-            if (const auto tag = parse_integer<DeckTag>(line.substr(0, length))) use(*tag);
-            line.remove_prefix(std::min(length + 1, line.size()));
-        }
+        constexpr std::string_view kBetween = ", \t\r\n";
+        for (auto word = next_word(line, kBetween); !word.empty(); word = next_word(line, kBetween))
+            if (const auto tag = parse_integer<DeckTag>(word)) use(*tag);
     }
 
     void read_nastran(std::string_view text) const
@@ -69,11 +67,7 @@ private:
             const std::vector<std::string_view> fields = nastran_fields(line);
             if (fields.empty()) return;
             const bool goes_on = fields[0].empty() || fields[0][0] == '+' || fields[0][0] == '*';
-            if (!goes_on) {
-                card.clear();
-                for (const char c : fields[0].substr(0, fields[0].find('*')))
-                    card += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-            }
+            if (!goes_on) card = upper(fields[0].substr(0, fields[0].find('*')));
             for (std::size_t f = 1; f < std::min<std::size_t>(fields.size(), 9); ++f)
                 if (const auto tag = parse_integer<DeckTag>(fields[f]); tag && *tag > 0)
                     take_nastran(card, goes_on ? 0 : f + 1, *tag);
@@ -140,14 +134,10 @@ private:
 
 class Leaver {
 public:
-    Leaver(const Deck& deck, std::span<const std::string> parts) : deck_(deck), parts_(parts)
+    Leaver(const Deck& deck, std::span<const std::string> parts)
+        : deck_(deck), parts_(parts), elements_(element_tags(deck)), nodes_(deck.point_tags)
     {
-        std::vector<DeckTag> tags;
-        for (const DeckBlock& block : deck.blocks)
-            tags.insert(tags.end(), block.tags.begin(), block.tags.end());
-        is_out_.assign(tags.size(), 0);
-        elements_.emplace(tags, [](Index, Index) {});
-        nodes_.emplace(deck.point_tags, [](Index, Index) {});
+        is_out_.assign(deck.element_count(), 0);
     }
 
     LeftOut leave_out()
@@ -176,7 +166,7 @@ private:
     {
         if (!has_part(deck_, part)) refuse_part(std::span(&deck_, 1), part);
         for (const DeckTag tag : cells_of_part(deck_, part))
-            if (const Index e = elements_->find(tag); e >= 0) is_out_[index(e)] = 1;
+            if (const Index e = elements_.find(tag); e >= 0) is_out_[index(e)] = 1;
     }
 
     /// Where files hold the skin as elements, those on faces of solids left out go too; but for one where the
@@ -184,22 +174,19 @@ private:
     void mark_skin()
     {
         std::map<Quad, bool> stays; // of faces of solids left out
-        for (const bool out : {true, false}) {
-            std::size_t at = 0;
-            for (const DeckBlock& block : deck_.blocks)
-                for (std::size_t e = 0; e < block.count(); ++e, ++at)
-                    for (const Quad& face : face_corners(block.shape)) {
-                        const Quad key = face_key(block, e, face);
-                        if (out && is_out_[at] != 0) stays.emplace(key, false);
-                        if (!out && is_out_[at] == 0 && stays.contains(key)) stays[key] = true;
-                    }
-        }
-        std::size_t at = 0;
-        for (const DeckBlock& block : deck_.blocks)
-            for (std::size_t e = 0; e < block.count(); ++e, ++at)
-                if (shape_info(block.shape).dimension == 2)
-                    if (const auto face = stays.find(shell_key(block, e)); face != stays.end())
-                        is_out_[at] = std::exchange(face->second, false) ? is_out_[at] : 1;
+        for (const bool out : {true, false})
+            each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
+                for (const Quad& face : face_corners(block.shape)) {
+                    const Quad key = face_key(block, e, face);
+                    if (out && is_out_[at] != 0) stays.emplace(key, false);
+                    if (!out && is_out_[at] == 0 && stays.contains(key)) stays[key] = true;
+                }
+            });
+        each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
+            if (shape_info(block.shape).dimension != 2) return;
+            if (const auto face = stays.find(shell_key(block, e)); face != stays.end())
+                is_out_[at] = std::exchange(face->second, false) ? is_out_[at] : 1;
+        });
     }
 
     /// Nodes that only elements left out use.
@@ -207,13 +194,12 @@ private:
     {
         std::vector<char> used(deck_.points.size(), 0);
         goes_.assign(used.size(), 0);
-        std::size_t at = 0;
-        for (const DeckBlock& block : deck_.blocks)
-            for (std::size_t e = 0; e < block.count(); ++e, ++at)
-                for (const Index node : block.element(e))
-                    if (node >= 0) (is_out_[at] != 0 ? goes_ : used)[index(node)] = 1;
+        each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
+            for (const Index node : block.element(e))
+                if (node >= 0) (is_out_[at] != 0 ? goes_ : used)[index(node)] = 1;
+        });
         const auto keep = [&](DeckTag tag) {
-            if (const Index node = nodes_->find(tag); node >= 0) used[index(node)] = 1;
+            if (const Index node = nodes_.find(tag); node >= 0) used[index(node)] = 1;
         };
         CardReader{keep, [](const std::string&, DeckTag, DeckTag) {}}.read(deck_);
         for (std::size_t p = 0; p < goes_.size(); ++p)
@@ -234,10 +220,7 @@ private:
                     if (!is_out) kept.more.emplace_back(kept.count(), more->second);
                     ++more;
                 }
-                const auto nodes = block.element(e);
-                to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
-                to.tags.push_back(block.tags[e]);
-                to.regions.push_back(block.regions[e]);
+                copy_element(block, e, to);
                 if (block.regions[e] >= 0) ++(is_out ? gone : left)[index(block.regions[e])];
                 if (is_out) found_.kept.gap.cell = std::max(found_.kept.gap.cell, block.tags[e]);
             }
@@ -303,12 +286,12 @@ private:
 
     [[nodiscard]] bool element_goes(DeckTag tag) const
     {
-        const Index e = elements_->find(tag);
+        const Index e = elements_.find(tag);
         return e >= 0 && is_out_[index(e)] != 0;
     }
     [[nodiscard]] bool node_goes(DeckTag tag) const
     {
-        const Index node = nodes_->find(tag);
+        const Index node = nodes_.find(tag);
         return node >= 0 && goes_[index(node)] != 0;
     }
 
@@ -358,7 +341,7 @@ private:
 
     const Deck& deck_;
     std::span<const std::string> parts_;
-    std::optional<TagPlaces> elements_, nodes_;
+    TagPlaces elements_, nodes_;
     std::vector<char> is_out_; ///< elements, of all blocks one after the other
     std::vector<char> goes_;   ///< nodes
     LeftOut found_;
@@ -396,15 +379,12 @@ bool has_part(const Deck& deck, std::string_view name)
 void refuse_part(std::span<const Deck> decks, const std::string& name)
 {
     std::vector<std::string> known;
-    const auto add = [&](const std::string& of) {
-        if (!of.empty() && std::ranges::find(known, of) == known.end()) known.push_back(of);
-    };
     std::string paths;
     for (const Deck& deck : decks) {
         paths += (paths.empty() ? "" : ", ") + deck.path;
-        for (const DeckRegion& region : deck.regions) add(region.name);
+        for (const DeckRegion& region : deck.regions) add_once(known, region.name);
         for (const DeckSet& set : deck.sets)
-            if (set.kind == DeckSet::Kind::elements) add(set.name);
+            if (set.kind == DeckSet::Kind::elements) add_once(known, set.name);
     }
     throw InvalidInput("io.no_such_part",
                        "without: " + name + " is no region, property or set of " + paths +
@@ -414,10 +394,10 @@ void refuse_part(std::span<const Deck> decks, const std::string& name)
 std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name)
 {
     std::vector<DeckTag> cells;
-    for (const DeckBlock& block : deck.blocks)
-        for (std::size_t e = 0; e < block.count(); ++e)
-            if (block.regions[e] >= 0 && is_part(deck, deck.regions[index(block.regions[e])], name))
-                cells.push_back(block.tags[e]);
+    each_element(deck, [&](const DeckBlock& block, std::size_t e, std::size_t) {
+        if (block.regions[e] >= 0 && is_part(deck, deck.regions[index(block.regions[e])], name))
+            cells.push_back(block.tags[e]);
+    });
     for (const DeckSet& set : deck.sets)
         if (is_part(set, name)) cells.insert(cells.end(), set.members.begin(), set.members.end());
     tidy(cells);
@@ -444,10 +424,7 @@ void close_gap(Deck& deck, const RunContext& context)
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return;
     std::vector<std::string> empty; // of elements, whose sections go
-    std::vector<char> used(deck.regions.size(), 0);
-    for (const DeckBlock& block : deck.blocks)
-        for (const Index region : block.regions)
-            if (region >= 0) used[index(region)] = 1;
+    const std::vector<char> used = used_regions(deck);
     for (const std::string& name : deck.gap.names) {
         bool has_any = false;
         for (std::size_t r = 0; r < used.size(); ++r)

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/shared/stitch.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_facets.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
@@ -57,14 +58,6 @@ void move_in(std::vector<T>& to, std::vector<T>& from)
         to.swap(from);
     else
         to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-}
-
-template <class Entities>
-int highest_tag(const Entities& entities)
-{
-    int tag = 0;
-    for (const auto& entity : entities) tag = std::max(tag, entity.tag);
-    return tag;
 }
 
 /// Put the facets of `more` behind those of `all`; tags count on.

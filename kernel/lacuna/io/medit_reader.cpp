@@ -79,8 +79,7 @@ private:
     {
         const std::uint64_t count = cursor_.plausible(cursor_.size(), 1,
                                                       static_cast<std::uint64_t>(section.values));
-        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many " + std::string(section.name));
+        if (!is_index(count)) cursor_.fail("too many " + std::string(section.name));
         if (section.name == "Vertices") {
             if (!into_.points().empty()) cursor_.fail("a second section Vertices");
             into_.points().reserve(count);

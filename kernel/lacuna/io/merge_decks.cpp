@@ -2,7 +2,7 @@
 #include <lacuna/io/deck_file.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
@@ -12,14 +12,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// Tags of all elements.
-std::vector<DeckTag> cells_of(const Deck& deck)
-{
-    std::vector<DeckTag> tags;
-    for (const DeckBlock& block : deck.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
-    return tags;
-}
 
 /// What both have, rising.
 std::vector<DeckTag> in_both(std::vector<DeckTag> a, std::vector<DeckTag> b)
@@ -41,10 +33,10 @@ public:
     void merge(double scale)
     {
         const TextNumbers texts = numbers_in_text(all_), own = numbers_in_text(more_);
-        std::vector<DeckTag> nodes = all_.point_tags, cells = cells_of(all_);
+        std::vector<DeckTag> nodes = all_.point_tags, cells = element_tags(all_);
         nodes.insert(nodes.end(), texts.nodes.begin(), texts.nodes.end());
         cells.insert(cells.end(), texts.cells.begin(), texts.cells.end());
-        std::vector<DeckTag> own_nodes = more_.point_tags, own_cells = cells_of(more_);
+        std::vector<DeckTag> own_nodes = more_.point_tags, own_cells = element_tags(more_);
         if (same_) {
             own_nodes.insert(own_nodes.end(), own.nodes.begin(), own.nodes.end());
             own_cells.insert(own_cells.end(), own.cells.begin(), own.cells.end());
@@ -154,9 +146,9 @@ private:
 
     void add_regions()
     {
-        int highest = static_cast<int>(
-            std::min<DeckTag>(numbers_in_text(all_).property, std::numeric_limits<int>::max() / 2));
-        for (const DeckRegion& region : all_.regions) highest = std::max(highest, region.tag);
+        const DeckTag property = numbers_in_text(all_).property;
+        int highest = highest_tag(
+            all_.regions, static_cast<int>(std::min<DeckTag>(property, std::numeric_limits<int>::max() / 2)));
         for (DeckRegion region : more_.regions) {
             const bool taken = std::ranges::any_of(
                 all_.regions, [&](const DeckRegion& other) { return other.tag == region.tag; });
@@ -170,33 +162,22 @@ private:
     {
         for (const DeckBlock& block : more_.blocks) {
             const std::string type = same_ ? block.type : std::string();
-            auto found = std::ranges::find_if(all_.blocks, [&](const DeckBlock& other) {
-                return other.shape == block.shape && other.type == type;
-            });
-            if (found == all_.blocks.end()) {
-                found = all_.blocks.insert(found, DeckBlock{.shape = block.shape, .type = type});
-            }
-            const std::size_t before = found->count();
-            for (const Index node : block.nodes) found->nodes.push_back(node < 0 ? -1 : first_point_ + node);
-            for (const DeckTag tag : block.tags) found->tags.push_back(tag + cell_offset_);
-            for (const Index region : block.regions)
-                found->regions.push_back(region < 0 ? -1 : first_region + region);
+            DeckBlock& to = all_.blocks[block_of(all_.blocks, block.shape, type)];
+            const std::size_t before = to.count();
+            append_block(block, first_point_, first_region, cell_offset_, to);
             if (!same_ || clashes_) continue;
-            for (const auto& [at, text] : block.more) found->more.emplace_back(before + at, text);
+            for (const auto& [at, text] : block.more) to.more.emplace_back(before + at, text);
         }
     }
 
     void add_sets()
     {
-        int tag = 0;
-        for (const DeckSet& set : all_.sets) tag = std::max(tag, set.tag);
+        int tag = highest_tag(all_.sets);
         for (DeckSet set : more_.sets) {
             const std::string name = set.name;
             for (int i = 2; has_set(all_, set, set.name); ++i) set.name = name + "_" + std::to_string(i);
             if (set.tag > 0) set.tag = ++tag;
-            const DeckTag raise = set.kind == DeckSet::Kind::nodes ? node_offset_ : cell_offset_;
-            for (DeckTag& member : set.members) member += raise;
-            for (DeckSide& side : set.sides) side.element += cell_offset_;
+            raise_numbers(set, node_offset_, cell_offset_);
             all_.sets.push_back(std::move(set));
         }
     }

@@ -154,15 +154,13 @@ private:
 
     void add_cells()
     {
-        std::vector<DeckTag> taken;
-        for (const DeckBlock& block : deck_.blocks)
-            taken.insert(taken.end(), block.tags.begin(), block.tags.end());
+        std::vector<DeckTag> taken = element_tags(deck_);
         const std::size_t skin = added_.skin_cells ? mesh_.skin_count() : 0;
         first_cell_ = free_from(options_.first_cell, mesh_.cell_count() + skin, texts_.cells, taken,
                                 added_.bulk ? added_.bulk->highest : deck_.gap.cell, "first_cell", "element");
-        int highest = static_cast<int>(
-            std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2));
-        for (const DeckRegion& region : deck_.regions) highest = std::max(highest, region.tag);
+        const int highest = highest_tag(
+            deck_.regions,
+            static_cast<int>(std::min<DeckTag>(texts_.property, std::numeric_limits<int>::max() - 2)));
         volume_ = volume();
         if (!takes_place()) deck_.regions.push_back({highest + 1, volume_, material_});
         const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
@@ -170,12 +168,10 @@ private:
             added_.bulk->first_cell = first_cell_;
             added_.bulk->region = region;
         }
-        const bool abaqus = options_.format == DeckFormat::abaqus;
-        const bool nastran = options_.format == DeckFormat::nastran;
         const mesh::CellKinds kinds(mesh_);
-        const auto add = [&](DeckShape shape, const std::string& type, std::size_t begin, std::size_t end) {
+        const auto add = [&](DeckShape shape, std::size_t begin, std::size_t end) {
             if (begin == end) return;
-            DeckBlock& block = block_of(shape, type);
+            DeckBlock& block = deck_.blocks[block_of(deck_.blocks, shape, type_of(shape))];
             for (std::size_t i = begin; i < end && added_.bulk == nullptr; ++i) {
                 poll(i);
                 const std::size_t c = kinds.cell(i);
@@ -184,19 +180,8 @@ private:
                 block.regions.push_back(region);
             }
         };
-        add(cell_shape(mesh_),
-            abaqus               ? element_
-            : nastran            ? "CHEXA"
-            : !unv()             ? ""
-            : mesh_.order() == 2 ? "116"
-                                 : "115",
-            0, kinds.hexes());
-        add(DeckShape::wedge6,
-            abaqus    ? "C3D6"
-            : nastran ? "CPENTA"
-            : unv()   ? "112"
-                      : "",
-            kinds.hexes(), mesh_.cell_count());
+        add(cell_shape(mesh_), 0, kinds.hexes());
+        add(DeckShape::wedge6, kinds.hexes(), mesh_.cell_count());
         if (has_sides()) {
             cells_ = cells_of_skin(mesh_);
             sides_ = sides_of_skin(mesh_, cells_);
@@ -216,11 +201,8 @@ private:
     void find_place()
     {
         place_ = added_.region;
-        std::vector<char> used(deck_.regions.size(), 0);
-        if (!deck_.gap.names.empty())
-            for (const DeckBlock& block : deck_.blocks)
-                for (const Index region : block.regions)
-                    if (region >= 0) used[index(region)] = 1;
+        if (deck_.gap.names.empty()) return;
+        const std::vector<char> used = used_regions(deck_);
         for (std::size_t r = 0; r < used.size(); ++r)
             if (used[r] == 0 && is_emptied(deck_.regions[r].name) &&
                 same_word(deck_.regions[r].name, volume()))
@@ -228,6 +210,16 @@ private:
     }
 
     [[nodiscard]] bool unv() const { return options_.format == DeckFormat::unv; }
+
+    /// The format's word for elements of a shape.
+    [[nodiscard]] std::string type_of(DeckShape shape) const
+    {
+        const ShapeWords& words = words_of(shape);
+        if (unv()) return std::to_string(words.unv);
+        if (options_.format == DeckFormat::nastran) return words.nastran;
+        if (options_.format != DeckFormat::abaqus) return "";
+        return shape == cell_shape(mesh_) ? element_ : words.abaqus;
+    }
 
     void add_volume_set(const std::string& group)
     {
@@ -306,7 +298,7 @@ private:
             deck_.gap.replaced[{same->kind, same->name}] = 1;
             return put(*same);
         }
-        set.tag = next_set();
+        set.tag = highest_tag(deck_.sets) + 1;
         return deck_.sets.emplace_back(std::move(set));
     }
 
@@ -366,9 +358,9 @@ private:
             if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
             return found->second;
         };
-        const auto add = [&](DeckShape shape, const char* type, std::size_t begin, std::size_t end) {
+        const auto add = [&](DeckShape shape, std::size_t begin, std::size_t end) {
             if (begin == end) return;
-            DeckBlock& block = block_of(shape, unv() ? type : "");
+            DeckBlock& block = deck_.blocks[block_of(deck_.blocks, shape, type_of(shape))];
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t i = kinds.skin(k);
                 if (is_inner(i) || is_there(i)) continue;
@@ -377,18 +369,17 @@ private:
                 block.regions.push_back(region_of(i));
             }
         };
-        add(skin_shape(mesh_), mesh_.order() == 2 ? "95" : "94", 0, kinds.skin_quads());
-        add(DeckShape::tri3, "91", kinds.skin_quads(), mesh_.skin_count());
+        add(skin_shape(mesh_), 0, kinds.skin_quads());
+        add(DeckShape::tri3, kinds.skin_quads(), mesh_.skin_count());
     }
 
     /// Whether a mesh added before has the same quad of the skin; if not, the quad is recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
-        Quad rising = skin_quad(mesh_, i).nodes;
-        for (Index& node : rising) node = point(node);
-        std::sort(rising.begin(), rising.end());
-        const auto [found, fresh] = added_.skin_tags->try_emplace(rising, skin_tag(i));
+        Quad quad = skin_quad(mesh_, i).nodes;
+        for (Index& node : quad) node = point(node);
+        const auto [found, fresh] = added_.skin_tags->try_emplace(rising(quad), skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
         return !fresh;
     }
@@ -407,23 +398,6 @@ private:
         const auto known = skin_of_.find(i);
         return known != skin_of_.end() ? known->second
                                        : first_cell_ + static_cast<DeckTag>(mesh_.cell_count() + i);
-    }
-
-    DeckBlock& block_of(DeckShape shape, const std::string& type)
-    {
-        for (DeckBlock& block : deck_.blocks)
-            if (block.shape == shape && block.type == type) return block;
-        DeckBlock& block = deck_.blocks.emplace_back();
-        block.shape = shape;
-        block.type = type;
-        return block;
-    }
-
-    int next_set() const
-    {
-        int tag = 0;
-        for (const DeckSet& set : deck_.sets) tag = std::max(tag, set.tag);
-        return tag + 1;
     }
 
     void add_groups()
@@ -596,9 +570,9 @@ Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options
 namespace {
 
 /// Whether another mesh has the same quad, for each quad of each skin.
-/// @param rising  `rising(mesh, quad)`: the nodes of the quad, numbered over all meshes, ascending
-template <class Rising>
-std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const> meshes, const Rising& rising)
+/// @param number  `number(mesh, node)`: the number of a node over all meshes
+template <class Number>
+std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const> meshes, const Number& number)
 {
     struct Place {
         Quad nodes;
@@ -608,7 +582,11 @@ std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const>
     std::vector<std::vector<char>> inner;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         inner.emplace_back(meshes[m]->skin_count(), 0);
-        for (std::size_t i = 0; i < inner[m].size(); ++i) all.push_back({rising(m, i), m, i});
+        for (std::size_t i = 0; i < inner[m].size(); ++i) {
+            Quad quad = skin_quad(*meshes[m], i).nodes;
+            for (Index& n : quad) n = number(m, n);
+            all.push_back({rising(quad), m, i});
+        }
     }
     std::ranges::sort(all, {}, &Place::nodes);
     for (std::size_t k = 1; k < all.size(); ++k) {
@@ -627,16 +605,10 @@ Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill
                     MeshDeckOptions options, bool interfaces, const RunContext& context)
 {
     Deck deck = empty_deck(options.format);
-    const auto rising = [&](std::size_t m, std::size_t i) {
-        Quad quad = skin_quad(*meshes[m], i).nodes;
-        for (Index& n : quad) n = number(m, n);
-        std::sort(quad.begin(), quad.end());
-        return quad;
-    };
     const bool cells = has_skin_cells(options.format);
     GroupSets groups;
     std::vector<std::vector<char>> inner(meshes.size());
-    if (cells && !interfaces) inner = inner_quads(std::span(meshes), rising);
+    if (cells && !interfaces) inner = inner_quads(std::span(meshes), number);
     std::map<Quad, DeckTag> skin_tags;
     std::map<std::string, Index> regions; // parts of one name form one region
     for (std::size_t m = 0; m < meshes.size(); ++m) {

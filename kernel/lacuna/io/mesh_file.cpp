@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/swept_view.h>
 #include <lacuna/io/detail/vtk_writer.h>
 
 #include <algorithm>
@@ -50,22 +51,16 @@ void write_view(const FormatRow& format, const mesh::HexMesh& mesh, const NodeRe
                 const std::vector<FieldReader>& fields, const OutputPath& path,
                 const MeshFileOptions& options, const RunContext& context, const Team* team = nullptr)
 {
-    if (format.view_folder != nullptr) return format.view_folder(*view_of(mesh, nodes, {}), path, context);
-    if (format.view_file == nullptr) {
-        check_skin(mesh);
-        const std::vector<LayerPart> parts = layer_parts(mesh.layers, options.partition);
-        return write_pieces(
-            parts.size(), [&](std::size_t p) { return piece_of(mesh, parts[p], nodes, fields); },
-            options.partition.ghosts, path, context, team);
-    }
+    const auto view = view_of(mesh, nodes, fields);
+    if (format.view_folder != nullptr) return format.view_folder(*view, path, context);
     mesh::ViewParts parts;
-    const bool parted = options.partition.parts > 0;
+    const bool pieces = format.view_file == nullptr, parted = pieces || options.partition.parts > 0;
     if (parted) parts = parts_of(mesh, options.partition);
+    if (pieces) return write_pieces(view, parts, options.partition.ghosts, path, context, team);
     const DeckFileOptions file_options = options_for(
         format, {.binary = options.binary, .msh_version = options.version, .all_groups = options.all_groups},
         path, context);
-    const DeckFile file = format.view_file(view_of(mesh, nodes, fields), file_options,
-                                           parted ? &parts : nullptr);
+    const DeckFile file = format.view_file(view, file_options, parted ? &parts : nullptr);
     write_file(path, file.sections, file.sizes, context, team);
 }
 
@@ -81,6 +76,7 @@ std::shared_ptr<const mesh::MeshView> view_for(const FormatRow& format, const De
 
 void note_sets(const Format& format, const Deck& deck, std::vector<std::string>& notes)
 {
+    if (format.unwritten_sets.empty()) return;
     const auto unwritten = std::ranges::count_if(deck.sets, [&](const DeckSet& set) {
         return set.kind == DeckSet::Kind::sides ||
                (set.kind == DeckSet::Kind::nodes && !format.has_node_sets);
@@ -91,11 +87,14 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
 DeckFile file_of(const FormatRow& format, const Deck& deck, const DeckFileOptions& options,
                  const LayeredBulk* layered = nullptr)
 {
-    if (format.deck_file != nullptr) return format.deck_file(deck, layered);
-    const auto view = view_for(format, deck, {deck, layered});
+    DeckFile file;
     mesh::ViewParts parts;
     if (options.partition != nullptr) parts = parts_of(deck, *options.partition);
-    DeckFile file = format.view_file(view, options, options.partition != nullptr ? &parts : nullptr);
+    if (format.deck_file != nullptr)
+        file = format.deck_file(deck, layered);
+    else
+        file = format.view_file(view_for(format, deck, {deck, layered}), options,
+                                options.partition != nullptr ? &parts : nullptr);
     note_sets(format, deck, file.notes);
     return file;
 }
@@ -213,10 +212,7 @@ void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, co
                 const RunContext& context)
 {
     const auto view = view_for(row_of(format_of(DeckFormat::vtu)), deck, {deck, nullptr});
-    const mesh::ViewParts parts = parts_of(deck, partition);
-    write_pieces(
-        static_cast<std::size_t>(partition.parts),
-        [&](std::size_t p) { return piece_of(view, parts, static_cast<Index>(p)); }, ghosts, path, context);
+    write_pieces(view, parts_of(deck, partition), ghosts, path, context);
 }
 
 } // namespace lacuna::io

@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/msh_file.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_shapes.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
@@ -15,7 +16,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <type_traits>
 
 namespace lacuna::io {
 namespace {
@@ -114,10 +114,7 @@ struct MshNumbers {
     [[nodiscard]] char* add(char* out, Value value) const
     {
         if (binary) return put(out, value);
-        if constexpr (std::is_integral_v<Value>)
-            out = put_text(out, static_cast<long long>(value));
-        else
-            out = put_text(out, value);
+        out = put_text(out, value);
         *out++ = ' ';
         return out;
     }
@@ -217,7 +214,7 @@ public:
                                size_of(elements_.second));
         for (const Row& row : rows) {
             const DeckShape shape = view_->blocks[row.block].shape;
-            text_ += numbers_.line(shape_info(shape).dimension, row.tag, gmsh_type(shape),
+            text_ += numbers_.line(shape_info(shape).dimension, row.tag, words_of(shape).gmsh,
                                    size_of(row.cells.count()));
             add_elements<std::uint64_t>(row, {});
         }
@@ -243,7 +240,7 @@ public:
             });
         text_ = numbers_.gap() + "$EndNodes\n$Elements\n" + std::to_string(view_->cells()) + "\n";
         for (const Row& row : rows_) {
-            const int type = gmsh_type(view_->blocks[row.block].shape);
+            const int type = words_of(view_->blocks[row.block].shape).gmsh;
             const std::vector<int>& physical = physical_[row.entity];
             const int group = physical.empty() ? 0 : physical.front();
             const int entity = view_->entities[row.entity].tag;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/shared/msh_reader.h>
+#include <lacuna/io/detail/msh_shapes.h>
 
-#include <lacuna/core/error.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/input_file.h>
-#include <lacuna/io/detail/msh_shapes.h>
 
 #include <algorithm>
 #include <bit>
@@ -22,59 +19,33 @@ namespace lacuna::io {
 
 namespace {
 
-/// What must be known of an element type to read or to skip it, and what it is read as: types of order 3 and
-/// more give their corners.
+/// What must be known of an element type to read or to skip it, and what it is read as.
 struct ElementType {
-    int type, dimension, nodes, order;
+    int type, dimension, nodes;
     DeckShape shape = DeckShape::line2;
+    bool is_kept = true; ///< else only counted
 };
 
+/// Types that are no shapes: points and lines of order 3 and more, and others of order 3 and more, which give
+/// their corners.
 using enum DeckShape;
-constexpr ElementType kTypes[] = {{15, 0, 1, 1},
-                                  {1, 1, 2, 1},
-                                  {8, 1, 3, 2, line3},
-                                  {26, 1, 4, 3},
-                                  {27, 1, 5, 4},
-                                  {28, 1, 6, 5},
-                                  {2, 2, 3, 1, tri3},
-                                  {9, 2, 6, 2, tri6},
-                                  {20, 2, 9, 3, tri3},
-                                  {21, 2, 10, 3, tri3},
-                                  {22, 2, 12, 4, tri3},
-                                  {23, 2, 15, 4, tri3},
-                                  {24, 2, 15, 5, tri3},
-                                  {25, 2, 21, 5, tri3},
-                                  {3, 2, 4, 1, quad4},
-                                  {10, 2, 9, 2, quad9},
-                                  {16, 2, 8, 2, quad8},
-                                  {36, 2, 16, 3, quad4},
-                                  {37, 2, 25, 4, quad4},
-                                  {38, 2, 36, 5, quad4},
-                                  {4, 3, 4, 1, tet4},
-                                  {11, 3, 10, 2, tet10},
-                                  {29, 3, 20, 3, tet4},
-                                  {30, 3, 35, 4, tet4},
-                                  {31, 3, 56, 5, tet4},
-                                  {5, 3, 8, 1, hex8},
-                                  {12, 3, 27, 2, hex27},
-                                  {17, 3, 20, 2, hex20},
-                                  {92, 3, 64, 3, hex8},
-                                  {93, 3, 125, 4, hex8},
-                                  {6, 3, 6, 1, wedge6},
-                                  {13, 3, 18, 2, wedge18},
-                                  {18, 3, 15, 2, wedge15},
-                                  {90, 3, 40, 3, wedge6},
-                                  {7, 3, 5, 1, pyramid5},
-                                  {14, 3, 14, 2, pyramid14},
-                                  {19, 3, 13, 2, pyramid13}};
+constexpr ElementType kFurtherTypes[] = {
+    {15, 0, 1, line2, false}, {26, 1, 4, line2, false}, {27, 1, 5, line2, false}, {28, 1, 6, line2, false},
+    {20, 2, 9, tri3},         {21, 2, 10, tri3},        {22, 2, 12, tri3},        {23, 2, 15, tri3},
+    {24, 2, 15, tri3},        {25, 2, 21, tri3},        {36, 2, 16, quad4},       {37, 2, 25, quad4},
+    {38, 2, 36, quad4},       {29, 3, 20, tet4},        {30, 3, 35, tet4},        {31, 3, 56, tet4},
+    {92, 3, 64, hex8},        {93, 3, 125, hex8},       {90, 3, 40, wedge6}};
 
 constexpr bool kBig = std::endian::native == std::endian::big; // numbers lie as this machine has them
 
 ElementType type_of(const Cursor& cursor, int type)
 {
-    for (const ElementType& known : kTypes)
-        if (known.type == type) return known;
-    cursor.fail("element type " + std::to_string(type) + " is not known");
+    if (const auto shape = shape_numbered(&ShapeWords::gmsh, type))
+        return {type, shape_info(*shape).dimension, shape_info(*shape).nodes, *shape};
+    const auto known = std::ranges::find(kFurtherTypes, type, &ElementType::type);
+    if (known == std::end(kFurtherTypes))
+        cursor.fail("element type " + std::to_string(type) + " is not known");
+    return *known;
 }
 
 class Reader {
@@ -94,12 +65,9 @@ public:
         take_groups();
     }
 
-    /// What a mesh does not keep: groups, and what was passed over.
-    std::vector<MshGroup> groups;
-    std::vector<OtherCells> others;
-    int order = 1;
-
 private:
+    using Key = std::pair<int, int>; // dimension, tag
+
     void read_section(const std::string& name)
     {
         if (version_ <= 1 && (name == "NOD" || name == "ELM")) {
@@ -246,8 +214,7 @@ private:
     {
         if (nodes_known_) cursor_.fail("a second $Nodes");
         cursor_.plausible(count, bytes, values);
-        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many nodes");
+        if (!is_index(count)) cursor_.fail("too many nodes");
         reserve_large(into_.points(), count);
         reserve_large(into_.deck().point_tags, count);
     }
@@ -349,27 +316,17 @@ private:
         }
     }
 
-    /// Room for cells that are announced.
+    /// The block of cells that are announced.
     void expect_cells(const ElementType& type, std::uint64_t count)
     {
         if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
-        if (count + cells_ > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many cells");
-        if (!is_kept(type)) return;
-        block_ = into_.block_of(type.shape, std::to_string(type.type));
-        DeckBlock& block = into_.deck().blocks[block_];
-        // Many small blocks must not each copy what is there.
-        if (count <= block.count()) return;
-        const std::size_t all = block.count() + count;
-        reserve_large(block.tags, all);
-        reserve_large(block.regions, all);
-        reserve_large(block.nodes, all * static_cast<std::size_t>(shape_info(type.shape).nodes));
+        if (!is_index(count + cells_)) cursor_.fail("too many cells");
+        if (type.is_kept) block_ = into_.block_of(type.shape, std::to_string(type.type));
     }
 
-    /// Points, and lines of order 3 and more, are only counted.
-    static bool is_kept(const ElementType& type)
+    static std::string name_of(const ElementType& type)
     {
-        return type.dimension > 1 || (type.dimension == 1 && type.order < 3);
+        return "cells of type " + std::to_string(type.type);
     }
 
     /// The region of cells of an entity and, in version 2, of a physical group, 0: none.
@@ -392,9 +349,8 @@ private:
     {
         const std::size_t numbers = 1 + skipped + static_cast<std::size_t>(type.nodes);
         const std::string_view bytes = cursor_.bytes(count * numbers * sizeof(Tag));
-        if (!is_kept(type)) {
-            others_[{type.dimension, type.type}] += count;
-            return;
+        if (!type.is_kept) {
+            return into_.pass_over(name_of(type), count);
         }
         const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
         const DeckBuilder::Room room = into_.add_elements(block_, count, region_);
@@ -408,7 +364,6 @@ private:
             for (std::size_t k = 0; k < kept; ++k)
                 *node++ = position(tag_at<Tag>(at + from[k] * sizeof(Tag), "a node's"));
         }
-        if (shape_info(type.shape).corners == 8) order = std::max(order, type.order);
         cells_ += count;
     }
 
@@ -424,10 +379,9 @@ private:
     template <class NextTag>
     void take_cell(const ElementType& type, std::uint64_t tag, const NextTag& next_tag)
     {
-        if (!is_kept(type)) {
+        if (!type.is_kept) {
             for (int i = 0; i < type.nodes; ++i) next_tag();
-            ++others_[{type.dimension, type.type}];
-            return;
+            return into_.pass_over(name_of(type));
         }
         const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
         std::array<Index, 27> read{}, nodes{};
@@ -437,7 +391,6 @@ private:
         }
         const auto places = gmsh_places(type.shape);
         for (std::size_t i = 0; i < kept; ++i) nodes[i] = read[places.empty() ? i : places[i]];
-        if (shape_info(type.shape).corners == 8) order = std::max(order, type.order);
         if (static_cast<DeckTag>(tag) < 0) cursor_.fail("an element's tag is too large");
         ++cells_;
         into_.add_element(block_, static_cast<DeckTag>(tag), region_, {nodes.data(), kept});
@@ -463,7 +416,7 @@ private:
             const std::uint64_t count = cursor_.plausible(cursor_.size(), (first_of_4_ ? 4 : 8) * values,
                                                           values);
             expect_cells(type, count);
-            if (is_kept(type)) enter(type, entity, 0);
+            if (type.is_kept) enter(type, entity, 0);
             if (cursor_.coding != Coding::text) {
                 if (first_of_4_)
                     take_cells<int>(type, count, 0);
@@ -512,7 +465,7 @@ private:
     void add_cell(const ElementType& type, std::uint64_t tag, int physical, int entity)
     {
         if (physical != 0) members_[{type.dimension, physical}].insert(entity);
-        if (is_kept(type)) enter(type, entity, physical);
+        if (type.is_kept) enter(type, entity, physical);
         take_cell(type, tag, [&] { return node_tag(); });
     }
 
@@ -531,7 +484,7 @@ private:
             if (group == std::numeric_limits<int>::min()) cursor_.fail("a group's tag is too large");
             const int physical = std::abs(group);
             if (physical != 0) members_[{type.dimension, physical}].insert(entity);
-            if (is_kept(type)) enter(type, entity, physical);
+            if (type.is_kept) enter(type, entity, physical);
             take_cells<int>(type, same, tags);
             i += same;
         }
@@ -571,43 +524,31 @@ private:
         std::erase_if(names_, [](const auto& name) { return name.first.first < 0; });
         for (const auto& [key, name] : names_) members_[key];
         Deck& deck = into_.deck();
-        for (const auto& [key, entities] : members_) {
-            const auto name = names_.find(key);
-            groups.push_back({key.first,
-                              key.second,
-                              name == names_.end() ? "" : name->second,
-                              {entities.begin(), entities.end()}});
-            if (key.first >= 1) take_set(groups.back());
-        }
-        for (const auto& [key, count] : others_) {
-            others.push_back({key.first, key.second, count});
-            into_.pass_over("cells of type " + std::to_string(key.second), count);
-        }
+        for (const auto& [key, entities] : members_)
+            if (key.first >= 1) take_set(key, entities);
         std::erase_if(deck.sets, [](const DeckSet& set) { return set.members.empty(); });
     }
 
     /// Whether the cells of a region are in a group.
-    bool holds(const MshGroup& group, std::size_t region) const
+    bool holds(const Key& group, const std::set<int>& entities, std::size_t region) const
     {
+        const auto& [dimension, tag] = group;
         const Place& place = place_of_[region];
-        if (place.dimension != group.dimension) return false;
-        if (version_ == 4) return std::ranges::binary_search(group.entities, place.entity);
+        if (place.dimension != dimension) return false;
+        if (version_ == 4) return entities.contains(place.entity);
         const auto more = more_groups_.find(static_cast<Index>(region));
-        return place.physical == group.tag ||
-               (more != more_groups_.end() && more->second.contains(group.tag));
+        return place.physical == tag || (more != more_groups_.end() && more->second.contains(tag));
     }
 
-    void take_set(const MshGroup& group)
+    void take_set(const Key& group, const std::set<int>& entities)
     {
-        const std::string_view name = trimmed(group.name);
+        const auto named = names_.find(group);
+        const std::string_view name = named == names_.end() ? std::string_view() : trimmed(named->second);
         Deck& deck = into_.deck();
         std::vector<bool> held(deck.regions.size(), false);
-        for (std::size_t r = 0; r < held.size(); ++r) held[r] = holds(group, r);
-        DeckSet set{DeckSet::Kind::elements,
-                    group.tag,
-                    name.empty() ? unnamed_group(group.tag) : std::string(name),
-                    {},
-                    {}};
+        for (std::size_t r = 0; r < held.size(); ++r) held[r] = holds(group, entities, r);
+        DeckSet set{.tag = group.second,
+                    .name = name.empty() ? unnamed_group(group.second) : std::string(name)};
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e)
                 if (held[index(block.regions[e])]) set.members.push_back(block.tags[e]);
@@ -681,16 +622,11 @@ private:
         into_.pass_over("cells that stand once more for a further group",
                         static_cast<std::size_t>(std::ranges::count(copy, true)));
         DeckBlock kept{.shape = block.shape, .type = block.type};
-        for (std::size_t e = 0; e < copy.size(); ++e) {
-            if (copy[e]) continue;
-            kept.nodes.insert(kept.nodes.end(), block.element(e).begin(), block.element(e).end());
-            kept.tags.push_back(block.tags[e]);
-            kept.regions.push_back(block.regions[e]);
-        }
+        for (std::size_t e = 0; e < copy.size(); ++e)
+            if (!copy[e]) copy_element(block, e, kept);
         block = std::move(kept);
     }
 
-    using Key = std::pair<int, int>; // dimension, tag
     Cursor& cursor_;
     DeckBuilder& into_;
     std::optional<TagPlaces> tags_;
@@ -709,7 +645,6 @@ private:
     std::map<Key, std::string> names_;                             ///< dimension -1: not said
     std::map<Key, std::set<int>> members_;
     std::map<Key, int> whole_of_; ///< of entities that are parts
-    std::map<Key, std::size_t> others_;
     int version_ = 0;
     bool first_of_4_ = false; ///< version 4.0, which counts tags in 4 bytes and has them in another order
     bool nodes_known_ = false;
@@ -718,14 +653,6 @@ private:
 } // namespace
 
 std::string unnamed_group(int tag) { return "physical_" + std::to_string(tag); }
-
-int gmsh_type(DeckShape shape)
-{
-    for (const ElementType& type : kTypes)
-        if (type.dimension > 1 && type.shape == shape && type.nodes == shape_info(shape).nodes)
-            return type.type;
-    return shape == DeckShape::line3 ? 8 : 1;
-}
 
 std::span<const std::uint8_t> gmsh_places(DeckShape shape)
 {
@@ -750,39 +677,5 @@ std::span<const std::uint8_t> gmsh_places(DeckShape shape)
 }
 
 void read_msh(Cursor& cursor, DeckBuilder& into) { Reader(cursor, into).read(); }
-
-MshCells read_msh(const std::string& path)
-{
-    const std::string data = read_file(path);
-    Cursor cursor(path, data);
-    DeckBuilder builder(DeckFormat::msh);
-    Reader reader(cursor, builder);
-    reader.read();
-    Deck deck = builder.take(path);
-    MshCells cells;
-    cells.groups = std::move(reader.groups);
-    cells.others = std::move(reader.others);
-    cells.order = reader.order;
-    for (const DeckBlock& block : deck.blocks) {
-        const DeckShapeInfo& info = shape_info(block.shape);
-        const auto take = [&](auto& all, std::vector<int>& entities) {
-            for (std::size_t e = 0; e < block.count(); ++e) {
-                auto& cell = all.emplace_back();
-                std::copy_n(block.element(e).begin(), cell.size(), cell.begin());
-                entities.push_back(deck.regions[index(block.regions[e])].tag);
-            }
-        };
-        if (info.corners == 8)
-            take(cells.hexes, cells.hex_entity);
-        else if (info.dimension == 2 && info.corners == 4)
-            take(cells.quads, cells.quad_entity);
-        else if (info.dimension == 2)
-            take(cells.triangles, cells.triangle_entity);
-        else
-            cells.others.push_back({info.dimension, std::stoi(block.type), block.count()});
-    }
-    cells.nodes = std::move(deck.points);
-    return cells;
-}
 
 } // namespace lacuna::io

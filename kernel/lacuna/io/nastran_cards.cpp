@@ -15,13 +15,6 @@ constexpr std::size_t kFields = 8;      // data fields of a line; large ones tak
 /// bytes, so that a count that lies costs no memory. A choice.
 constexpr std::size_t kReplicas = 10'000;
 
-std::string upper(std::string_view text)
-{
-    std::string result(text);
-    for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return result;
-}
-
 bool begins_with(std::string_view line, std::string_view word)
 {
     return same_word(line.substr(0, word.size()), word) &&

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
@@ -129,7 +130,8 @@ private:
         const DeckShape shape = middles ? kind.all : kind.corners;
         const auto count = static_cast<std::size_t>(shape_info(shape).nodes);
         std::array<Index, 20> nodes{};
-        for (std::size_t k = 0; k < count; ++k) nodes[nastran_place(shape, k)] = found[k];
+        const auto places = exodus_places(shape); // which Nastran has too
+        for (std::size_t k = 0; k < count; ++k) nodes[places.empty() ? k : places[k]] = found[k];
         const Index tag = card.needed(2);
         const std::size_t block = into_.block_of(shape, card.name);
         const DeckBlock& of = into_.deck().blocks[block];
@@ -242,7 +244,7 @@ private:
         deck.points.resize(kept);
         deck.point_tags.resize(kept);
         grids_.resize(kept);
-        tags_.emplace(deck.point_tags, [](Index, Index) {});
+        tags_.emplace(deck.point_tags);
     }
 
     Vec3 in_basic(std::size_t p)
@@ -267,9 +269,7 @@ private:
     {
         const DeckPlace& place = bulk_.first_superelement();
         if (default_frame_ != 0) place.fail("GRDSET of superelements that are read as one deck is ambiguous");
-        std::vector<DeckTag> tags;
-        for (const DeckBlock& block : into_.deck().blocks)
-            tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+        const std::vector<DeckTag> tags = element_tags(into_.deck());
         const TagPlaces elements(tags, [&](Index, Index again) {
             place.fail("superelements are read as one deck, and element " +
                        std::to_string(tags[index(again)]) + " is there twice; renumber one of them");
@@ -308,13 +308,6 @@ private:
 };
 
 } // namespace
-
-std::size_t nastran_place(DeckShape shape, std::size_t k)
-{
-    if (shape == DeckShape::hex20 && k >= 12) return k < 16 ? k + 4 : k - 4;
-    if (shape == DeckShape::wedge15 && k >= 9) return k < 12 ? k + 3 : k - 3;
-    return k;
-}
 
 void read_nastran(Cursor& cursor, DeckBuilder& into) { NastranReader(cursor, into).read(); }
 

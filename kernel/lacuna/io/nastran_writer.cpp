@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ public:
     void add_number(DeckTag number)
     {
         char* const at = digits_.data() + used_;
-        char* const end = put_text(at, static_cast<long long>(number));
+        char* const end = put_text(at, number);
         used_ += kNumber;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
@@ -121,23 +122,16 @@ std::string_view text_of_place(const Further& further, std::size_t place)
 void add_nodes(const Deck& deck, const BulkReader& bulk, bool same, DeckFile& file)
 {
     const std::size_t more = same ? room_of(deck.point_more) : 0;
-    file.sections.push_back({{},
-                             bulk.points(),
-                             CardWriter::room(5, kLarge) + more,
-                             [&deck, bulk, same](std::size_t begin, std::size_t end, char* out) {
-                                 CardWriter card;
-                                 bulk.each_point(begin, end,
-                                                 [&](std::size_t p, DeckTag tag, const Vec3& point) {
-                                                     card.begin();
-                                                     card.add_number(tag);
-                                                     card.add({});
-                                                     for (const double x : point) card.add_real(x);
-                                                     if (same)
-                                                         card.add_text(text_of_place(deck.point_more, p));
-                                                     out = card.put(out, "GRID", true);
-                                                 });
-                                 return out;
-                             }});
+    const auto put = [&deck, same, card = CardWriter()](std::size_t p, DeckTag tag, const Vec3& point,
+                                                        char* out) mutable {
+        card.begin();
+        card.add_number(tag);
+        card.add({});
+        for (const double x : point) card.add_real(x);
+        if (same) card.add_text(text_of_place(deck.point_more, p));
+        return card.put(out, "GRID", true);
+    };
+    file.sections.push_back(section_of_points({}, bulk, CardWriter::room(5, kLarge) + more, put));
 }
 
 void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, bool same, DeckFile& file)
@@ -146,37 +140,30 @@ void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& blo
                                                               : words_of(block.shape).nastran;
     if (name.empty()) refuse_element(block, "Nastran", "there is no such card");
     const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+    const auto places = exodus_places(block.shape); // which Nastran has too
     const std::size_t more = same ? room_of(block.more) : 0;
+    const auto put = [=, &deck, &block, card = CardWriter()](std::size_t e, DeckTag tag, Index region,
+                                                             std::span<const Index> element,
+                                                             char* out) mutable {
+        card.begin();
+        card.add_number(tag);
+        const int property = region < 0 ? 0 : deck.regions[index(region)].tag;
+        if (property > 0)
+            card.add_number(property);
+        else
+            card.add({});
+        for (std::size_t k = 0; k < nodes; ++k) {
+            const Index node = element[places.empty() ? k : places[k]];
+            if (node < 0)
+                card.add({});
+            else
+                card.add_number(bulk.point_tag(node));
+        }
+        if (same) card.add_text(text_of_place(block.more, e));
+        return card.put(out, name);
+    };
     file.sections.push_back(
-        {{},
-         bulk.count(block),
-         CardWriter::room(nodes + 2, kNumber) + more,
-         [&deck, bulk, &block, name, nodes, same](std::size_t begin, std::size_t end, char* out) {
-             CardWriter card;
-             const auto put = [&](std::size_t e, DeckTag tag, Index region, std::span<const Index> element) {
-                 card.begin();
-                 card.add_number(tag);
-                 const int property = region < 0 ? 0 : deck.regions[index(region)].tag;
-                 if (property > 0)
-                     card.add_number(property);
-                 else
-                     card.add({});
-                 for (std::size_t k = 0; k < nodes; ++k) {
-                     const Index node = element[nastran_place(block.shape, k)];
-                     if (node < 0)
-                         card.add({});
-                     else
-                         card.add_number(bulk.point_tag(node));
-                 }
-                 if (same) card.add_text(text_of_place(block.more, e));
-                 out = card.put(out, name);
-             };
-             for (std::size_t e = begin; e < end; ++e)
-                 bulk.element(block, e, [&](DeckTag tag, Index region, std::span<const Index> element) {
-                     put(e, tag, region, element);
-                 });
-             return out;
-         }});
+        section_of_elements(bulk, block, CardWriter::room(nodes + 2, kNumber) + more, put));
 }
 
 /// SET1, which names no kind: a comment does.
@@ -225,21 +212,14 @@ DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered)
     DeckFile file;
     file.sections.push_back({same ? text_at(deck, DeckText::Place::head) : "BEGIN BULK\n", 0, 0, {}});
     add_nodes(deck, bulk, same, file);
-    std::size_t surfaces = 0;
     for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, same, file);
     std::string text = same ? text_at(deck, DeckText::Place::cards) : std::string();
     int number = static_cast<int>(numbers_in_text(deck).set);
-    for (const DeckSet& set : deck.sets) {
-        if (set.kind == DeckSet::Kind::sides)
-            ++surfaces;
-        else if (!set.members.empty())
-            text += set_text(set, ++number);
-    }
+    for (const DeckSet& set : deck.sets)
+        if (!set.members.empty()) text += set_text(set, ++number);
     if (!same) text += property_text(deck);
     const std::string tail = same ? text_at(deck, DeckText::Place::tail) : "ENDDATA\n";
     file.sections.push_back({text + tail, 0, 0, {}});
-    if (surfaces > 0)
-        file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: Nastran has none");
     return file;
 }
 

@@ -2,7 +2,6 @@
 #include <lacuna/io/detail/deck_builder.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace lacuna::io {
 namespace {
@@ -40,13 +39,12 @@ private:
 
     void read_line()
     {
-        const std::string_view word = next_word();
+        const std::string_view word = next_word(line_);
         if (word.empty()) return;
         if (word == "v") {
-            if (into_.points().size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-                fail("too many points");
+            if (!is_index(into_.points().size() + 1)) fail("too many points");
             Vec3 p;
-            for (double& x : p) x = coordinate(next_word());
+            for (double& x : p) x = coordinate(next_word(line_));
             into_.points().push_back(p);
         } else if (word == "f") {
             read_face();
@@ -61,7 +59,7 @@ private:
     void read_face()
     {
         corners_.clear();
-        for (std::string_view word = next_word(); !word.empty(); word = next_word())
+        for (std::string_view word = next_word(line_); !word.empty(); word = next_word(line_))
             corners_.push_back(corner(word.substr(0, word.find('/'))));
         if (corners_.size() < 3)
             fail("expected a face of three corners or more, found " + std::to_string(corners_.size()));
@@ -86,15 +84,6 @@ private:
         const auto value = parse_real(word);
         if (!value) fail("expected a finite coordinate, found " + shown(word));
         return *value;
-    }
-
-    std::string_view next_word()
-    {
-        line_ = trimmed(line_);
-        const std::size_t length = std::min(line_.find_first_of(" \t\r"), line_.size());
-        const std::string_view word = line_.substr(0, length);
-        line_.remove_prefix(length);
-        return word;
     }
 
     [[noreturn]] void fail(const std::string& what) const { cursor_.fail_at(begin_, what); }

@@ -4,6 +4,7 @@
 // face, and the patches of boundary faces. https://doc.openfoam.com/2306/fundamentals/mesh
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/io/detail/whole_folder.h>
 
@@ -14,7 +15,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <type_traits>
 
 namespace lacuna::io {
 
@@ -30,12 +30,6 @@ struct CellFace {
     Quad corners;
     Index cell;
 };
-
-Quad rising(Quad corners)
-{
-    std::ranges::sort(corners);
-    return corners;
-}
 
 /// Convert a name to a valid OpenFOAM word.
 std::string word_of(const std::string& name)
@@ -275,10 +269,7 @@ char* put_row(char* out, const Values& values)
 {
     *out++ = '(';
     for (const auto& value : values) {
-        if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
-            out = put_text(out, static_cast<long long>(value));
-        else
-            out = put_text(out, value);
+        out = put_text(out, value);
         *out++ = ' ';
     }
     out[-1] = ')';
@@ -288,7 +279,7 @@ char* put_row(char* out, const Values& values)
 
 char* put_label(char* out, Index label)
 {
-    out = put_text(out, static_cast<long long>(label));
+    out = put_text(out, label);
     *out++ = '\n';
     return out;
 }

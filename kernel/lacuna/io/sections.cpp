@@ -157,36 +157,20 @@ void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& 
                  });
 }
 
-/// Places are known once the text before is: a wave of chunks is filled together, then written in order.
+/// Places are known once the text before is: chunks are filled in rounds, and those of a round written in
+/// order. A team shares each round: all say how long theirs are before they write, so that nothing is filled
+/// twice.
 void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
-                   const RunContext& context)
+                   const RunContext& context, const Team* team)
 {
-    std::vector<Buffer> buffers(4 * static_cast<std::size_t>(thread_count(context)));
-    std::vector<std::string_view> filled(buffers.size());
+    // Of a team 64 MB a round at most, of which text takes about half: a choice.
+    const std::size_t most = team != nullptr ? 128 : 4 * static_cast<std::size_t>(thread_count(context));
     std::uint64_t offset = 0;
-    for (std::size_t first = 0; first < chunks.size(); first += buffers.size()) {
-        const std::size_t count = std::min(buffers.size(), chunks.size() - first);
-        parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) filled[i] = buffers[i].filled(chunks[first + i]);
-        });
-        for (std::size_t i = 0; i < count; offset += filled[i++].size()) write(offset, filled[i]);
-        share.add(count);
-    }
-}
-
-/// The same by a team, in rounds: each fills the next chunks, which wait until all have said how long theirs
-/// are. So nothing is filled twice, and of a file each has a few megabytes in memory.
-void write_in_rounds(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
-                     const RunContext& context, const Team& team)
-{
-    // 64 MB a round at most, of which text takes about half: a choice.
-    constexpr std::size_t kChunks = 128;
-    std::uint64_t offset = 0;
-    std::vector<Buffer> buffers(std::min(kChunks, chunks.size()));
+    std::vector<Buffer> buffers(std::min(most, chunks.size()));
     std::vector<std::string_view> filled(buffers.size());
-    const std::size_t round = kChunks * static_cast<std::size_t>(team.size);
+    const std::size_t round = most * static_cast<std::size_t>(team != nullptr ? team->size : 1);
     for (std::size_t first = 0; first < chunks.size(); first += round) {
-        const auto [begin, end] = share_of(&team, std::min(round, chunks.size() - first));
+        const auto [begin, end] = share_of(team, std::min(round, chunks.size() - first));
         const std::size_t count = end - begin;
         parallel_for(context, count, 1, [&, from = first + begin](std::size_t low, std::size_t high) {
             for (std::size_t i = low; i < high; ++i) filled[i] = buffers[i].filled(chunks[from + i]);
@@ -196,13 +180,13 @@ void write_in_rounds(const std::vector<Chunk>& chunks, const WriteAt& write, Sha
         for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
         Writer writer;
         writer(own);
-        const std::vector<std::string> said = gather(&team, std::move(writer).take());
+        const std::vector<std::string> said = gather(team, std::move(writer).take());
         std::uint64_t at = offset;
         for (std::size_t rank = 0; rank < said.size(); ++rank) {
             std::uint64_t length = 0;
             Reader reader(said[rank]);
             reader(length);
-            if (rank < static_cast<std::size_t>(team.rank)) at += length;
+            if (team != nullptr && rank < static_cast<std::size_t>(team->rank)) at += length;
             offset += length;
         }
         for (std::size_t i = 0; i < count; at += filled[i++].size()) write(at, filled[i]);
@@ -213,12 +197,10 @@ void write_in_rounds(const std::vector<Chunk>& chunks, const WriteAt& write, Sha
 void write_sections(const std::vector<Section>& sections, Sizes sizes, const WriteAt& write,
                     const std::string& stage, const RunContext& context, const Team* team)
 {
-    const bool in_rounds = sizes == Sizes::varying && team != nullptr;
     const std::vector<Chunk> chunks = sizes == Sizes::exact ? cut_exact(sections, team) : cut(sections);
     Share share(context, stage, chunks.size());
     if (sizes == Sizes::exact) return write_exact(chunks, write, share, context);
-    if (in_rounds) return write_in_rounds(chunks, write, share, context, *team);
-    write_varying(chunks, write, share, context);
+    write_varying(chunks, write, share, context, team);
 }
 
 /// Room for a whole file, some at a time: where it is in memory that takes a while.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/deck_file.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/join_sets.h>
 
 #include <algorithm>
 #include <map>
@@ -8,19 +10,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// The corners of a face rising, by which it is known; those of a triangle behind a -1.
-Quad key_of(std::span<const Index> element, const Quad& corners)
-{
-    Quad key;
-    std::ranges::transform(corners, key.begin(), [&](Index c) { return c < 0 ? c : element[index(c)]; });
-    std::ranges::sort(key);
-    return key;
-}
-Quad key_of(const DeckBlock& block, std::size_t e)
-{
-    return key_of(block.element(e), {0, 1, 2, shape_info(block.shape).corners == 3 ? -1 : 3});
-}
 
 template <class Visit>
 void each_element(const Deck& deck, int dimension, const Visit& visit)
@@ -36,13 +25,13 @@ std::map<Quad, DeckSide> sides_below(const Deck& deck)
     std::map<Quad, DeckSide> below;
     std::vector<char> on(deck.points.size(), 0);
     each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
-        below.try_emplace(key_of(block, e));
+        below.try_emplace(shell_key(block, e));
         for (const Index point : block.element(e)) on[index(point)] = 1;
     });
     each_element(deck, 3, [&](const DeckBlock& block, std::size_t e) {
         const std::span<const Quad> faces = face_corners(block.shape);
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            const Quad key = key_of(block.element(e), faces[f]);
+            const Quad key = face_key(block, e, faces[f]);
             if (!std::ranges::all_of(key, [&](Index point) { return point < 0 || on[index(point)] != 0; }))
                 continue;
             const auto found = below.find(key);
@@ -63,7 +52,7 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     const std::map<Quad, DeckSide> below = sides_below(deck);
     std::unordered_map<DeckTag, std::vector<std::string>> names; // of the elements that become sets
     each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
-        if (below.at(key_of(block, e)).side > 0) names[block.tags[e]];
+        if (below.at(shell_key(block, e)).side > 0) names[block.tags[e]];
     });
     for (DeckSet& set : deck.sets)
         if (set.kind == DeckSet::Kind::elements)
@@ -83,9 +72,7 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
             const std::span<const Index> nodes = block.element(e);
             const auto found = names.find(block.tags[e]);
             if (found == names.end()) {
-                kept.nodes.insert(kept.nodes.end(), nodes.begin(), nodes.end());
-                kept.tags.push_back(block.tags[e]);
-                kept.regions.push_back(block.regions[e]);
+                copy_element(block, e, kept);
                 continue;
             }
             if (const Index r = block.regions[e]; found->second.empty() && r >= 0) {
@@ -95,7 +82,7 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
             }
             for (const std::string& name : found->second) {
                 for (const Index node : nodes) sets[name].first.insert(deck.point_tags[index(node)]);
-                sets[name].second.insert(below.at(key_of(block, e)));
+                sets[name].second.insert(below.at(shell_key(block, e)));
             }
         }
         block = std::move(kept);

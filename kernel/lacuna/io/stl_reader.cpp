@@ -137,8 +137,7 @@ private:
 
     void check_room(std::size_t facets)
     {
-        if (into_.points().size() + 3 * facets > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many facets");
+        if (!is_index(into_.points().size() + 3 * facets)) cursor_.fail("too many facets");
     }
 
     /// The region of the solid at hand, which is there from its first facet on.

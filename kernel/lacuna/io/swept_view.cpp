@@ -16,41 +16,26 @@ namespace {
 using mesh::MeshView;
 using mesh::Ranges;
 
-/// A range of layers, whose nodes are numbered from 0, and the layers in it that own their skin.
-struct Layers {
-    int first = 0;                ///< layer of the whole mesh
-    int skin_first = 0, skin = 0; ///< layers that own their skin: first one in this range, and count
-    bool source = true, target = true;
-};
-
-/// The cells of a range of layers by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
+/// The cells of a mesh by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
 class SweptCells {
 public:
-    SweptCells(const mesh::HexMesh& own, const Layers& of)
+    explicit SweptCells(const mesh::HexMesh& own)
         : mesh(own),
           kinds(own),
-          layers(of),
           triangles(own.triangle_count()),
           quads(own.quads.size() - triangles),
-          count{kinds.hexes(), own.cell_count() - kinds.hexes(), ends() * quads + rims(of.skin),
-                ends() * triangles}
+          count{kinds.hexes(), own.cell_count() - kinds.hexes(), 2 * quads + rims(own.layers), 2 * triangles}
     {
     }
 
-    [[nodiscard]] std::size_t ends() const { return std::size_t(layers.source) + std::size_t(layers.target); }
     [[nodiscard]] std::size_t rims(int of) const { return index(of) * mesh.rim.size(); }
     [[nodiscard]] std::size_t cell(std::size_t k, std::size_t i) const
     {
         return kinds.cell(k == 0 ? i : kinds.hexes() + i);
     }
-    /// The index in the skin of the mesh of the `i`-th skin quad, or triangle, of these layers.
+    /// The index in the skin of the `i`-th quad, or triangle.
     [[nodiscard]] std::size_t skin(std::size_t k, std::size_t i) const
     {
-        const std::size_t each_end = k == 3 ? triangles : quads;
-        if (i >= ends() * each_end) // a wall quad
-            i += (2 - ends()) * each_end + rims(layers.skin_first);
-        else if (!layers.source)
-            i += each_end;
         return kinds.skin(k == 3 ? kinds.skin_quads() + i : i);
     }
     void put_nodes(std::size_t k, std::size_t begin, std::size_t end, Index* out) const
@@ -70,7 +55,6 @@ public:
 
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds;
-    Layers layers;
     std::size_t triangles, quads; ///< of the source
     std::array<std::size_t, 4> count;
 
@@ -133,26 +117,20 @@ void add_blocks(const std::shared_ptr<const SweptCells>& cells, MeshView& view)
         if (has_quads[p] != 0) view.entities.back().bounds.push_back(view.entities[p].tag);
 }
 
-/// @param skin_cells  `cells_of_skin()` of the whole mesh
-void add_fields(const std::shared_ptr<const SweptCells>& cells, const mesh::HexMesh& whole,
-                const std::vector<FieldReader>& fields, MeshView& view)
+void add_fields(const std::shared_ptr<const SweptCells>& cells, const std::vector<FieldReader>& fields,
+                MeshView& view)
 {
     if (fields.empty()) return;
-    const auto skin_cells = std::make_shared<const std::vector<std::uint32_t>>(cells_of_skin(whole));
-    const std::size_t first_cell = index(cells->layers.first) * whole.quads.size();
-    const std::size_t first_wall = cells->rims(cells->layers.first), ends = 2 * whole.quads.size();
+    const auto behind = std::make_shared<const std::vector<std::uint32_t>>(cells_of_skin(cells->mesh));
     for (const FieldReader& field : fields)
         view.fields.push_back(
             {field.name(), [=, &field](std::size_t k, std::size_t begin, std::size_t end, double* out) {
                  const auto put = [&](std::size_t, double value) { *out++ = value; };
                  if (k < 2)
                      return field.each_cell(
-                         begin, end, [&](std::size_t i) { return first_cell + cells->cell(k, i); }, put);
-                 const auto quad_of = [&](std::size_t i) {
-                     const std::size_t quad = cells->skin(k, i);
-                     return quad < ends ? quad : quad + first_wall;
-                 };
-                 field.each_behind_skin(begin, end, *skin_cells, quad_of, put);
+                         begin, end, [&](std::size_t i) { return cells->cell(k, i); }, put);
+                 field.each_behind_skin(
+                     begin, end, *behind, [&](std::size_t i) { return cells->skin(k, i); }, put);
              }});
 }
 
@@ -166,29 +144,6 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const mesh::HexMesh& mesh, const NodeR
     // The interior of a valid mesh lies within the bounding box of its skin.
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) boxes.back().extend(boxes[p]);
     return boxes;
-}
-
-/// Make a mesh of a range of layers with the ghosts of the part. It does not hold its nodes.
-mesh::HexMesh layers_of(const mesh::HexMesh& mesh, const LayerPart& part)
-{
-    mesh::HexMesh own;
-    own.nodes_per_layer = mesh.nodes_per_layer;
-    own.layers = part.with_last - part.with_first;
-    own.quads = mesh.quads;
-    own.rim = mesh.rim;
-    own.patches = mesh.patches;
-    own.source_patch = mesh.source_patch;
-    own.target_patch = mesh.target_patch;
-    const auto at = [&](int layer) {
-        return mesh.wall_patch.begin() + static_cast<std::ptrdiff_t>(index(layer) * mesh.rim.size());
-    };
-    own.wall_patch.assign(at(part.with_first), at(part.with_last));
-    own.volume_groups = mesh.volume_groups;
-    own.middles.full = mesh.middles.full;
-    own.middles.sides = mesh.middles.sides;
-    own.middles.side_of = mesh.middles.side_of;
-    own.middles.rim_side = mesh.middles.rim_side;
-    return own;
 }
 
 /// The nodes of the levels [first, last] with their mid-side nodes. With `below`, level `last` is excluded.
@@ -236,10 +191,10 @@ std::shared_ptr<const MeshView> view_of(const mesh::HexMesh& mesh, const NodeRea
     view->each_point = [&nodes](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
         nodes.each_span(begin, end, take);
     };
-    const auto cells = std::make_shared<const SweptCells>(mesh, Layers{.skin = mesh.layers});
+    const auto cells = std::make_shared<const SweptCells>(mesh);
     add_entities(mesh, *view);
     add_blocks(cells, *view);
-    add_fields(cells, mesh, fields, *view);
+    add_fields(cells, fields, *view);
     view->boxes = [&mesh, &nodes] { return boxes_of(mesh, nodes); };
     return view;
 }
@@ -247,7 +202,7 @@ std::shared_ptr<const MeshView> view_of(const mesh::HexMesh& mesh, const NodeRea
 mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& options)
 {
     const std::vector<LayerPart> layers = layer_parts(mesh.layers, options);
-    const SweptCells cells(mesh, {.skin = mesh.layers});
+    const SweptCells cells(mesh);
     mesh::ViewParts parts;
     parts.parts = static_cast<int>(layers.size());
     parts.has_ghosts = options.ghosts > 0;
@@ -265,6 +220,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
             mesh::add_run(parts.of[k], index(part.last) * cells.in_layer(k), p);
         mesh::add_run(parts.of[2], 2 * cells.quads + cells.rims(part.last), p);
         parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
+        parts.used.push_back(nodes_of_levels(mesh, part.with_first, part.with_last, false));
     }
     // Runs of layers of one part that are ghosts of the same other parts.
     const auto others = [&](Index own, int layer) {
@@ -284,75 +240,6 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
                         {p, of, k, {index(first) * cells.in_layer(k), index(next) * cells.in_layer(k)}});
         }
     return parts;
-}
-
-PieceView piece_of(const mesh::HexMesh& mesh, const LayerPart& part, const NodeReader& nodes,
-                   const std::vector<FieldReader>& fields)
-{
-    struct Piece {
-        mesh::HexMesh mesh;
-        SweptCells cells;
-        Ranges points;
-        Piece(const mesh::HexMesh& all, const LayerPart& of)
-            : mesh(layers_of(all, of)),
-              cells(mesh, {of.with_first, of.first - of.with_first, of.last - of.first, of.first == 0,
-                           of.last == all.layers}),
-              points(nodes_of_levels(all, of.with_first, of.with_last, false))
-        {
-        }
-    };
-    const auto piece = std::make_shared<const Piece>(mesh, part);
-    const std::shared_ptr<const SweptCells> cells(piece, &piece->cells);
-    auto view = std::make_shared<MeshView>();
-    view->points = piece->points.count();
-    view->each_point = [&nodes, piece](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
-        piece->points.each(begin, end,
-                           [&](std::size_t first, std::size_t last) { nodes.each_span(first, last, take); });
-    };
-    Ranges numbers; // numbers of the points, from 1
-    piece->points.each(0, view->points,
-                       [&](std::size_t first, std::size_t last) { numbers.add(first + 1, last + 1); });
-    view->point_tags = mesh::Numbers(std::move(numbers));
-    add_entities(mesh, *view);
-    add_blocks(cells, *view);
-    add_fields(cells, mesh, fields, *view);
-    std::size_t before = 1; // number of the first cell of a kind in the unpartitioned file
-    const SweptCells whole(mesh, {.skin = mesh.layers});
-    for (std::size_t k = 0; k < 4; before += whole.count[k++]) {
-        Ranges tags;
-        if (k < 2) {
-            const std::size_t first = before + index(part.with_first) * cells->in_layer(k);
-            tags.add(first, first + cells->count[k]);
-        } else {
-            const std::size_t each_end = k == 2 ? cells->quads : cells->triangles;
-            if (part.first == 0) tags.add(before, before + each_end);
-            if (part.last == mesh.layers) tags.add(before + each_end, before + 2 * each_end);
-            const std::size_t walls = before + 2 * each_end;
-            if (k == 2) tags.add(walls + whole.rims(part.first), walls + whole.rims(part.last));
-        }
-        view->blocks[k].tags = mesh::Numbers(std::move(tags));
-    }
-    const auto ghost_points = [&mesh, part, piece](std::size_t begin, std::size_t end, std::uint8_t* out) {
-        // A point in several pieces belongs to the piece above its level; on the highest level, to the last
-        // piece.
-        const std::size_t corners = mesh::corner_count(mesh), row = index(mesh.nodes_per_layer);
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t node = piece->points[i];
-            const auto level = static_cast<int>(
-                node < corners ? node / row : (node - corners) / mesh::MiddlePlaces(mesh).side(1, 0));
-            *out++ = level < part.first ||
-                     (level >= part.last && (part.last < mesh.layers || level > part.last));
-        }
-    };
-    const auto ghost_cells = [part, piece](std::size_t k, std::size_t begin, std::size_t end,
-                                           std::uint8_t* out) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const int layer = k < 2 ? static_cast<int>(i / piece->cells.in_layer(k)) + part.with_first
-                                    : part.first;
-            *out++ = layer < part.first || layer >= part.last;
-        }
-    };
-    return {std::move(view), ghost_points, ghost_cells};
 }
 
 } // namespace lacuna::io

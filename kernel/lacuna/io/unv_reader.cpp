@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/unv.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace lacuna::io {
@@ -21,21 +23,27 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// What a descriptor says: corners and order of a face, or a solid; neither: corners 0.
+/// What a descriptor says: the shape, none for beams and the like, and how many nodes are listed for each
+/// that is read; cubic faces give their corners.
 /// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
 /// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
 struct ElementKind {
-    const UnvSolid* solid = nullptr;
-    int corners = 0, order = 1;
+    std::optional<DeckShape> shape;
+    std::size_t step = 1;
+
+    [[nodiscard]] std::size_t nodes() const
+    {
+        return shape ? static_cast<std::size_t>(shape_info(*shape).nodes) : 0;
+    }
 };
 ElementKind kind_of(std::int64_t descriptor)
 {
-    const auto solid = std::ranges::find(kUnvSolids, descriptor, &UnvSolid::descriptor);
-    if (solid != std::end(kUnvSolids)) return {.solid = solid};
-    const std::int64_t family = descriptor / 10;
-    const std::int64_t member = descriptor % 10;
+    using enum DeckShape;
+    if (const auto shape = shape_numbered(&ShapeWords::unv, descriptor)) return {shape};
+    const std::int64_t family = descriptor / 10, member = descriptor % 10;
     if (family < 4 || family > 9 || member < 1 || member > 6) return {};
-    return {nullptr, member <= 3 ? 3 : 4, static_cast<int>((member - 1) % 3) + 1};
+    constexpr DeckShape kFaces[] = {tri3, tri6, tri3, quad4, quad8, quad4};
+    return {kFaces[member - 1], member % 3 == 0 ? std::size_t(3) : 1};
 }
 
 class UnvReader {
@@ -143,11 +151,7 @@ private:
     void split(std::string_view rest)
     {
         numbers_.clear();
-        while (!(rest = trimmed(rest)).empty()) {
-            const std::size_t length = std::min(rest.find_first_of(" \t\r"), rest.size());
-            numbers_.push_back(rest.substr(0, length));
-            rest.remove_prefix(length);
-        }
+        for (auto word = next_word(rest); !word.empty(); word = next_word(rest)) numbers_.push_back(word);
     }
 
     void expect_line(const char* what)
@@ -201,15 +205,12 @@ private:
         if (nodes < 1) cursor_.fail("expected an element with nodes, found " + std::to_string(nodes));
         if (unv_has_orientation(descriptor, dataset)) expect_line("a beam's orientation");
         const ElementKind kind = kind_of(descriptor);
-        std::size_t wanted = 0;
-        if (kind.solid != nullptr)
-            wanted = static_cast<std::size_t>(shape_info(kind.solid->shape).nodes);
-        else if (kind.corners > 0)
-            wanted = static_cast<std::size_t>(kind.corners * kind.order);
+        const std::size_t wanted = kind.nodes() * kind.step;
         if (index(nodes) < wanted)
             cursor_.fail("expected " + std::to_string(wanted) + " nodes of an element " +
                          std::to_string(descriptor) + ", found " + std::to_string(nodes));
         std::array<Index, 20> at{};
+        const auto places = kind.shape ? unv_places(*kind.shape) : std::span<const std::uint8_t>();
         for (Index read = 0; read < nodes;) {
             expect_line("the nodes of an element");
             if (numbers_.size() > index(nodes - read))
@@ -218,7 +219,9 @@ private:
                 const Index node = whole(k);
                 if (index(read) < wanted && node < 0)
                     cursor_.fail("expected the tag of a node, found " + std::to_string(node));
-                if (index(read) < wanted) at[place_of(kind, index(read))] = node;
+                if (index(read) >= wanted || index(read) % kind.step != 0) continue;
+                const std::size_t place = index(read) / kind.step;
+                at[places.empty() ? place : places[place]] = node;
             }
         }
         if (wanted == 0) {
@@ -228,20 +231,8 @@ private:
         if (tag < 0)
             cursor_.fail_at(position, "expected the tag of an element, found " + std::to_string(tag));
         if (index(nodes) > wanted) into_.pass_over_nodes(std::to_string(descriptor), index(nodes) - wanted);
-        DeckShape shape = kind.corners == 3 ? DeckShape::tri3 : DeckShape::quad4;
-        if (kind.solid != nullptr) shape = kind.solid->shape;
-        // Cubic faces give their corners.
-        if (kind.order == 2) shape = kind.corners == 3 ? DeckShape::tri6 : DeckShape::quad8;
-        const auto kept = static_cast<std::size_t>(shape_info(shape).nodes);
-        into_.add_element(into_.block_of(shape, std::to_string(descriptor)), tag, into_.region_of(property),
-                          {at.data(), kept}, position + 1);
-    }
-
-    static std::size_t place_of(const ElementKind& kind, std::size_t read)
-    {
-        if (kind.solid != nullptr) return kind.solid->place[read];
-        return unv_face_place(static_cast<std::size_t>(kind.corners), static_cast<std::size_t>(kind.order),
-                              read);
+        into_.add_element(into_.block_of(*kind.shape, std::to_string(descriptor)), tag,
+                          into_.region_of(property), {at.data(), kind.nodes()}, position + 1);
     }
 
     void read_group(const GroupDataset& dataset)

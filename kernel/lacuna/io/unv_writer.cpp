@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/cursor.h>
+#include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/unv.h>
 
@@ -50,57 +50,43 @@ std::string columns(std::initializer_list<long long> numbers)
 
 void add_nodes(const BulkReader& bulk, DeckFile& file)
 {
-    file.sections.push_back({std::string(kMark) + "  2411\n", bulk.points(), 5 * kNumberBytes + 3 * kReal,
-                             [bulk](std::size_t begin, std::size_t end, char* out) {
-                                 bulk.each_point(begin, end,
-                                                 [&](std::size_t, DeckTag tag, const Vec3& point) {
-                                                     out = put_column(out, tag);
-                                                     out = put_words(out, "         1         1        11\n");
-                                                     for (const double x : point) out = put_double(out, x);
-                                                     *out++ = '\n';
-                                                 });
-                                 return out;
-                             }});
+    const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
+        out = put_column(out, tag);
+        out = put_words(out, "         1         1        11\n");
+        for (const double x : point) out = put_double(out, x);
+        *out++ = '\n';
+        return out;
+    };
+    file.sections.push_back(
+        section_of_points(std::string(kMark) + "  2411\n", bulk, 5 * kNumberBytes + 3 * kReal, put));
     file.sections.push_back({std::string(kMark), 0, 0, {}});
 }
 
 void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, DeckFile& file)
 {
-    const auto solid = std::ranges::find(kUnvSolids, block.shape, &UnvSolid::shape);
-    const bool is_solid = solid != std::end(kUnvSolids);
-    long long descriptor = is_solid ? solid->descriptor : words_of(block.shape).shell;
+    long long descriptor = words_of(block.shape).unv;
     if (descriptor == 0) refuse_element(block, "UNV", "there is no such element");
     if (std::ranges::find(block.nodes, -1) != block.nodes.end())
         refuse_element(block, "UNV", "some have not all their middle nodes");
     if (deck.format == DeckFormat::unv)
         std::from_chars(block.type.data(), block.type.data() + block.type.size(), descriptor);
-    const DeckShapeInfo& info = shape_info(block.shape);
-    const auto nodes = static_cast<std::size_t>(info.nodes);
-    std::array<std::uint8_t, 20> place{};
-    const auto corners = static_cast<std::size_t>(info.corners);
-    for (std::size_t k = 0; k < nodes; ++k)
-        place[k] = is_solid ? solid->place[k]
-                            : static_cast<std::uint8_t>(unv_face_place(corners, nodes / corners, k));
-    file.sections.push_back(
-        {{},
-         bulk.count(block),
-         (nodes + 7) * kNumberBytes + 4,
-         [&deck, bulk, &block, place, nodes, descriptor](std::size_t begin, std::size_t end, char* out) {
-             const auto put = [&](DeckTag tag, Index region, std::span<const Index> element) {
-                 out = put_column(out, tag);
-                 out = put_column(out, descriptor);
-                 out = put_column(out, region < 0 ? 0 : deck.regions[index(region)].tag);
-                 out = put_words(out, "         1         7");
-                 out = put_column(out, static_cast<long long>(nodes));
-                 for (std::size_t k = 0; k < nodes; ++k) {
-                     if (k % kPerLine == 0) *out++ = '\n';
-                     out = put_column(out, bulk.point_tag(element[place[k]]));
-                 }
-                 *out++ = '\n';
-             };
-             for (std::size_t e = begin; e < end; ++e) bulk.element(block, e, put);
-             return out;
-         }});
+    const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+    const auto places = unv_places(block.shape);
+    const auto put = [=, &deck](std::size_t, DeckTag tag, Index region, std::span<const Index> element,
+                                char* out) {
+        out = put_column(out, tag);
+        out = put_column(out, descriptor);
+        out = put_column(out, region < 0 ? 0 : deck.regions[index(region)].tag);
+        out = put_words(out, "         1         7");
+        out = put_column(out, static_cast<long long>(nodes));
+        for (std::size_t k = 0; k < nodes; ++k) {
+            if (k % kPerLine == 0) *out++ = '\n';
+            out = put_column(out, bulk.point_tag(element[places.empty() ? k : places[k]]));
+        }
+        *out++ = '\n';
+        return out;
+    };
+    file.sections.push_back(section_of_elements(bulk, block, (nodes + 7) * kNumberBytes + 4, put));
 }
 
 /// Members of one kind, two to a line.
@@ -119,45 +105,28 @@ void add_members(const DeckSet& set, const BulkReader& bulk, std::string head, D
                              }});
 }
 
-/// Numbers of nodes and elements that a column has no room for would run into the one before.
-void check_numbers(const Deck& deck)
-{
-    constexpr DeckTag kMost = 9'999'999'999; // in ten characters
-    const auto too_high = [](const std::vector<DeckTag>& tags) {
-        return std::ranges::any_of(tags, [](DeckTag tag) { return tag > kMost; });
-    };
-    if (too_high(deck.point_tags) ||
-        std::ranges::any_of(deck.blocks, [&](const DeckBlock& block) { return too_high(block.tags); }))
-        throw InvalidInput("io.number_taken", deck.path + " has numbers above " + std::to_string(kMost) +
-                                                  ", more than a universal file holds; write another format");
-}
-
 } // namespace
 
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
 {
     const BulkReader bulk(deck, layered);
-    check_numbers(deck);
+    constexpr DeckTag kMost = 9'999'999'999; // in ten characters: others would run into the number before
+    check_numbers(deck, kMost, "a universal file", "write another format");
     const bool same = deck.format == DeckFormat::unv;
     DeckFile file;
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});
     add_nodes(bulk, file);
     file.sections.push_back({std::string(kMark) + "  2412\n", 0, 0, {}});
-    std::size_t surfaces = 0;
     for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, file);
     file.sections.push_back({std::string(kMark), 0, 0, {}});
     if (same) file.sections.push_back({text_at(deck, DeckText::Place::tail), 0, 0, {}});
     std::string head = std::string(kMark) + "  2467\n";
     bool groups = false;
-    int number = 0;
-    for (const DeckSet& set : deck.sets) number = std::max(number, set.tag);
+    int number = highest_tag(deck.sets);
     std::vector<std::string> names;
     for (std::size_t s = 0; s < deck.sets.size(); ++s) {
         const DeckSet& set = deck.sets[s];
-        if (set.kind == DeckSet::Kind::sides || bulk.count(set) == 0) {
-            surfaces += set.kind == DeckSet::Kind::sides ? 1 : 0;
-            continue;
-        }
+        if (set.kind == DeckSet::Kind::sides || bulk.count(set) == 0) continue;
         // Elements and nodes of one group were read as two sets.
         const bool two = s + 1 < deck.sets.size() && set.tag > 0 && deck.sets[s + 1].tag == set.tag &&
                          deck.sets[s + 1].name == set.name && deck.sets[s + 1].kind == DeckSet::Kind::nodes;
@@ -175,8 +144,6 @@ DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
         head.clear();
     }
     if (groups) file.sections.push_back({std::string(kMark), 0, 0, {}});
-    if (surfaces > 0)
-        file.notes.push_back(std::to_string(surfaces) + " sets of sides are not written: a UNV has none");
     return file;
 }
 

@@ -2,7 +2,8 @@
 #include <lacuna/io/detail/vtk_writer.h>
 
 #include <lacuna/core/shared/team.h>
-#include <lacuna/io/detail/vtk_cells.h>
+#include <lacuna/io/detail/cell_shapes.h>
+#include <lacuna/io/detail/view_piece.h>
 
 #include <algorithm>
 #include <array>
@@ -302,7 +303,7 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
              });
     of_cells(Place::cells, "type=\"UInt8\" Name=\"types\"", 1,
              [view](std::size_t b, std::size_t begin, std::size_t end, char* out) {
-                 return std::fill_n(out, end - begin, static_cast<char>(vtk_type_of(view->blocks[b].shape)));
+                 return std::fill_n(out, end - begin, static_cast<char>(words_of(view->blocks[b].shape).vtk));
              });
     of_cells(Place::cell_data, "type=\"Int32\" Name=\"entity\"", 4, by_entity(view, entity_number, put_one));
     if (view->is_deck)
@@ -314,16 +315,19 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
     if (numbered && !view->is_deck) number_points();
     if (numbered) of_cells(Place::cell_data, "type=\"Int64\" Name=\"cell_number\"", 8, by_tag(view, put_one));
     if (ghosts == nullptr) return arrays;
-    const auto bytes_at = [](char* out) { return reinterpret_cast<std::uint8_t*>(out); };
+    const auto mark = [](const mesh::Runs& runs, std::size_t begin, std::size_t end, char* out) {
+        mesh::each_run(runs, begin, end, [&](std::size_t first, std::size_t last, Index ghost) {
+            out = std::fill_n(out, last - first, static_cast<char>(ghost));
+        });
+        return out;
+    };
     of_points(Place::point_data, "type=\"UInt8\" Name=\"vtkGhostType\"", 1,
               [=, of = ghosts->ghost_points](std::size_t begin, std::size_t end, char* out) {
-                  of(begin, end, bytes_at(out));
-                  return out + (end - begin);
+                  return mark(of, begin, end, out);
               });
     of_cells(Place::cell_data, "type=\"UInt8\" Name=\"vtkGhostType\"", 1,
              [=, of = ghosts->ghost_cells](std::size_t b, std::size_t begin, std::size_t end, char* out) {
-                 of(b, begin, end, bytes_at(out));
-                 return out + (end - begin);
+                 return mark(of[b], begin, end, out);
              });
     return arrays;
 }
@@ -335,10 +339,7 @@ template <class Value>
 char* put_number(char* out, Value value, bool binary)
 {
     if (binary) return put_big(out, value);
-    if constexpr (std::is_integral_v<Value>)
-        out = put_text(out, static_cast<long long>(value));
-    else
-        out = put_text(out, value);
+    out = put_text(out, value);
     *out++ = ' ';
     return out;
 }
@@ -427,7 +428,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary)
             }));
     of_cells("\nCELL_TYPES " + count + "\n", 4,
              [view, put_line](std::size_t b, std::size_t begin, std::size_t end, char* out) {
-                 const std::int32_t type = vtk_type_of(view->blocks[b].shape);
+                 const std::int32_t type = words_of(view->blocks[b].shape).vtk;
                  for (; begin < end; ++begin) out = put_line(out, type);
                  return out;
              });
@@ -448,7 +449,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary)
 void refuse_unknown(const MeshView& view)
 {
     for (const MeshView::Block& block : view.blocks)
-        if (vtk_type_of(block.shape) == 0)
+        if (words_of(block.shape).vtk == 0)
             refuse_element(block.count, block.type, block.shape, "VTK", "there is no such cell");
 }
 
@@ -467,22 +468,23 @@ DeckFile vtk_file(const View& view, bool binary)
         .sections = vtk_sections(view, binary), .notes = {}, .sizes = binary ? Sizes::exact : Sizes::varying};
 }
 
-void write_pieces(std::size_t count, const std::function<PieceView(std::size_t)>& piece, int ghosts,
-                  const OutputPath& path, const RunContext& context, const Team* team)
+void write_pieces(const View& view, const mesh::ViewParts& parts, int ghosts, const OutputPath& path,
+                  const RunContext& context, const Team* team)
 {
     const auto arrays = [ghosts](const PieceView& of) {
         return arrays_of(of.view, ghosts > 0 ? &of : nullptr);
     };
     std::vector<FileOfSet> files;
     std::vector<std::string> names;
-    for (std::size_t p = 0; p < count; ++p) {
-        names.push_back(piece_name(path.text(), p));
+    for (Index p = 0; p < parts.parts; ++p) {
+        names.push_back(piece_name(path.text(), index(p)));
         files.push_back({path.beside(names.back()), [&, p] {
-                             const PieceView own = piece(p);
+                             const PieceView own = piece_of(view, parts, p);
                              return xml_sections(*own.view, arrays(own));
                          }});
     }
-    write_files(files, path, pvtu_head(arrays(piece(0)), ghosts) + pvtu_end(names), context, team);
+    const std::string head = pvtu_head(arrays(piece_of(view, parts, 0)), ghosts);
+    write_files(files, path, head + pvtu_end(names), context, team);
 }
 
 } // namespace lacuna::io

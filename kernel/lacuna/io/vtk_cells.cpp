@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 namespace lacuna::io {
 namespace {
 
-template <class Value, class To>
-To one(const char* bytes, bool big)
+template <class Value>
+double real(const char* bytes, bool big)
 {
-    return static_cast<To>(from_bytes<Value>(bytes, big));
+    return static_cast<double>(from_bytes<Value>(bytes, big));
 }
 
 template <class Value, class To>
@@ -28,11 +29,8 @@ void convert(const char* bytes, bool big, std::size_t count, To* out)
 template <class Value>
 constexpr VtkType type_of(std::string_view legacy, std::string_view xml)
 {
-    VtkType type{legacy, xml, sizeof(Value), one<Value, double>, nullptr, convert<Value, double>, nullptr};
-    if constexpr (std::is_integral_v<Value>) {
-        type.whole = one<Value, std::int64_t>;
-        type.wholes = convert<Value, std::int64_t>;
-    }
+    VtkType type{legacy, xml, sizeof(Value), real<Value>, convert<Value, double>, nullptr};
+    if constexpr (std::is_integral_v<Value>) type.wholes = convert<Value, std::int64_t>;
     return type;
 }
 
@@ -55,56 +53,47 @@ struct CellType {
     DeckShape shape = DeckShape::tri3;
 };
 using enum DeckShape;
-constexpr CellType kCellTypes[] = {{0, Kind::other, 0},
-                                   {1, Kind::other, 1},
-                                   {2, Kind::other, 1},
-                                   {3, Kind::shape, 2, line2},
-                                   {4, Kind::other, 2},
-                                   {5, Kind::shape, 3, tri3},
-                                   {6, Kind::strip, 3},
-                                   {7, Kind::polygon, 3},
-                                   {8, Kind::pixel, 4, quad4},
-                                   {9, Kind::shape, 4, quad4},
-                                   {10, Kind::shape, 4, tet4},
-                                   {11, Kind::voxel, 8, hex8},
-                                   {12, Kind::shape, 8, hex8},
-                                   {13, Kind::shape, 6, wedge6},
-                                   {14, Kind::shape, 5, pyramid5},
-                                   {15, Kind::other, 10},
-                                   {16, Kind::other, 12},
-                                   {21, Kind::shape, 3, line3},
-                                   {22, Kind::shape, 6, tri6},
-                                   {23, Kind::shape, 8, quad8},
-                                   {24, Kind::shape, 10, tet10},
-                                   {25, Kind::shape, 20, hex20},
-                                   {26, Kind::shape, 15, wedge15},
-                                   {27, Kind::shape, 13, pyramid13},
-                                   {28, Kind::shape, 9, quad9},
-                                   {29, Kind::shape, 27, hex27},
-                                   {30, Kind::shape, 6, quad4}, // linear across, quadratic along
-                                   {31, Kind::shape, 12, wedge6},
-                                   {32, Kind::shape, 18, wedge18},
-                                   {33, Kind::shape, 24, hex8},
-                                   {34, Kind::shape, 7, tri6},
-                                   {35, Kind::other, 4},
-                                   {37, Kind::shape, 19, pyramid14},
-                                   {41, Kind::other, 4},
-                                   {42, Kind::other, 4},
-                                   {68, Kind::other, 2},
-                                   // Of any order: Lagrange, then Bézier.
-                                   {69, Kind::shape, 3, tri3},
-                                   {70, Kind::shape, 4, quad4},
-                                   {71, Kind::shape, 4, tet4},
-                                   {72, Kind::shape, 8, hex8},
-                                   {73, Kind::shape, 6, wedge6},
-                                   {74, Kind::shape, 5, pyramid5},
-                                   {75, Kind::other, 2},
-                                   {76, Kind::shape, 3, tri3},
-                                   {77, Kind::shape, 4, quad4},
-                                   {78, Kind::shape, 4, tet4},
-                                   {79, Kind::shape, 8, hex8},
-                                   {80, Kind::shape, 6, wedge6},
-                                   {81, Kind::shape, 5, pyramid5}};
+constexpr CellType kFurtherTypes[] = {
+    {0, Kind::other, 0},
+    {1, Kind::other, 1},
+    {2, Kind::other, 1},
+    {4, Kind::other, 2},
+    {6, Kind::strip, 3},
+    {7, Kind::polygon, 3},
+    {8, Kind::pixel, 4, quad4},
+    {11, Kind::voxel, 8, hex8},
+    {15, Kind::other, 10},
+    {16, Kind::other, 12},
+    {30, Kind::shape, 6, quad4}, // linear across, quadratic along
+    {31, Kind::shape, 12, wedge6},
+    {33, Kind::shape, 24, hex8},
+    {34, Kind::shape, 7, tri6},
+    {35, Kind::other, 4},
+    {37, Kind::shape, 19, pyramid14},
+    {41, Kind::other, 4},
+    {42, Kind::other, 4},
+    // Lagrange cells, of any order
+    {68, Kind::other, 2},
+    {69, Kind::shape, 3, tri3},
+    {70, Kind::shape, 4, quad4},
+    {71, Kind::shape, 4, tet4},
+    {72, Kind::shape, 8, hex8},
+    {73, Kind::shape, 6, wedge6},
+    {74, Kind::shape, 5, pyramid5},
+};
+
+std::optional<CellType> find_type(std::int64_t number)
+{
+    if (const auto shape = shape_numbered(&ShapeWords::vtk, number))
+        return CellType{number, Kind::shape, shape_info(*shape).nodes, *shape};
+    // Bézier cells are numbered as Lagrange's, seven more each.
+    const auto known = std::ranges::find(kFurtherTypes, number >= 75 && number <= 81 ? number - 7 : number,
+                                         &CellType::number);
+    if (known == std::end(kFurtherTypes)) return {};
+    CellType type = *known;
+    type.number = number;
+    return type;
+}
 
 } // namespace
 
@@ -131,14 +120,6 @@ std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big
         }
     }
     return 0;
-}
-
-int vtk_type_of(DeckShape shape)
-{
-    for (const CellType& type : kCellTypes)
-        if (type.kind == Kind::shape && type.shape == shape && type.points == shape_info(shape).nodes)
-            return static_cast<int>(type.number);
-    return 0; // of lines, which are not written
 }
 
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor)
@@ -171,9 +152,8 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
     for (std::size_t c = 0, next = 0; c < cells.ends.size(); c = next) {
         CellType type{0, cells.strips ? Kind::strip : Kind::polygon, 3};
         if (!cells.types.empty()) {
-            const auto known = std::ranges::find(kCellTypes, cells.types[c], &CellType::number);
-            if (known == std::end(kCellTypes))
-                fail(c, "the cell type " + std::to_string(cells.types[c]) + " is not known");
+            const std::optional<CellType> known = find_type(cells.types[c]);
+            if (!known) fail(c, "the cell type " + std::to_string(cells.types[c]) + " is not known");
             type = *known;
         }
         // Cells of one type at a time; lists of corners one by one.

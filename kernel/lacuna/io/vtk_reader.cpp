@@ -76,8 +76,7 @@ private:
     {
         if (!into_.points().empty()) cursor_.fail("a second section POINTS");
         const std::uint64_t count = cursor_.size();
-        if (count > static_cast<std::uint64_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many points");
+        if (!is_index(count)) cursor_.fail("too many points");
         const VtkType& type = needed_type(cursor_.word("a type of numbers"));
         std::vector<Vec3>& points = into_.points();
         if (binary_) {
@@ -242,14 +241,13 @@ private:
             take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
     }
 
+    /// Of a file of text.
     template <class Take>
     void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
     {
-        if (type.whole == nullptr)
+        if (type.wholes == nullptr)
             cursor_.fail("expected whole numbers, found type " + std::string(type.legacy));
-        const std::string_view bytes = binary_ ? array_bytes(type, count) : std::string_view();
-        for (std::uint64_t i = 0; i < count; ++i)
-            take(binary_ ? type.whole(bytes.data() + i * type.bytes, true) : cursor_.text_integer());
+        for (std::uint64_t i = 0; i < count; ++i) take(cursor_.text_integer());
     }
 
     Cursor& cursor_;

@@ -223,8 +223,7 @@ private:
     {
         VtkCells cells;
         std::vector<Vec3>& points = into_.points();
-        if (points.size() + piece.points > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-            cursor_.fail("too many points");
+        if (!is_index(points.size() + piece.points)) cursor_.fail("too many points");
         cells.first_point = static_cast<Index>(points.size());
         read_points(piece);
         cells.last_point = static_cast<Index>(points.size());
@@ -267,18 +266,24 @@ private:
         return static_cast<std::int64_t>(value);
     }
 
+    /// As `each_run()`; arrays of floating-point numbers are taken one by one.
+    template <class Take, class Run>
+    void each_whole(const Array& array, const char* name, std::uint64_t count, const Take& take,
+                    const Run& run)
+    {
+        each_run(array, name, count, take, [&](const char* bytes, std::size_t here) {
+            if (array.type->wholes != nullptr) return run(bytes, here);
+            for (std::size_t i = 0; i < here; ++i)
+                take(array.type->real(bytes + i * array.type->bytes, big_));
+        });
+    }
+
     std::vector<std::int64_t> wholes(const Array& array, const char* name, std::uint64_t count)
     {
         std::vector<std::int64_t> values;
-        each_run(
+        each_whole(
             array, name, count, [&](double value) { values.push_back(whole_of(value, array, name)); },
             [&](const char* bytes, std::size_t here) {
-                if (array.type->wholes == nullptr) {
-                    for (std::size_t i = 0; i < here; ++i)
-                        values.push_back(
-                            whole_of(array.type->real(bytes + i * array.type->bytes, big_), array, name));
-                    return;
-                }
                 values.resize(values.size() + here);
                 array.type->wholes(bytes, big_, here, values.data() + values.size() - here);
             });
@@ -296,13 +301,10 @@ private:
             places.push_back(static_cast<Index>(number));
             if (places.back() != number) refuse(number);
         };
-        each_run(array, kName, count, take, [&](const char* bytes, std::size_t here) {
+        each_whole(array, kName, count, take, [&](const char* bytes, std::size_t here) {
             const std::string_view run(bytes, here * array.type->bytes);
-            if (array.type->wholes == nullptr)
-                for (std::size_t i = 0; i < here; ++i)
-                    take(array.type->real(bytes + i * array.type->bytes, big_));
-            else if (const std::int64_t wrong = append_places(*array.type, run, big_, places); wrong != 0)
-                refuse(wrong);
+            const std::int64_t wrong = append_places(*array.type, run, big_, places);
+            if (wrong != 0) refuse(wrong);
         });
     }
 
@@ -336,11 +338,19 @@ private:
         if (bytes.size() < needed)
             fail("the file is cut off: expected " + std::to_string(needed) + " bytes, found " +
                  std::to_string(bytes.size()));
-        const auto announced = static_cast<std::uint64_t>(header_->whole(bytes.data(), big_));
+        const std::uint64_t announced = header_number(bytes.data());
         if (announced != count * array.type->bytes)
             fail("expected " + std::to_string(count * array.type->bytes) + " bytes, found " +
                  std::to_string(announced));
         run(bytes.data() + header_->bytes, count);
+    }
+
+    /// A number of the type that the head names.
+    [[nodiscard]] std::uint64_t header_number(const char* bytes) const
+    {
+        std::int64_t number = 0;
+        header_->wholes(bytes, big_, 1, &number);
+        return static_cast<std::uint64_t>(number);
     }
 
     /// Blocks, each compressed by itself, behind a list of their lengths.
@@ -357,7 +367,7 @@ private:
         };
         const auto whole = [&](const std::string& bytes, std::uint64_t k) {
             if (bytes.size() < (k + 1) * width) fail("the file is cut off in a list of compressed blocks");
-            return static_cast<std::uint64_t>(header_->whole(bytes.data() + k * width, big_));
+            return header_number(bytes.data() + k * width);
         };
         const std::string head = decoded(3 * width);
         const std::uint64_t blocks = whole(head, 0);

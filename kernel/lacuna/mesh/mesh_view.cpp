@@ -17,6 +17,19 @@ std::size_t Ranges::range_at(std::size_t i) const
     return static_cast<std::size_t>(next - ranges_.begin()) - 1;
 }
 
+std::size_t Ranges::range_with(std::size_t value) const
+{
+    const auto next = std::ranges::upper_bound(ranges_, value, {}, &Range::first);
+    return static_cast<std::size_t>(next - ranges_.begin()) - 1;
+}
+
+bool Ranges::contains(std::size_t value) const
+{
+    const std::size_t r = range_with(value);
+    const std::size_t end = r + 1 < ranges_.size() ? ranges_[r + 1].before : count_;
+    return r < ranges_.size() && value - ranges_[r].first < end - ranges_[r].before;
+}
+
 std::pair<std::int64_t, std::int64_t> Numbers::bounds(std::size_t count) const
 {
     std::pair<std::int64_t, std::int64_t> all{(*this)[0], (*this)[0]};

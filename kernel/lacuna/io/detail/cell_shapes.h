@@ -4,38 +4,48 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/mesh/hex_mesh.h>
 
-/// What cells of a swept mesh are. Internal to this folder.
+#include <cstdint>
+#include <optional>
+
+/// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
 
-/// Words of Abaqus, Nastran and Exodus for a shape that came from elsewhere, and the UNV descriptor of a thin
-/// shell; empty and 0 where there is none.
+/// A shape in the formats: words of Abaqus, Nastran and Exodus for one that came from elsewhere, the numbers
+/// of UNV (of a face: a thin shell), Gmsh and VTK; empty and 0 where there is none.
 struct ShapeWords {
     const char *abaqus, *nastran, *exodus;
-    int shell;
+    int unv, gmsh, vtk;
 };
 inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
     // lines, triangles, quads
-    {"", "", "", 0},
-    {"", "", "", 0},
-    {"S3", "CTRIA3", "TRI3", 91},
-    {"STRI65", "CTRIA6", "TRI6", 92},
-    {"S4", "CQUAD4", "SHELL4", 94},
-    {"S8R", "CQUAD8", "SHELL8", 95},
-    {"S9R5", "CQUAD", "SHELL9", 0},
+    {"", "", "", 0, 1, 3},
+    {"", "", "", 0, 8, 21},
+    {"S3", "CTRIA3", "TRI3", 91, 2, 5},
+    {"STRI65", "CTRIA6", "TRI6", 92, 9, 22},
+    {"S4", "CQUAD4", "SHELL4", 94, 3, 9},
+    {"S8R", "CQUAD8", "SHELL8", 95, 16, 23},
+    {"S9R5", "CQUAD", "SHELL9", 0, 10, 28},
     // tetrahedra, pyramids, wedges, hexahedra
-    {"C3D4", "CTETRA", "TETRA", 0},
-    {"C3D10", "CTETRA", "TETRA10", 0},
-    {"C3D5", "CPYRAM", "PYRAMID", 0},
-    {"", "CPYRAM", "PYRAMID13", 0},
-    {"", "", "", 0},
-    {"C3D6", "CPENTA", "WEDGE", 0},
-    {"C3D15", "CPENTA", "WEDGE15", 0},
-    {"", "", "", 0},
-    {"C3D8", "CHEXA", "HEX8", 0},
-    {"C3D20", "CHEXA", "HEX20", 0},
-    {"", "", "HEX27", 0},
+    {"C3D4", "CTETRA", "TETRA", 111, 4, 10},
+    {"C3D10", "CTETRA", "TETRA10", 118, 11, 24},
+    {"C3D5", "CPYRAM", "PYRAMID", 0, 7, 14},
+    {"", "CPYRAM", "PYRAMID13", 0, 19, 27},
+    {"", "", "", 0, 14, 0},
+    {"C3D6", "CPENTA", "WEDGE", 112, 6, 13},
+    {"C3D15", "CPENTA", "WEDGE15", 113, 18, 26},
+    {"", "", "", 0, 13, 32},
+    {"C3D8", "CHEXA", "HEX8", 115, 5, 12},
+    {"C3D20", "CHEXA", "HEX20", 116, 17, 25},
+    {"", "", "HEX27", 0, 12, 29},
 };
 inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_cast<std::size_t>(shape)]; }
+/// The shape that a format gives a number above 0; none: no shape has it.
+inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int64_t number)
+{
+    for (std::size_t s = 0; s < kDeckShapes; ++s)
+        if (number > 0 && kShapeWords[s].*format == number) return static_cast<DeckShape>(s);
+    return {};
+}
 
 /// What the hexahedra of a swept mesh are, by its order and nodes.
 inline DeckShape cell_shape(const mesh::HexMesh& mesh)

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,17 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 std::string_view trimmed(std::string_view text);
 /// Whether two words are the same but for capitals.
 bool same_word(std::string_view a, std::string_view b);
+/// The text in capitals.
+std::string upper(std::string_view text);
+/// Take the next word off a text; empty at its end.
+std::string_view next_word(std::string_view& text, std::string_view separators = " \t\r\n");
+/// Take the next field off a line, which ends at a comma; without blanks on either side.
+std::string_view next_field(std::string_view& line);
+/// Whether so many things can be numbered.
+constexpr bool is_index(std::uint64_t count)
+{
+    return count <= static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
+}
 /// Text from a file as a message may show it: in quotes, 40 characters at most, what is not printable as '?'.
 std::string shown(std::string_view text);
 

@@ -17,6 +17,7 @@ public:
     /// `twice(a, b)` is told of places with the same tag, of which the first counts.
     template <class Twice>
     TagPlaces(std::span<const DeckTag> tags, const Twice& twice);
+    explicit TagPlaces(std::span<const DeckTag> tags) : TagPlaces(tags, [](Index, Index) {}) {}
     /// -1 where there is none.
     [[nodiscard]] Index find(DeckTag tag) const
     {
@@ -45,6 +46,36 @@ inline void tidy(DeckSet& set)
     tidy(set.sides);
 }
 
+/// The highest of the tags of regions or sets, and of one more.
+template <class Entity>
+int highest_tag(const std::vector<Entity>& entities, int tag = 0)
+{
+    for (const Entity& entity : entities) tag = std::max(tag, entity.tag);
+    return tag;
+}
+/// Call `visit(block, e, i)` for all elements, counted by `i`.
+template <class Visit>
+void each_element(const Deck& deck, const Visit& visit)
+{
+    std::size_t i = 0;
+    for (const DeckBlock& block : deck.blocks)
+        for (std::size_t e = 0; e < block.count(); ++e) visit(block, e, i++);
+}
+/// Which regions have elements.
+std::vector<char> used_regions(const Deck& deck);
+/// The tags of all elements, block after block.
+std::vector<DeckTag> element_tags(const Deck& deck);
+/// The block of a shape and word, new where it is the first time.
+std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type);
+/// Put an element behind those of another block; without what its card holds behind its nodes.
+void copy_element(const DeckBlock& from, std::size_t e, DeckBlock& to);
+/// Put the elements of a block behind those of another, likewise.
+/// @param first_point   added to the places of points that they name; `first_region` to those of regions.
+/// @param raise  added to their tags.
+void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to);
+/// Add to the numbers of nodes and elements that a set has.
+void raise_numbers(DeckSet& set, DeckTag nodes, DeckTag elements);
+
 /// Gathers what a reader finds.
 class DeckBuilder {
 public:
@@ -61,7 +92,7 @@ public:
     /// file which.
     Index region_of(int tag, std::string_view name = {}, int group = 0);
 
-    /// The block of a shape and word, new where it is the first time.
+    /// As `io::block_of()`.
     std::size_t block_of(DeckShape shape, std::string_view type);
     /// Add an element. @param nodes  places of points or, with `resolve()`, tags, in the order of DeckShape;
     /// -1: left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <lacuna/io/detail/deck_writer.h>
-#include <lacuna/io/detail/swept_view.h>
+#include <lacuna/io/partition.h>
 #include <lacuna/mesh/shared/mesh_view.h>
 
 #include <map>
@@ -34,9 +34,5 @@ private:
 std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const BulkReader& bulk);
 
 mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition);
-
-/// View one part, with ghosts in their original order among its own cells, without fields. O(points).
-PieceView piece_of(const std::shared_ptr<const mesh::MeshView>& whole, const mesh::ViewParts& parts,
-                   Index part);
 
 } // namespace lacuna::io

@@ -191,6 +191,33 @@ private:
     const LayeredBulk* layered_;
 };
 
+/// Text and all points, each put by `put(place, tag, point, out)` in at most so many bytes.
+template <class Put>
+Section section_of_points(std::string text, const BulkReader& bulk, std::size_t bytes, Put put)
+{
+    return {std::move(text), bulk.points(), bytes,
+            [bulk, put](std::size_t begin, std::size_t end, char* out) {
+                Put own = put; // it may have a state
+                bulk.each_point(begin, end, [&](std::size_t place, DeckTag tag, const Vec3& point) {
+                    out = own(place, tag, point, out);
+                });
+                return out;
+            }};
+}
+/// The same of the elements of a block. @param put  `put(place in the block, tag, region, nodes, out)`
+template <class Put>
+Section section_of_elements(const BulkReader& bulk, const DeckBlock& block, std::size_t bytes, Put put)
+{
+    return {{}, bulk.count(block), bytes, [bulk, &block, put](std::size_t e, std::size_t end, char* out) {
+                Put own = put;
+                for (; e < end; ++e)
+                    bulk.element(block, e, [&](DeckTag tag, Index region, std::span<const Index> nodes) {
+                        out = own(e, tag, region, nodes, out);
+                    });
+                return out;
+            }};
+}
+
 /// A file to be: sections refer to the deck.
 struct DeckFile {
     std::vector<Section> sections;
@@ -252,6 +279,8 @@ char* put_real(char* out, double value, std::size_t width, RealForm form = RealF
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
+/// See that a format has room for all numbers of nodes and elements. @throw InvalidInput "io.number_taken"
+void check_numbers(const Deck& deck, DeckTag most, const std::string& format, const std::string& remedy);
 /// An element that a format does not have. @throw InvalidInput always
 [[noreturn]] void refuse_element(std::size_t count, std::string_view type, DeckShape shape,
                                  std::string_view format, std::string_view why);

@@ -13,7 +13,8 @@
 namespace lacuna::io {
 
 /// Where Exodus has the nodes of a shape, in the order of DeckShape; empty: in the same places. Middles of
-/// upright sides come before those above, the middle of a hexahedron before those of its faces.
+/// upright sides come before those above, the middle of a hexahedron before those of its faces. Nastran has
+/// its shapes alike.
 std::span<const std::uint8_t> exodus_places(DeckShape shape);
 
 /// Exodus's number of a side, from Abaqus's: that has the faces below and above first, Exodus has them last;

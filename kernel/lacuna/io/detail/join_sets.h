@@ -5,6 +5,8 @@
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,12 +25,30 @@ struct NewCells {
     std::vector<DeckTag> skin{};   ///< of each quad of the skin as an element; empty: they are none
 };
 
+/// Nodes rising: sides and faces are known by them.
+template <std::size_t N>
+std::array<Index, N> rising(std::array<Index, N> nodes)
+{
+    std::ranges::sort(nodes);
+    return nodes;
+}
+template <std::size_t N>
+struct CornerHash {
+    std::size_t operator()(const std::array<Index, N>& nodes) const
+    {
+        std::uint64_t all = 0;
+        for (const Index node : nodes)
+            all = (all ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(node))) *
+                  0x9e3779b97f4a7c15ULL;
+        return static_cast<std::size_t>(all ^ (all >> 32));
+    }
+};
+
 /// Nodes of a face of a solid, of its place in `face_corners()`, and of a shell: rising.
 inline Quad face_key(const DeckBlock& block, std::size_t e, Quad face)
 {
     for (Index& k : face) k = k < 0 ? -1 : block.element(e)[index(k)];
-    std::sort(face.begin(), face.end());
-    return face;
+    return rising(face);
 }
 inline Quad shell_key(const DeckBlock& block, std::size_t e)
 {

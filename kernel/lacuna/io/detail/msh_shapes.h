@@ -11,8 +11,6 @@ namespace lacuna::io {
 
 /// What a physical group without a name is called.
 std::string unnamed_group(int tag);
-/// Gmsh's number of a shape.
-int gmsh_type(DeckShape shape);
 /// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.
 std::span<const std::uint8_t> gmsh_places(DeckShape shape);
 

@@ -33,9 +33,6 @@ struct Card {
     [[noreturn]] void fail(const std::string& what) const { place.fail(name + ": " + what); }
 };
 
-/// Where node k of a card stands in the order of DeckShape: middles of upright sides come before those above.
-std::size_t nastran_place(DeckShape shape, std::size_t k);
-
 /// What becomes of a card: its fields are read, its lines go into the text that is kept, or both.
 enum class CardUse { read, keep, both };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstring>
 #include <functional>
@@ -87,6 +88,11 @@ char* put_big(char* out, Value value)
 /// A number as text, the shortest that reads back to the same bits; the same in every locale.
 char* put_text(char* out, double value);
 char* put_text(char* out, long long value);
+template <std::integral Whole>
+char* put_text(char* out, Whole value)
+{
+    return put_text(out, static_cast<long long>(value));
+}
 std::string text_of(double value);
 
 /// No number is longer as text, a separator included.

@@ -20,6 +20,12 @@ inline std::string listed(const std::vector<std::string>& names)
     return short_list(names, std::identity(), kMost);
 }
 
+/// Add a name that is not empty to others, unless it is there.
+inline void add_once(std::vector<std::string>& names, const std::string& name)
+{
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
 /// Call `take(line)` for every line of a text, without its end.
 template <class Take>
 void each_line(std::string_view text, const Take& take)

@@ -11,17 +11,15 @@ struct VtkType {
     std::string_view legacy, xml;
     std::size_t bytes;
     double (*real)(const char* bytes, bool big);
-    std::int64_t (*whole)(const char* bytes, bool big); ///< null for floating-point numbers
     /// Many of them, one after the other.
     void (*reals)(const char* bytes, bool big, std::size_t count, double* out);
-    void (*wholes)(const char* bytes, bool big, std::size_t count, std::int64_t* out); ///< null likewise
+    void (*wholes)(const char* bytes, bool big, std::size_t count,
+                   std::int64_t* out); ///< null for floating-point numbers
 };
 /// Append whole numbers as places. @return  the first that is no `Index` and ends it; 0: all are.
 std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places);
 /// Null where the name is unknown.
 const VtkType* vtk_type(std::string_view name);
-/// VTK's number of a shape.
-int vtk_type_of(DeckShape shape);
 
 /// Cells over one list of points.
 struct VtkCells {

@@ -45,12 +45,23 @@ public:
         }
     }
 
+    /// The list position of a value. @pre the values ascend, and it is one of them
+    [[nodiscard]] std::size_t position(std::size_t value) const
+    {
+        const Range& range = ranges_[range_with(value)];
+        return range.before + (value - range.first);
+    }
+    /// @pre the values ascend
+    [[nodiscard]] bool contains(std::size_t value) const;
+
 private:
     struct Range {
         std::size_t first;  ///< first value of the range
         std::size_t before; ///< number of list entries before the range
     };
     [[nodiscard]] std::size_t range_at(std::size_t i) const;
+    /// The last range that begins at a value or below it; -1: none does.
+    [[nodiscard]] std::size_t range_with(std::size_t value) const;
 
     std::vector<Range> ranges_;
     std::size_t count_ = 0;
@@ -208,6 +219,7 @@ struct ViewParts {
     int parts = 1;
     std::vector<Runs> of;                         ///< for each block: part of its cells, from 0
     std::vector<std::pair<Index, Ranges>> points; ///< part, and indices of the points that it owns
+    std::vector<Ranges> used; ///< for each part: points of its cells and ghosts, ascending
     /// Cells of one block that are ghosts of the same parts.
     struct Ghosts {
         Index part = 0;      ///< part that owns the cells
