@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <Eigen/Geometry>
 
@@ -427,20 +428,14 @@ void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, con
                   std::vector<LoopSections>& loops)
 {
     const Model& model = volume.model;
-    std::set<EdgeId> edges;
-    for (const FaceId face : part) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
+    const std::set<EdgeId> edges = edges_of(model, part);
     for (const Rim& rim : rims(model, volume.faces(Role::source))) {
         if (std::ranges::none_of(rim.uses, [&](const EdgeUse& use) { return edges.contains(use.edge); }))
             continue;
         std::vector<Index> points;
         for (const EdgeUse& use : rim.uses)
             points.insert(points.end(), model[use.edge].points.begin(), model[use.edge].points.end());
-        std::vector<Vec3> places;
-        for (const Index p : points) places.push_back(model.at(p));
+        const std::vector<Vec3> places = places_at(model, points);
         const std::span<const Vec3> rim_section(sections.points.front());
         if (!says_the_rest(rim_section.first(rim_section.size() - kAdded), places)) continue;
         auto loop = std::ranges::find(loops, points, &LoopSections::rim);

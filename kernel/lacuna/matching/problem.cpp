@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/matching/shared/guides.h>
 #include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <set>
@@ -50,13 +51,11 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::vector<int> s, t;
         for (const FaceId face : part) {
-            for (const Loop& loop : model[face].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    const int on_s = loop_with(problem.source, use_from(model, use));
-                    const int on_t = loop_with(problem.target, use_from(model, use));
-                    if (on_s >= 0 && std::find(s.begin(), s.end(), on_s) == s.end()) s.push_back(on_s);
-                    if (on_t >= 0 && std::find(t.begin(), t.end(), on_t) == t.end()) t.push_back(on_t);
-                }
+            for (const EdgeUse& use : all_uses(model[face])) {
+                const int on_s = loop_with(problem.source, use_from(model, use));
+                const int on_t = loop_with(problem.target, use_from(model, use));
+                if (on_s >= 0 && std::find(s.begin(), s.end(), on_s) == s.end()) s.push_back(on_s);
+                if (on_t >= 0 && std::find(t.begin(), t.end(), on_t) == t.end()) t.push_back(on_t);
             }
         }
         if (!s.empty() && !t.empty())

@@ -39,17 +39,6 @@ std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& fac
     return points;
 }
 
-std::set<EdgeId> edges_of(const OpenVolume& volume, Role role)
-{
-    std::set<EdgeId> edges;
-    for (const FaceId face : volume.faces(role)) {
-        for (const Loop& loop : volume.model[face].loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
-    return edges;
-}
-
 /// Share of its side line's length below each point between the rims.
 std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
 {
@@ -169,9 +158,9 @@ using Rises = std::map<VertexId, std::vector<Rise>>;
 /// Edges between two walls that may climb.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
-    std::set<EdgeId> between = edges_of(volume, Role::wall);
+    std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
     for (const Role end : {Role::source, Role::target})
-        for (const EdgeId edge : edges_of(volume, end)) between.erase(edge);
+        for (const EdgeId edge : edges_of(volume.model, volume.faces(end))) between.erase(edge);
     return between;
 }
 

@@ -3,6 +3,28 @@
 
 namespace lacuna::topology {
 
+std::vector<EdgeUse> all_uses(const Face& face)
+{
+    std::vector<EdgeUse> uses;
+    for (const Loop& loop : face.loops) uses.insert(uses.end(), loop.uses.begin(), loop.uses.end());
+    return uses;
+}
+
+std::set<EdgeId> edges_of(const Model& model, const std::vector<FaceId>& faces)
+{
+    std::set<EdgeId> edges;
+    for (const FaceId face : faces)
+        for (const EdgeUse& use : all_uses(model[face])) edges.insert(use.edge);
+    return edges;
+}
+
+double length_of(const Model& model, const std::vector<EdgeUse>& uses)
+{
+    double sum = 0;
+    for (const EdgeUse& use : uses) sum += edge_length(model, use.edge);
+    return sum;
+}
+
 std::vector<Index> use_points(const Model& model, const std::vector<EdgeUse>& uses)
 {
     std::vector<Index> result = loop_points(model, uses);

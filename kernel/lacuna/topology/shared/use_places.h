@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/topology/model.h>
+#include <lacuna/topology/open_volume.h>
 
+#include <set>
 #include <vector>
 
 namespace lacuna::topology {
+
+/// Every use of a face's loops, one loop after the other.
+std::vector<EdgeUse> all_uses(const Face& face);
+
+/// The edges of the loops of some faces.
+std::set<EdgeId> edges_of(const Model& model, const std::vector<FaceId>& faces);
+
+/// The given faces, then those connected to them over shared edges that are wanted, which become unwanted.
+/// @param uses    by edge_uses()
+/// @param wanted  by face
+std::vector<FaceId> spread_over(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                std::vector<FaceId> faces, std::vector<bool>& wanted);
+
+/// The use of the same edge in the other direction.
+constexpr EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
+
+/// Summed length of the edges [model length].
+double length_of(const Model& model, const std::vector<EdgeUse>& uses);
 
 /// Points along consecutive uses, both ends included; a point where two uses meet is listed once.
 /// `use_points()` of model.h does this for a single use.
