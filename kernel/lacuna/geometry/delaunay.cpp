@@ -46,14 +46,11 @@ std::uint32_t scattered(Index p)
 DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index>& used)
     : points_(points.begin(), points.end()), given_(static_cast<Index>(points.size()))
 {
-    Vec2 low = used.empty() ? Vec2(0, 0) : at(used.front());
-    Vec2 high = low;
-    for (const Index p : used) {
-        low = low.cwiseMin(at(p));
-        high = high.cwiseMax(at(p));
-    }
-    const Vec2 centre = (low + high) / 2;
-    double extent = (high - low).maxCoeff();
+    Eigen::AlignedBox2d box;
+    for (const Index p : used) box.extend(at(p));
+    if (used.empty()) box.extend(Vec2(0, 0));
+    const Vec2 centre = box.center();
+    double extent = box.sizes().maxCoeff();
     if (!(extent > 0)) extent = 1;
     // Any triangle around the box would do; at a few times its size, the first triangles are not slivers.
     points_.push_back(centre + Vec2(-8, -5) * extent);
@@ -65,7 +62,7 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
     triangles_.push_back({.corner = {given_, given_ + 1, given_ + 2}});
     stamp_.push_back(-1);
     for (Index i = 0; i < 3; ++i) triangle_of_[index(given_ + i)] = 0;
-    insert_all(used, low, extent);
+    insert_all(used, box.min(), extent);
 }
 
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
@@ -171,15 +168,12 @@ Index DelaunayMesh::fill_cavity(const Vec2& p, const Cavity& cavity, std::vector
     return point;
 }
 
-void DelaunayMesh::relink(Index t, Index from, Index to, Index next, bool fixed)
+void DelaunayMesh::relink(Index t, Index from, Index to, Index next)
 {
     if (t < 0) return;
     DelaunayTriangle& tri = triangle(t);
-    for (int side = 0; side < 3; ++side) {
-        if (tri.from(side) != from || tri.to(side) != to) continue;
-        tri.next[static_cast<std::size_t>(side)] = next;
-        if (fixed) tri.fixed |= static_cast<std::uint8_t>(1 << side);
-    }
+    for (int side = 0; side < 3; ++side)
+        if (tri.from(side) == from && tri.to(side) == to) tri.next[static_cast<std::size_t>(side)] = next;
 }
 
 void DelaunayMesh::fan(Index point, const Cavity& cavity, std::vector<Index>& fresh)
@@ -204,7 +198,7 @@ void DelaunayMesh::fan(Index point, const Cavity& cavity, std::vector<Index>& fr
         tri.fixed = side.fixed ? 1 : 0;
         tri.inside = inside;
         triangle_of_[index(side.from)] = fresh[i];
-        relink(side.outer, side.to, side.from, fresh[i], false);
+        relink(side.outer, side.to, side.from, fresh[i]);
     }
     triangle_of_[index(point)] = fresh.front();
 }
@@ -346,7 +340,7 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
                 tri.next[static_cast<std::size_t>(side)] = twin->second;
             } else {
                 tri.next[static_cast<std::size_t>(side)] = std::get<0>(outer->second);
-                relink(std::get<0>(outer->second), tri.to(side), tri.from(side), strip[i], false);
+                relink(std::get<0>(outer->second), tri.to(side), tri.from(side), strip[i]);
             }
         }
         triangle(strip[i]) = tri;

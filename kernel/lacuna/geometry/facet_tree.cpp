@@ -28,6 +28,14 @@ constexpr std::uint32_t kShared = 4096;
 /// one sibling per level.
 constexpr std::size_t kMaxDepth = 64;
 
+Box box_of(const Corners& c)
+{
+    Box box(c[0]);
+    box.extend(c[1]);
+    box.extend(c[2]);
+    return box;
+}
+
 /// Squared distance to a box, rounded down: no point in the box is closer.
 double distance2(const Box& box, const Vec3& p)
 {
@@ -229,11 +237,6 @@ std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint
     return behind;
 }
 
-FacetTree::Hit FacetTree::closest(const Vec3& p) const
-{
-    return closest(p, std::numeric_limits<double>::infinity());
-}
-
 FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
 {
     Hit best;
@@ -256,8 +259,7 @@ FacetTree::Hit FacetTree::closest(const Vec3& p, double max_distance2) const
         }
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
             const Corners& c = corner_[i];
-            const Box box(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2]));
-            if (distance2(box, p) > reach) continue;
+            if (distance2(box_of(c), p) > reach) continue;
             Hit hit = closest_on_triangle(p, c);
             if (hit.distance2 > reach) continue;
             if (best.triangle >= 0 && hit.distance2 == best.distance2 && id_[i] > best.triangle) continue;
@@ -274,12 +276,6 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
 {
     if (node_.empty() || other.node_.empty()) return true;
     const bool itself = &other == this;
-    const auto box_of = [](const Corners& c) {
-        Box box(c[0]);
-        box.extend(c[1]);
-        box.extend(c[2]);
-        return box;
-    };
     const auto leaves = [&](const Node& a, const Node& b) {
         for (std::uint32_t i = a.begin; i < a.end; ++i) {
             const Box own = box_of(corner_[i]);
@@ -315,49 +311,47 @@ bool FacetTree::overlaps(const FacetTree& other, const std::function<bool(Index,
     return true;
 }
 
-bool FacetTree::may_meet(const Box& box) const
+template <class Enters, class Visit>
+bool FacetTree::each_leaf(const Enters& enters, const Visit& visit) const
 {
-    if (node_.empty()) return false;
+    if (node_.empty()) return true;
     std::array<std::uint32_t, kMaxDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const std::uint32_t at = stack[--depth];
         const Node& node = node_[at];
-        if (!near(node.box, box, 0)) continue;
-        if (node.right == 0) return true;
-        stack[depth++] = node.right;
-        stack[depth++] = at + 1;
+        if (!enters(node.box)) continue;
+        if (node.right != 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = at + 1;
+        } else if (!visit(node)) {
+            return false;
+        }
     }
-    return false;
+    return true;
+}
+
+bool FacetTree::may_meet(const Box& box) const
+{
+    return !each_leaf([&](const Box& own) { return near(own, box, 0); }, [](const Node&) { return false; });
 }
 
 template <class Visit>
 bool FacetTree::along(const Vec3& origin, const Vec3& direction, const double& farthest,
                       const Visit& visit) const
 {
-    if (node_.empty()) return true;
     const Vec3 inverse = inverse_of(direction);
-    std::array<std::uint32_t, kMaxDepth> stack;
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const std::uint32_t index = stack[--depth];
-        const Node& node = node_[index];
-        if (!meets(node.box, origin, inverse, farthest)) continue;
-        if (node.right != 0) {
-            stack[depth++] = node.right;
-            stack[depth++] = index + 1;
-            continue;
-        }
+    const auto enters = [&](const Box& box) { return meets(box, origin, inverse, farthest); };
+    return each_leaf(enters, [&](const Node& node) {
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
             RayHit hit = ray_triangle(corner_[i], origin, direction);
             if (!std::isfinite(hit.t)) continue;
             hit.triangle = id_[i];
             if (!visit(hit)) return false;
         }
-    }
-    return true;
+        return true;
+    });
 }
 
 FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& direction) const
@@ -450,9 +444,7 @@ bool triangles_cross(const Corners& a, const Corners& b, double tolerance)
     if (area_a.isZero(0) || area_b.isZero(0)) return false;
     const Vec3 normal_a = area_a.normalized(), normal_b = area_b.normalized();
     // Heights and lengths have rounding errors of a few bits of the extent of the triangles.
-    Box extent;
-    for (const Vec3& corner : a) extent.extend(corner);
-    for (const Vec3& corner : b) extent.extend(corner);
+    const Box extent = box_of(a).merged(box_of(b));
     const double reach = std::max(tolerance,
                                   16 * std::numeric_limits<double>::epsilon() * extent.diagonal().norm());
     const Vec3 ha = heights_over(a, b, normal_b, reach), hb = heights_over(b, a, normal_a, reach);

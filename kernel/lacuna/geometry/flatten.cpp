@@ -3,9 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
-#include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/tips.h>
 #include <lacuna/geometry/shared/union_find.h>
 
 #include <lacuna/geometry/detail/flatten_maps.h>
@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 namespace lacuna::geometry {
@@ -23,9 +22,6 @@ namespace {
 
 using flat::Facets;
 using flat::Positions;
-
-/// Half the digits of a double: precision of quantities whose squares are computed.
-const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 [[noreturn]] void fail(const std::string& what)
 {
@@ -94,18 +90,10 @@ std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
     return loops;
 }
 
-double loop_length(const Facets& facets, const std::vector<Index>& loop)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        sum += (facets.points[index(loop[(i + 1) % loop.size()])] - facets.points[index(loop[i])]).norm();
-    return sum;
-}
-
 void sort_longest_first(Facets& facets)
 {
     std::stable_sort(facets.loops.begin(), facets.loops.end(), [&](const auto& a, const auto& b) {
-        return loop_length(facets, a) > loop_length(facets, b);
+        return length(flat::closed_places(facets, a)) > length(flat::closed_places(facets, b));
     });
 }
 
@@ -195,12 +183,12 @@ Plane plane_of(const Facets& facets)
     return newell_plane(loops);
 }
 
-bool is_planar(const Facets& facets, const Plane& plane, double tolerance)
+bool is_planar(const Facets& facets, const Plane& plane)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& point : facets.points) box.extend(point);
     // 1e-9: six digits better than a drawing, six digits above double precision.
-    if (!(tolerance > 0)) tolerance = 1e-9 * box.diagonal().norm();
+    const double tolerance = 1e-9 * box.diagonal().norm();
     return std::all_of(facets.points.begin(), facets.points.end(),
                        [&](const Vec3& p) { return std::abs(height(plane, p)) <= tolerance; });
 }
@@ -231,22 +219,14 @@ void align(Positions& positions, const Positions& model)
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;
-    std::vector<double> angle(facets.points.size(), 0);
-    for (const Triangle& t : facets.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 &p = facets.points[index(t[k])], a = facets.points[index(t[(k + 1) % 3])] - p,
-                       b = facets.points[index(t[(k + 2) % 3])] - p;
-            angle[index(t[k])] += angle_between(a, b);
-        }
-    }
+    const std::vector<double> angle = angles_at_points(facets.points, facets.triangles);
     double turning = 0;
     for (const Index p : facets.loops[0]) turning += std::numbers::pi - angle[index(p)];
     return turning < std::numbers::pi;
 }
 
 /// Try maps in order of distortion until one is one-to-one; else keep the one with the fewest flips.
-void choose_map(const Facets& facets, const std::vector<Segment>& boundary, const FlattenOptions& options,
-                Flattened& flat)
+void choose_map(const Facets& facets, const std::vector<Segment>& boundary, Flattened& flat)
 {
     bool any = false;
     const auto good = [&](FlatMap map, const Positions& positions) {
@@ -261,24 +241,22 @@ void choose_map(const Facets& facets, const std::vector<Segment>& boundary, cons
         flat = std::move(trial);
         return !flat.folded;
     };
-    const int limit = options.max_iterations;
     if (is_tube(facets)) {
         const Positions ring = flat::ring(facets);
         if (!ring.empty() && good(FlatMap::ring, ring)) return;
     }
     const Positions conformal = flat::conformal(facets);
-    if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal, limit, options.settled))) return;
-    if (good(FlatMap::injective, flat::injective(facets, conformal, limit, options.settled))) return;
+    if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal))) return;
+    if (good(FlatMap::injective, flat::injective(facets, conformal))) return;
     const Positions convex = flat::convex(facets);
-    if (good(FlatMap::injective, flat::injective(facets, convex, limit, options.settled))) return;
+    if (good(FlatMap::injective, flat::injective(facets, convex))) return;
     if (good(FlatMap::conformal, conformal)) return;
     good(FlatMap::convex, convex);
 }
 
 } // namespace
 
-Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                  const FlattenOptions& options)
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
     if (triangles.empty()) fail("there are no triangles");
     Flattened flat;
@@ -293,14 +271,14 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
     const Plane plane = plane_of(facets);
     Positions projected;
     for (const Vec3& point : facets.points) projected.push_back(to_plane(plane, point));
-    if (is_planar(facets, plane, options.planar_tolerance)) {
+    if (is_planar(facets, plane)) {
         flat.position = projected;
         judge(facets, boundary, flat);
         // Facets folded over in their plane are unfolded like curved ones.
         if (!flat.folded) return flat;
     }
     check_disc(facets, boundary, twice, flat.used);
-    choose_map(facets, boundary, options, flat);
+    choose_map(facets, boundary, flat);
     align(flat.position, projected);
     return flat;
 }
@@ -334,34 +312,28 @@ PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Trian
     low_ = all.min();
     across_ = static_cast<Index>(sides.x() / bin_) + 1;
     up_ = static_cast<Index>(sides.y() / bin_) + 1;
-    const auto bins_of = [&](std::size_t t, const auto& visit) {
-        const auto bin = [&](double offset, Index count) {
-            return std::min(static_cast<Index>(offset / bin_), count - 1);
-        };
-        const Vec2 from = boxes[t].min() - low_, to = boxes[t].max() - low_;
-        for (Index j = bin(from.y(), up_); j <= bin(to.y(), up_); ++j)
-            for (Index i = bin(from.x(), across_); i <= bin(to.x(), across_); ++i)
-                visit(index(j * across_ + i));
+    const auto bin = [&](double offset, Index count) {
+        return std::min(static_cast<Index>(offset / bin_), count - 1);
     };
-    start_.assign(index(across_ * up_) + 1, 0);
-    for (std::size_t t = 0; t < boxes.size(); ++t) bins_of(t, [&](std::size_t b) { ++start_[b + 1]; });
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    listed_.resize(index(start_.back()));
-    std::vector<Index> next(start_.begin(), start_.end() - 1);
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        bins_of(t, [&](std::size_t b) { listed_[index(next[b]++)] = static_cast<Index>(t); });
+    bins_ = incidence(index(across_ * up_), [&](const auto& visit) {
+        for (std::size_t t = 0; t < boxes.size(); ++t) {
+            const Vec2 from = boxes[t].min() - low_, to = boxes[t].max() - low_;
+            for (Index j = bin(from.y(), up_); j <= bin(to.y(), up_); ++j)
+                for (Index i = bin(from.x(), across_); i <= bin(to.x(), across_); ++i)
+                    visit(index(j * across_ + i), static_cast<Index>(t));
+        }
+    });
 }
 
 PlanarLocator::FacetPosition PlanarLocator::in_bins(const Vec2& place) const
 {
     const double x = (place.x() - low_.x()) / bin_, y = (place.y() - low_.y()) / bin_;
     if (!(x >= 0 && x < across_ && y >= 0 && y < up_)) return {};
-    const std::size_t bin = index(static_cast<Index>(y) * across_ + static_cast<Index>(x));
-    for (Index k = start_[bin]; k < start_[bin + 1]; ++k) {
-        const Weights& w = weights_[index(listed_[index(k)])];
+    for (const Index t : bins_.of(index(static_cast<Index>(y) * across_ + static_cast<Index>(x)))) {
+        const Weights& w = weights_[index(t)];
         const Vec2 from = place - w.corner;
         const double first = w.first.dot(from), second = w.second.dot(from), rest = 1 - first - second;
-        if (first >= 0 && second >= 0 && rest >= 0) return {listed_[index(k)], {rest, first, second}, 0};
+        if (first >= 0 && second >= 0 && rest >= 0) return {t, {rest, first, second}, 0};
     }
     return {};
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <Eigen/LU>
@@ -25,6 +26,10 @@ using Eigen::Matrix2d;
 /// Half the digits of a double: triangles thinner than this are degenerate.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
+/// Limit on the iterations of a map, and relative decrease of its energy at which they stop.
+constexpr int kMostIterations = 200;
+constexpr double kSettled = 1e-6;
+
 template <class Solver>
 void check_solved(const Solver& solver)
 {
@@ -35,11 +40,7 @@ void check_solved(const Solver& solver)
                            "one point only, or for coordinates that are not numbers");
 }
 
-double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
-{
-    const Vec2 ab = b - a, ac = c - a;
-    return 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
-}
+double signed_area(const Vec2& a, const Vec2& b, const Vec2& c) { return 0.5 * cross(b - a, c - a); }
 
 /// A triangle in its own plane, with its longest side along x; width and height are
 /// limited from below, against rounding.
@@ -68,6 +69,14 @@ std::array<Vec2, 3> own_plane(const std::array<Vec3, 3>& p, double extent, bool&
 }
 
 } // namespace
+
+std::vector<Vec3> closed_places(const Facets& facets, const std::vector<Index>& loop)
+{
+    std::vector<Vec3> places;
+    for (const Index i : loop) places.push_back(facets.points[index(i)]);
+    places.push_back(places.front());
+    return places;
+}
 
 void measure_shapes(Facets& facets)
 {
@@ -193,7 +202,7 @@ Matrix2d rotation_of(const Matrix2d& j)
 
 } // namespace
 
-Positions as_rigid_as_possible(const Facets& facets, Positions positions, int max_iterations, double settled)
+Positions as_rigid_as_possible(const Facets& facets, Positions positions)
 {
     // The stiffness matrix is constant: factor it once, with point 0 fixed.
     const auto size = static_cast<Index>(positions.size()) - 1;
@@ -214,7 +223,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, int ma
 
     Eigen::MatrixX2d right(size, 2);
     double before = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         double energy = 0;
         right.setZero();
         for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -225,7 +234,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, int ma
             for (std::size_t i = 0; i < 3; ++i)
                 if (c[i] > 0) right.row(c[i] - 1) += shape.area * (r * shape.gradient[i]).transpose();
         }
-        if (!(before - energy > settled * before) && iteration > 0) break;
+        if (!(before - energy > kSettled * before) && iteration > 0) break;
         before = energy;
         const Eigen::MatrixX2d solution = solver.solve(right);
         positions[0].setZero();
@@ -258,7 +267,6 @@ double step_to_flip(const Facets& facets, const Positions& from, const Positions
     for (const Triangle& c : facets.triangles) {
         const Vec2 a = from[index(c[1])] - from[index(c[0])], b = from[index(c[2])] - from[index(c[0])];
         const Vec2 da = step[index(c[1])] - step[index(c[0])], db = step[index(c[2])] - step[index(c[0])];
-        const auto cross = [](const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); };
         // Area along the step: k0 + k1 s + k2 s², k0 > 0. Smallest positive root,
         // computed without cancellation.
         const double k0 = cross(a, b), k1 = cross(a, db) + cross(da, b), k2 = cross(da, db);
@@ -332,13 +340,13 @@ private:
 
 } // namespace
 
-Positions injective(const Facets& facets, Positions positions, int max_iterations, double settled)
+Positions injective(const Facets& facets, Positions positions)
 {
     scale_to_area(facets, positions);
     double energy = symmetric_dirichlet(facets, positions);
     if (!std::isfinite(energy)) return positions;
     Proxy proxy(facets);
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         Positions step = proxy.minimiser(positions);
         for (std::size_t i = 0; i < step.size(); ++i) step[i] -= positions[i];
         // Start at 80 % of the step to the first flip, and halve until the energy decreases.
@@ -351,7 +359,7 @@ Positions injective(const Facets& facets, Positions positions, int max_iteration
             if (found < energy) break;
         }
         if (!(found < energy)) break;
-        const bool done = energy - found <= settled * energy;
+        const bool done = energy - found <= kSettled * energy;
         positions = trial;
         energy = found;
         if (done) break;
@@ -380,10 +388,7 @@ Positions convex(const Facets& facets)
     problem.points = points;
     problem.triangles = triangles;
     problem.fixed = facets.loops.front();
-    std::vector<Vec3> rim;
-    for (const Index i : problem.fixed) rim.push_back(points[index(i)]);
-    rim.push_back(rim.front());
-    const std::vector<double> lengths = arc_lengths(rim);
+    const std::vector<double> lengths = arc_lengths(closed_places(facets, problem.fixed));
     const double radius = std::sqrt(facets.area / std::numbers::pi);
     problem.fixed_values.resize(static_cast<Eigen::Index>(problem.fixed.size()), 2);
     for (std::size_t i = 0; i < problem.fixed.size(); ++i) {

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/detail/flatten_maps.h>
 #include <lacuna/geometry/shared/cut.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,23 +10,6 @@
 
 namespace lacuna::geometry::flat {
 namespace {
-
-/// Arc length at the points of a loop, and its total length.
-struct Lengths {
-    std::vector<double> at;
-    double whole = 0;
-};
-
-Lengths lengths_of(const Facets& facets, const std::vector<Index>& loop)
-{
-    Lengths lengths;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        lengths.at.push_back(lengths.whole);
-        lengths.whole +=
-            (facets.points[index(loop[(i + 1) % loop.size()])] - facets.points[index(loop[i])]).norm();
-    }
-    return lengths;
-}
 
 double share(double turns) { return turns - std::floor(turns); }
 
@@ -53,7 +37,8 @@ double least_shear(const Facets& facets, const HarmonicProblem& problem, const E
 Positions ring(const Facets& facets)
 {
     const std::vector<Index>&outer = facets.loops[0], &inner = facets.loops[1];
-    const Lengths round = lengths_of(facets, outer), within = lengths_of(facets, inner);
+    const std::vector<double> round = arc_lengths(closed_places(facets, outer)),
+                              within = arc_lengths(closed_places(facets, inner));
     const std::vector<Index> cut = shortest_way(facets.points, facets.triangles, outer.front(),
                                                 {outer.begin(), outer.end()}, {inner.begin(), inner.end()});
     if (cut.empty()) return {};
@@ -65,12 +50,12 @@ Positions ring(const Facets& facets)
     // The facets are on the left of the loop, so the loop leaves the cut to the right, where the branch is
     // one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
-    const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round.at[i] / round.whole; };
+    const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round[i] / round.back(); };
     // The inner loop has the opposite direction. It is rotated later, which adds a harmonic function. Its
     // points are on the branch of the end of the cut.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
-    const double branch = -within.at[end] / within.whole;
+    const double branch = -within[end] / within.back();
     problem.fixed = outer;
     problem.fixed.insert(problem.fixed.end(), inner.begin(), inner.end());
     const auto rows = static_cast<Eigen::Index>(problem.fixed.size());
@@ -78,7 +63,7 @@ Positions ring(const Facets& facets)
     for (std::size_t i = 0; i < outer.size(); ++i)
         problem.fixed_values.row(static_cast<Eigen::Index>(i)) << round_at(i), 0;
     for (std::size_t i = 0; i < inner.size(); ++i) {
-        const double s = -within.at[i] / within.whole;
+        const double s = -within[i] / within.back();
         // Going back from the cut, up to one turn.
         const double own = i == end ? branch : branch - share(branch - s);
         problem.fixed_values.row(static_cast<Eigen::Index>(outer.size() + i)) << own, 1;

@@ -119,29 +119,23 @@ Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index co
 /// A forward Gauss-Seidel sweep from x = 0: columns after the diagonal are skipped, as x is still zero there.
 void first_sweep(const Matrix& matrix, const Vector& right, Vector& x)
 {
-    const auto* start = matrix.outerIndexPtr();
-    const auto* column = matrix.innerIndexPtr(); // ascending in each row
-    const double* value = matrix.valuePtr();
     x.resize(matrix.rows());
     for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
         double sum = right[row];
-        auto k = start[row];
-        for (; k < start[row + 1] && column[k] < row; ++k) sum -= value[k] * x[column[k]];
-        x[row] = k < start[row + 1] && column[k] == row ? sum / value[k] : sum;
+        Matrix::InnerIterator entry(matrix, row); // columns are ascending in each row
+        for (; entry && entry.col() < row; ++entry) sum -= entry.value() * x[entry.col()];
+        x[row] = entry && entry.col() == row ? sum / entry.value() : sum;
     }
 }
 
 /// The residual after the first sweep: only the columns after the diagonal contribute.
 void residual_of_first(const Matrix& matrix, const Vector& x, Vector& residual)
 {
-    const auto* start = matrix.outerIndexPtr();
-    const auto* column = matrix.innerIndexPtr();
-    const double* value = matrix.valuePtr();
     residual.resize(matrix.rows());
     for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
         double sum = 0;
-        for (auto k = start[row + 1]; k > start[row] && column[k - 1] > row; --k)
-            sum -= value[k - 1] * x[column[k - 1]];
+        for (Matrix::ReverseInnerIterator entry(matrix, row); entry && entry.col() > row; --entry)
+            sum -= entry.value() * x[entry.col()];
         residual[row] = sum;
     }
 }
@@ -149,16 +143,13 @@ void residual_of_first(const Matrix& matrix, const Vector& x, Vector& residual)
 /// A backward Gauss-Seidel sweep.
 void sweep_back(const Matrix& matrix, const Vector& right, Vector& x)
 {
-    const auto* start = matrix.outerIndexPtr();
-    const auto* column = matrix.innerIndexPtr();
-    const double* value = matrix.valuePtr();
     for (Eigen::Index row = matrix.rows() - 1; row >= 0; --row) {
         double sum = right[row], centre = 1;
-        for (auto k = start[row]; k < start[row + 1]; ++k) {
-            if (column[k] == row)
-                centre = value[k];
+        for (Matrix::InnerIterator entry(matrix, row); entry; ++entry) {
+            if (entry.col() == row)
+                centre = entry.value();
             else
-                sum -= value[k] * x[column[k]];
+                sum -= entry.value() * x[entry.col()];
         }
         x[row] = sum / centre;
     }

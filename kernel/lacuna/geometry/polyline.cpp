@@ -15,12 +15,7 @@ std::vector<double> arc_lengths(std::span<const Vec3> points)
     return lengths;
 }
 
-double length(std::span<const Vec3> points)
-{
-    double sum = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
-    return sum;
-}
+double length(std::span<const Vec3> points) { return points.empty() ? 0 : arc_lengths(points).back(); }
 
 PolylinePlace place_at(std::span<const double> arc_lengths, double s)
 {

@@ -146,19 +146,11 @@ std::vector<Vec3> swept_grid(std::span<const Vec3> bottom, std::span<const Vec3>
     const SweptPatch patch(bottom, right, top, left);
     const std::size_t n = bottom.size() - 1, m = left.size() - 1;
     std::vector<Vec3> grid = transfinite(bottom, right, top, left);
-    const auto shares = [](std::span<const Vec3> side) {
-        std::vector<double> result = arc_lengths(side);
-        const double total = result.back();
-        for (double& x : result) x = total > 0 ? x / total : 0;
-        return result;
-    };
-    const std::vector<double> s0 = shares(bottom), s1 = shares(top), t0 = shares(left), t1 = shares(right);
+    const CoonsPatch<Vec3> sides(bottom, right, top, left);
     for (std::size_t j = 1; j < m; ++j) {
         for (std::size_t i = 1; i < n; ++i) {
-            const double ds = s1[i] - s0[i], dt = t1[j] - t0[j];
-            const double s = (s0[i] + t0[j] * ds) / (1 - ds * dt);
-            const double t = (t0[j] + s0[i] * dt) / (1 - ds * dt);
-            grid[j * (n + 1) + i] = patch(s, t);
+            const Vec2 st = sides.crossing(i, i, j, j);
+            grid[j * (n + 1) + i] = patch(st.x(), st.y());
         }
     }
     return grid;

@@ -9,22 +9,31 @@
 
 namespace lacuna::geometry {
 
-std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
+std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
-    // A tenth of a full turn (see tips.h), and a limit against coarse facets.
-    constexpr double kLack = 0.2 * std::numbers::pi;
-    constexpr std::size_t kMostTips = 64;
     std::vector<double> angle(points.size(), 0);
-    // At an inner point, every neighbour occurs once before the point and once after it in a triangle.
-    std::vector<std::int64_t> turn(points.size(), 0);
     for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3& at = points[index(t[k])];
             const Vec3 a = points[index(t[(k + 1) % 3])] - at;
             const Vec3 b = points[index(t[(k + 2) % 3])] - at;
             angle[index(t[k])] += angle_between(a, b);
-            turn[index(t[k])] += t[(k + 1) % 3] - std::int64_t{t[(k + 2) % 3]};
         }
+    }
+    return angle;
+}
+
+std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
+{
+    // A tenth of a full turn (see tips.h), and a limit against coarse facets.
+    constexpr double kLack = 0.2 * std::numbers::pi;
+    constexpr std::size_t kMostTips = 64;
+    const std::vector<double> angle = angles_at_points(points, triangles);
+    // At an inner point, every neighbour occurs once before the point and once after it in a triangle.
+    std::vector<std::int64_t> turn(points.size(), 0);
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k)
+            turn[index(t[k])] += t[(k + 1) % 3] - std::int64_t{t[(k + 2) % 3]};
     }
     std::vector<Index> tips;
     for (std::size_t p = 0; p < angle.size(); ++p) {

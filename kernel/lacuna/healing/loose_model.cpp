@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,6 @@
 namespace lacuna::healing {
 
 namespace {
-
-bool repeats(std::span<const Index> corners)
-{
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        for (std::size_t k = i + 1; k < corners.size(); ++k)
-            if (corners[i] == corners[k]) return true;
-    return false;
-}
 
 /// Remove pairs of facets that lie back to back, which a facet no wider than the tolerance leaves.
 /// @return were any removed?
@@ -42,15 +35,7 @@ bool drop_folds(topology::Face& face)
         if (facets.size() != 2 || runs_up(facets[0]) == runs_up(facets[1])) continue;
         gone[facets[0]] = gone[facets[1]] = true;
     }
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < gone.size(); ++t) {
-        if (gone[t]) continue;
-        if (!face.uv.empty()) face.uv[kept] = face.uv[t];
-        face.triangles[kept++] = face.triangles[t];
-    }
-    face.triangles.resize(kept);
-    if (!face.uv.empty()) face.uv.resize(kept);
-    return kept < gone.size();
+    return topology::erase_facets(face, [&](std::size_t t) { return gone[t]; });
 }
 
 } // namespace
@@ -117,21 +102,15 @@ void LooseModel::join(VertexId gone, VertexId stays)
 bool LooseModel::shrink(FaceId f)
 {
     topology::Face& face = model_[f];
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-        if (repeats(face.triangles[t])) continue;
-        if (!face.uv.empty()) face.uv[kept] = face.uv[t];
-        face.triangles[kept++] = face.triangles[t];
-    }
-    const bool shrank = kept < face.triangles.size();
-    face.triangles.resize(kept);
-    if (!face.uv.empty()) face.uv.resize(kept);
+    const bool shrank = topology::erase_facets(
+        face, [&](std::size_t t) { return topology::repeats(face.triangles[t]); });
     if (shrank && drop_folds(face)) folded_ = true;
     return !face.triangles.empty();
 }
 
 LooseModel::Shrunk LooseModel::settle_points()
 {
+    Shrunk shrunk;
     for (topology::Vertex& vertex : model_.vertices) vertex.point = stays_as(vertex.point);
     for (std::size_t e = 0; e < model_.edges.size(); ++e) {
         topology::Edge& edge = model_.edges[e];
@@ -147,9 +126,9 @@ LooseModel::Shrunk LooseModel::settle_points()
         }
         edge.points.resize(kept);
         if (!edge.params.empty()) edge.params.resize(kept);
-        if (kept < 2) edge_gone_[e] = true;
+        edge_gone_[e] = kept < 2;
+        shrunk.edges += kept < 2 ? 1 : 0;
     }
-    Shrunk shrunk;
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
         topology::Face& face = model_.faces[f];
         if (face_gone_[f]) continue;
@@ -158,7 +137,7 @@ LooseModel::Shrunk LooseModel::settle_points()
         for (Quad& q : face.given_quads)
             for (Index& p : q) p = stays_as(p);
         if (std::any_of(face.given_quads.begin(), face.given_quads.end(),
-                        [](const Quad& q) { return repeats(q); })) {
+                        [](const Quad& q) { return topology::repeats(q); })) {
             face.given_quads.clear();
             shrunk.meshes.emplace_back(f);
         }
@@ -194,15 +173,9 @@ void LooseModel::divide(EdgeId e, const std::vector<std::pair<std::size_t, Verte
     VertexId from = whole.from;
     for (std::size_t k = 0; k <= at.size(); ++k) {
         const std::size_t end = k < at.size() ? at[k].first : whole.points.size() - 1;
-        topology::Edge part = whole;
+        topology::Edge part = part_of(whole, begin, end);
         part.from = from;
         part.to = k < at.size() ? at[k].second : whole.to;
-        const auto slice = [&](auto& list) {
-            using Offset = std::ptrdiff_t;
-            list = {list.begin() + static_cast<Offset>(begin), list.begin() + static_cast<Offset>(end) + 1};
-        };
-        slice(part.points);
-        if (!part.params.empty()) slice(part.params);
         begin = end;
         from = part.to;
         if (k == 0) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/shared/orient_groups.h>
 
+#include <lacuna/topology/open_volume.h>
+
 #include <map>
 
 namespace lacuna::healing {
@@ -9,7 +11,7 @@ namespace {
 
 /// A side on a face's border, in the direction of its facet.
 struct BorderUse {
-    std::size_t face;
+    FaceId face;
     bool forward;
 };
 using Borders = std::map<std::pair<Index, Index>, std::vector<BorderUse>>;
@@ -28,38 +30,21 @@ Borders borders_of(const topology::Model& model, const std::vector<std::size_t>&
             }
         }
         for (const auto& [side, sum] : net) {
-            if (sum != 0) borders[side].push_back({f, sum > 0});
+            if (sum != 0) borders[side].push_back({FaceId(f), sum > 0});
         }
     }
     return borders;
 }
 
-void flip(topology::Face& face)
-{
-    for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
-    for (std::array<Vec2, 3>& uv : face.uv) std::swap(uv[1], uv[2]);
-    for (Quad& q : face.given_quads) std::swap(q[1], q[3]);
-}
-
-double six_volumes(const topology::Model& model, const topology::Face& face, const Vec3& origin)
-{
-    double sum = 0;
-    for (const Triangle& t : face.triangles) {
-        sum += (model.at(t[0]) - origin).dot((model.at(t[1]) - origin).cross(model.at(t[2]) - origin));
-    }
-    return sum;
-}
-
 /// Connected faces of a group, each with a flag whether it must be reversed to agree with the first.
 struct Part {
-    std::vector<std::size_t> faces;
+    std::vector<FaceId> faces;
     bool agrees = true;
     bool closed = true;
 };
 
-Part flood(std::size_t start,
-           const std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>& neighbours,
-           std::map<std::size_t, bool>& turned)
+Part flood(FaceId start, const std::map<FaceId, std::vector<std::pair<FaceId, bool>>>& neighbours,
+           std::map<FaceId, bool>& turned)
 {
     Part part{{start}, true, true};
     turned[start] = false;
@@ -85,8 +70,8 @@ Part flood(std::size_t start,
 void orient_groups(topology::Model& model, const std::vector<std::vector<std::size_t>>& groups)
 {
     for (const std::vector<std::size_t>& group : groups) {
-        std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> neighbours;
-        std::map<std::size_t, bool> open;
+        std::map<FaceId, std::vector<std::pair<FaceId, bool>>> neighbours;
+        std::map<FaceId, bool> open;
         for (const auto& [side, uses] : borders_of(model, group)) {
             if (uses.size() != 2) {
                 for (const BorderUse& use : uses) open[use.face] = true;
@@ -96,21 +81,16 @@ void orient_groups(topology::Model& model, const std::vector<std::vector<std::si
             neighbours[uses[0].face].emplace_back(uses[1].face, alike);
             neighbours[uses[1].face].emplace_back(uses[0].face, alike);
         }
-        std::map<std::size_t, bool> turned;
+        std::map<FaceId, bool> turned;
         for (const std::size_t start : group) {
-            if (turned.contains(start)) continue;
-            Part part = flood(start, neighbours, turned);
+            if (turned.contains(FaceId(start))) continue;
+            Part part = flood(FaceId(start), neighbours, turned);
             if (!part.agrees) continue;
-            for (const std::size_t f : part.faces) {
-                if (turned[f]) flip(model.faces[f]);
+            for (const FaceId f : part.faces) {
+                if (turned[f]) flip_faces(model, {f});
                 part.closed = part.closed && !open.contains(f);
             }
-            if (!part.closed) continue;
-            const Vec3 origin = model.at(model.faces[start].triangles.front()[0]);
-            double volume = 0;
-            for (const std::size_t f : part.faces) volume += six_volumes(model, model.faces[f], origin);
-            if (volume >= 0) continue;
-            for (const std::size_t f : part.faces) flip(model.faces[f]);
+            if (part.closed && volume_integral(model, part.faces) < 0) flip_faces(model, part.faces);
         }
     }
 }

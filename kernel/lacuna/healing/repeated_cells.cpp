@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/repeated_cells.h>
 
+#include <lacuna/core/shared/incidence.h>
+
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <tuple>
 
 namespace lacuna::healing {
 
@@ -20,28 +22,19 @@ std::vector<bool> repeated(std::span<const std::array<Index, N>> cells, std::spa
         std::sort(cell.begin(), cell.end());
         most = std::max(most, cell.front());
     }
-    std::vector<Index> start(index(most) + 2, 0);
-    for (const auto& cell : sorted) ++start[index(cell.front()) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Index> order(cells.size());
-    std::vector<Index> fill(start.begin(), start.end() - 1);
-    for (std::size_t c = 0; c < sorted.size(); ++c)
-        order[index(fill[index(sorted[c].front())]++)] = static_cast<Index>(c);
-    const auto alike = [&](Index a, Index b) {
-        return sorted[index(a)] == sorted[index(b)] &&
-               (labels.empty() || labels[index(a)] == labels[index(b)]);
-    };
-    const auto before = [&](Index a, Index b) {
-        if (sorted[index(a)] != sorted[index(b)]) return sorted[index(a)] < sorted[index(b)];
-        if (!labels.empty() && labels[index(a)] != labels[index(b)])
-            return labels[index(a)] < labels[index(b)];
-        return a < b;
+    const Incidence at_lowest = incidence(index(most) + 1, [&](const auto& visit) {
+        for (std::size_t c = 0; c < sorted.size(); ++c)
+            visit(index(sorted[c].front()), static_cast<Index>(c));
+    });
+    const auto key = [&](Index c) {
+        return std::tuple(sorted[index(c)], labels.empty() ? 0 : labels[index(c)]);
     };
     std::vector<bool> result(cells.size(), false);
-    for (std::size_t p = 0; p + 1 < start.size(); ++p) {
-        const auto heap = std::span(order).subspan(index(start[p]), index(start[p + 1] - start[p]));
-        std::sort(heap.begin(), heap.end(), before);
-        for (std::size_t i = 1; i < heap.size(); ++i) result[index(heap[i])] = alike(heap[i], heap[i - 1]);
+    for (std::size_t p = 0; p < at_lowest.size(); ++p) {
+        std::vector<Index> heap(at_lowest.of(p).begin(), at_lowest.of(p).end());
+        std::ranges::stable_sort(heap, {}, key);
+        for (std::size_t i = 1; i < heap.size(); ++i)
+            result[index(heap[i])] = key(heap[i]) == key(heap[i - 1]);
     }
     return result;
 }

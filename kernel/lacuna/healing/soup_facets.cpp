@@ -7,6 +7,7 @@
 #include <lacuna/healing/detail/repeated_cells.h>
 #include <lacuna/healing/detail/t_junctions.h>
 #include <lacuna/healing/shared/weld.h>
+#include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <limits>
@@ -87,14 +88,10 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
         if (count < used.size()) some.push_back(soup.points[p]);
     }
     const std::vector<Vec3>& points = count < used.size() ? some : soup.points;
-    Vec3 low = points.front();
-    Vec3 high = low;
-    for (const Vec3& p : points) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    facets.diagonal = (high - low).norm();
-    check_size(low, high, facets.diagonal);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(p);
+    facets.diagonal = box.diagonal().norm();
+    check_size(box.min(), box.max(), facets.diagonal);
     facets.tolerance = tolerance > 0 ? tolerance : 1e-6 * facets.diagonal;
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);
@@ -251,7 +248,7 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
     facets.quad.reserve(most);
     const std::vector<Index> number = weld_used(soup, tolerance, facets, context);
     const auto add = [&](const Triangle& t, int label, Index quad) {
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+        if (topology::repeats(t)) return;
         facets.corner.push_back(t);
         facets.label.push_back(label);
         facets.quad.push_back(quad);
@@ -270,8 +267,7 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
         Quad q;
         for (std::size_t k = 0; k < 4; ++k) q[k] = number[index(soup.quads[c][k])];
         const int label = soup.quad_label.empty() ? 0 : soup.quad_label[c];
-        const bool whole = q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0] && q[0] != q[2] &&
-                           q[1] != q[3];
+        const bool whole = !topology::repeats(q);
         const auto halves = halves_of(facets.points, q);
         const std::size_t before = facets.count();
         for (const Triangle& half : halves)

@@ -6,7 +6,9 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/healing/detail/facet_sides.h>
 #include <lacuna/healing/detail/soup_facets.h>
 
 #include <algorithm>
@@ -31,92 +33,43 @@ std::string place(const Vec3& p)
     return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
 }
 
-/// Side k of facet f runs from corner k to the next and is called 3·f + k.
-class Sides {
-public:
-    explicit Sides(const Facets& facets) : facets_(facets), segment_(3 * facets.count())
-    {
-        // Bucket sides by their lower point, then sort each small bucket by the other: linear in the facets.
-        std::vector<Index> start(facets.points.size() + 1, 0);
-        const auto count = static_cast<Index>(segment_.size());
-        for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
-        for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-        sides_.resize(segment_.size());
-        std::vector<Index> fill(start.begin(), start.end() - 1);
-        for (Index s = 0; s < count; ++s) sides_[index(fill[index(std::min(from(s), to(s)))]++)] = s;
-        for (std::size_t p = 0; p + 1 < start.size(); ++p) {
-            const auto begin = sides_.begin() + start[p];
-            const auto end = sides_.begin() + start[p + 1];
-            const auto key = [&](Index s) { return std::pair(std::max(from(s), to(s)), s); };
-            std::sort(begin, end, [&](Index a, Index b) { return key(a) < key(b); });
-            Index last = -1;
-            for (auto it = begin; it != end; ++it) {
-                const Index other = std::max(from(*it), to(*it));
-                if (other != last) first_.push_back(static_cast<Index>(it - sides_.begin()));
-                last = other;
-                segment_[index(*it)] = static_cast<Index>(first_.size()) - 1;
-            }
-        }
-        first_.push_back(count);
-    }
+/// Do two facets, or the quads they belong to, have the same corners?
+bool on_each_other(const Facets& facets, Index f, Index g)
+{
+    const Index p = facets.quad[index(f)];
+    const Index q = facets.quad[index(g)];
+    if ((p < 0) != (q < 0)) return false;
+    const auto same = [](auto a, auto b) {
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        return a == b;
+    };
+    return p < 0 ? same(facets.corner[index(f)], facets.corner[index(g)])
+                 : same(facets.quads[index(p)], facets.quads[index(q)]);
+}
 
-    [[nodiscard]] Index from(Index side) const { return facets_.corner[index(side) / 3][index(side) % 3]; }
-    [[nodiscard]] Index to(Index side) const
-    {
-        return facets_.corner[index(side) / 3][(index(side) + 1) % 3];
+/// The only other side of the same label on the side's segment; -1 if there is none, there are several, or a
+/// facet of another label branches off.
+Index partner(const Facets& facets, const FacetSides& sides, Index side)
+{
+    Index found = -1;
+    const auto here = sides.on(sides.segment(side));
+    for (const Index other : here) {
+        if (other == side || facets.label[index(other) / 3] != facets.label[index(side) / 3]) continue;
+        if (found >= 0) return -1;
+        found = other;
     }
-    [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
-    [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
-    /// The sides on a segment, in order of facet.
-    [[nodiscard]] std::span<const Index> on(Index segment) const
-    {
-        const auto begin = index(first_[index(segment)]);
-        return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
-    }
-    /// The only other side of the same label on the side's segment; -1 if there is none, there are several,
-    /// or a facet of another label branches off.
-    [[nodiscard]] Index partner(Index side) const
-    {
-        Index found = -1;
-        const auto here = on(segment(side));
-        for (const Index other : here) {
-            if (other == side || facets_.label[index(other) / 3] != facets_.label[index(side) / 3]) continue;
-            if (found >= 0) return -1;
-            found = other;
-        }
-        if (found < 0 || here.size() == 2) return found;
-        for (const Index other : here)
-            if (other != side && other != found && !on_each_other(other / 3, side / 3) &&
-                !on_each_other(other / 3, found / 3))
-                return -1;
-        return found;
-    }
-
-private:
-    /// Do two facets, or the quads they belong to, have the same corners?
-    [[nodiscard]] bool on_each_other(Index f, Index g) const
-    {
-        const Index p = facets_.quad[index(f)];
-        const Index q = facets_.quad[index(g)];
-        if ((p < 0) != (q < 0)) return false;
-        const auto same = [](auto a, auto b) {
-            std::sort(a.begin(), a.end());
-            std::sort(b.begin(), b.end());
-            return a == b;
-        };
-        return p < 0 ? same(facets_.corner[index(f)], facets_.corner[index(g)])
-                     : same(facets_.quads[index(p)], facets_.quads[index(q)]);
-    }
-
-    const Facets& facets_;
-    std::vector<Index> segment_; ///< of each side
-    std::vector<Index> sides_;   ///< grouped by segment
-    std::vector<Index> first_;   ///< start of each segment in sides_
-};
+    if (found < 0 || here.size() == 2) return found;
+    for (const Index other : here)
+        if (other != side && other != found && !on_each_other(facets, other / 3, side / 3) &&
+            !on_each_other(facets, other / 3, found / 3))
+            return -1;
+    return found;
+}
 
 /// Unit normals. A facet so thin that moving its points by the tolerance could turn it by the feature angle
 /// takes the normal of its neighbour across its longest side.
-std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double feature,
+std::vector<Vec3> normals_of(const Facets& facets, const FacetSides& sides, double feature,
                              const RunContext& context)
 {
     const double least_height = facets.tolerance / std::sin(std::min(feature, std::numbers::pi / 2));
@@ -142,10 +95,9 @@ std::vector<Vec3> normals_of(const Facets& facets, const Sides& sides, double fe
     // Thin facets may be adjacent: repeat while some get a normal.
     for (bool learnt = true; learnt && !thin.empty();) {
         check_cancelled(context);
-        learnt = false;
         std::vector<std::pair<Index, Vec3>> found;
         for (const Index f : thin) {
-            const Index other = sides.partner(longest[index(f)]);
+            const Index other = partner(facets, sides, longest[index(f)]);
             if (other < 0 || normal[index(other) / 3].isZero(0)) continue;
             const bool agree = sides.from(other) != sides.from(longest[index(f)]);
             found.emplace_back(f, agree ? normal[index(other) / 3] : Vec3(-normal[index(other) / 3]));
@@ -163,7 +115,7 @@ struct Flood {
     Index faces = 0;
 };
 
-Flood flood_faces(const Facets& facets, const Sides& sides, double feature, const RunContext& context)
+Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     const std::vector<Vec3> normal = normals_of(facets, sides, feature, context);
     const double least_cosine = std::cos(std::min(feature + kAngleSlack, std::numbers::pi));
@@ -181,7 +133,7 @@ Flood flood_faces(const Facets& facets, const Sides& sides, double feature, cons
             as_given += (flood.flipped[index(f)] ? -1 : 1) *
                         area_vector(facets.points, facets.corner[index(f)]).norm();
             for (Index side = 3 * f; side < 3 * f + 3; ++side) {
-                const Index other = sides.partner(side);
+                const Index other = partner(facets, sides, side);
                 if (other < 0) continue;
                 const Index g = other / 3;
                 const bool agree = sides.from(other) != sides.from(side);
@@ -259,7 +211,7 @@ void add_faces(topology::Model& model, const Facets& facets, const Flood& flood,
 /// Chains the segments between faces into edges.
 class Chains {
 public:
-    Chains(topology::Model& model, const Sides& sides, const Flood& flood, double feature,
+    Chains(topology::Model& model, const FacetSides& sides, const Flood& flood, double feature,
            const RunContext& context)
         : model_(model),
           sides_(sides),
@@ -279,12 +231,12 @@ public:
     /// Add the edges in the order of faces, each with the face that came first on its left.
     void add_edges(const Flood& flood)
     {
-        std::vector<Index> order(flood.face.size());
-        for (std::size_t f = 0; f < order.size(); ++f) order[f] = static_cast<Index>(f);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](Index a, Index b) { return flood.face[index(a)] < flood.face[index(b)]; });
+        const Incidence of_face = incidence(index(flood.faces), [&](const auto& visit) {
+            for (std::size_t f = 0; f < flood.face.size(); ++f)
+                visit(index(flood.face[f]), static_cast<Index>(f));
+        });
         check_cancelled(context_);
-        for (const Index f : order) {
+        for (const Index f : of_face.items) {
             for (Index side = 3 * f; side < 3 * f + 3; ++side) {
                 const Index segment = sides_.segment(side);
                 if (kind_[index(segment)] < 0 || done_[index(segment)]) continue;
@@ -301,7 +253,6 @@ private:
     {
         std::map<std::vector<Index>, Index> kinds;
         std::vector<Index> faces;
-        std::vector<Index> degree(model_.points.size() + 1, 0);
         const auto count = static_cast<Index>(sides_.segment_count());
         for (Index s = 0; s < count; ++s) {
             const auto on = sides_.on(s);
@@ -309,22 +260,17 @@ private:
             faces.clear();
             for (const Index side : on) faces.push_back(flood.face[index(side) / 3]);
             std::sort(faces.begin(), faces.end());
-            bool border = false;
-            for (const Index face : faces)
-                border = border || std::count(faces.begin(), faces.end(), face) != 2;
-            if (!border) continue;
+            const auto is_twice = [&](Index face) { return std::ranges::count(faces, face) == 2; };
+            if (std::ranges::all_of(faces, is_twice)) continue;
             kind_[index(s)] = kinds.try_emplace(faces, static_cast<Index>(kinds.size())).first->second;
-            ++degree[index(ends(s).first) + 1];
-            ++degree[index(ends(s).second) + 1];
         }
-        for (std::size_t p = 1; p < degree.size(); ++p) degree[p] += degree[p - 1];
-        first_ = degree;
-        at_.resize(index(degree.back()));
-        for (Index s = 0; s < count; ++s) {
-            if (kind_[index(s)] < 0) continue;
-            at_[index(degree[index(ends(s).first)]++)] = s;
-            at_[index(degree[index(ends(s).second)]++)] = s;
-        }
+        at_ = incidence(model_.points.size(), [&](const auto& visit) {
+            for (Index s = 0; s < count; ++s) {
+                if (kind_[index(s)] < 0) continue;
+                visit(index(ends(s).first), s);
+                visit(index(ends(s).second), s);
+            }
+        });
     }
 
     [[nodiscard]] std::pair<Index, Index> ends(Index segment) const
@@ -337,11 +283,7 @@ private:
         const auto [a, b] = ends(segment);
         return a == point ? b : a;
     }
-    [[nodiscard]] std::span<const Index> segments_at(Index point) const
-    {
-        return std::span(at_).subspan(index(first_[index(point)]),
-                                      index(first_[index(point) + 1] - first_[index(point)]));
-    }
+    [[nodiscard]] std::span<const Index> segments_at(Index point) const { return at_.of(index(point)); }
 
     [[nodiscard]] bool ends_chains(Index point) const
     {
@@ -402,12 +344,12 @@ private:
     }
 
     topology::Model& model_;
-    const Sides& sides_;
+    const FacetSides& sides_;
     const RunContext& context_;
     double least_cosine_;
-    std::vector<Index> kind_;       ///< of each segment; -1 within a face
-    std::vector<bool> done_;        ///< segments already chained
-    std::vector<Index> first_, at_; ///< edge segments at each point
+    std::vector<Index> kind_; ///< of each segment; -1 within a face
+    std::vector<bool> done_;  ///< segments already chained
+    Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;
     std::vector<VertexId> vertex_at_;
 };
@@ -427,7 +369,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     const double feature = options.feature_angle * std::numbers::pi / 180;
     const Facets facets = facets_of(soup, options.tolerance, context);
     check_cancelled(context);
-    const Sides sides(facets);
+    const FacetSides sides(facets.corner, facets.points.size());
     check_cancelled(context);
     const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature,
                                     context);

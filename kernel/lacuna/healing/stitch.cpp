@@ -159,12 +159,8 @@ void Stitcher::collapse_short_edges()
 
 void Stitcher::settle_points()
 {
-    const std::size_t edges = model().edges.size();
-    std::vector<bool> gone(edges);
-    for (std::size_t e = 0; e < edges; ++e) gone[e] = loose_.is_gone(EdgeId(e));
     const LooseModel::Shrunk shrunk = loose_.settle_points();
-    for (std::size_t e = 0; e < edges; ++e)
-        if (!gone[e] && loose_.is_gone(EdgeId(e))) ++report_.edges_collapsed;
+    report_.edges_collapsed += shrunk.edges;
     for (const FaceId f : shrunk.faces) {
         ++report_.faces_left_out;
         report_.notes.push_back(name_of(model(), f) + " is no wider than the tolerance of " +

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/t_junctions.h>
 
+#include <lacuna/healing/detail/facet_sides.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace lacuna::healing {
 
@@ -13,48 +13,20 @@ namespace {
 /// Facets between two cancellation checks. Rule of thumb.
 constexpr std::size_t kCutBetweenPolls = 4096;
 
-/// Sides used once, in order: 3·facet + k runs from corner k to the next.
-std::vector<Index> free_sides(std::span<const Triangle> facets, std::size_t points)
-{
-    const auto from = [&](Index s) { return facets[index(s) / 3][index(s) % 3]; };
-    const auto to = [&](Index s) { return facets[index(s) / 3][(index(s) + 1) % 3]; };
-    // Bucket sides by their lower point, then sort each small bucket by the other.
-    std::vector<Index> start(points + 1, 0);
-    const auto count = static_cast<Index>(3 * facets.size());
-    for (Index s = 0; s < count; ++s) ++start[index(std::min(from(s), to(s))) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Index> sides(index(count));
-    std::vector<Index> fill(start.begin(), start.end() - 1);
-    for (Index s = 0; s < count; ++s) sides[index(fill[index(std::min(from(s), to(s)))]++)] = s;
-    std::vector<Index> free;
-    for (std::size_t p = 0; p < points; ++p) {
-        const auto heap = std::span(sides).subspan(index(start[p]), index(start[p + 1] - start[p]));
-        const auto other = [&](Index s) { return std::max(from(s), to(s)); };
-        std::sort(heap.begin(), heap.end(), [&](Index a, Index b) { return other(a) < other(b); });
-        for (std::size_t i = 0; i < heap.size();) {
-            std::size_t k = i + 1;
-            while (k < heap.size() && other(heap[k]) == other(heap[i])) ++k;
-            if (k == i + 1) free.push_back(heap[i]);
-            i = k;
-        }
-    }
-    std::sort(free.begin(), free.end());
-    return free;
-}
-
 } // namespace
 
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,
                                            const std::vector<bool>& whole, double tolerance,
                                            const RunContext& context)
 {
-    const std::vector<Index> free = free_sides(facets, points.size());
+    const FacetSides all(facets, points.size());
     check_cancelled(context);
     std::vector<Index> candidates;
     std::vector<Vec3> at;
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<std::array<Index, 3>> ends; // with the opposite corner
-    for (const Index s : free) {
+    for (Index s = 0; s < static_cast<Index>(3 * facets.size()); ++s) {
+        if (all.on(all.segment(s)).size() != 1) continue;
         const Triangle& f = facets[index(s) / 3];
         const std::size_t k = index(s) % 3;
         candidates.push_back(f[k]);

@@ -87,29 +87,24 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
 {
     std::vector<Index> result = weld_equal(points);
     if (!(tolerance > 0) || points.empty()) return result;
-    Vec3 low = points.front();
-    Vec3 high = low;
-    for (const Vec3& p : points) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(p);
     // A tolerance below the resolution of the coordinates would overflow the cell numbers; cells are then
     // wider.
-    const double width = std::max(kCellWidth * tolerance, (high - low).maxCoeff() * std::ldexp(1.0, -52));
+    const double width = std::max(kCellWidth * tolerance, box.sizes().maxCoeff() * std::ldexp(1.0, -52));
+    const auto cell_at = [&](const Vec3& p) {
+        const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();
+        return Cell{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
+                    static_cast<std::int64_t>(cell.z())};
+    };
     std::size_t different = 0;
     for (std::size_t i = 0; i < points.size(); ++i) different += result[i] == static_cast<Index>(i) ? 1 : 0;
     CellTable table(points.size(), different);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (i % kPointsBetweenPolls == 0) check_cancelled(context);
         if (result[i] != static_cast<Index>(i)) continue;
-        Cell least, most;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto axis = static_cast<Eigen::Index>(k);
-            least[k] = static_cast<std::int64_t>(
-                std::floor((points[i][axis] - tolerance - low[axis]) / width));
-            most[k] = static_cast<std::int64_t>(
-                std::floor((points[i][axis] + tolerance - low[axis]) / width));
-        }
+        const Cell least = cell_at(points[i].array() - tolerance);
+        const Cell most = cell_at(points[i].array() + tolerance);
         Index best = -1;
         double best_distance = tolerance * tolerance;
         const auto consider = [&](Index p) {
@@ -127,12 +122,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
             result[i] = best;
             continue;
         }
-        Cell own;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto axis = static_cast<Eigen::Index>(k);
-            own[k] = static_cast<std::int64_t>(std::floor((points[i][axis] - low[axis]) / width));
-        }
-        table.add(own, static_cast<Index>(i));
+        table.add(cell_at(points[i]), static_cast<Index>(i));
     }
     for (Index& p : result) p = result[static_cast<std::size_t>(p)];
     return result;

@@ -24,6 +24,9 @@ constexpr Quad kTetFaces[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0
 constexpr Quad kPyramidFaces[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
 constexpr Quad kWedgeFaces[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
 
+/// 0 to 3: a tetrahedron, pyramid, wedge or hexahedron, of 4, 5, 6 or 8 corners.
+int solid_number(const CellShapeInfo& info) { return info.corners == 8 ? 3 : info.corners - 4; }
+
 } // namespace
 
 const CellShapeInfo& shape_info(CellShape shape) { return kInfos[static_cast<std::size_t>(shape)]; }
@@ -44,32 +47,15 @@ std::span<const std::pair<int, int>> side_corners(CellShape shape)
     const CellShapeInfo& info = shape_info(shape);
     if (info.dimension == 1) return kLineSides;
     if (info.dimension == 2) return info.corners == 3 ? std::span<const Side>(kTriangleSides) : kQuadSides;
-    switch (info.corners) {
-    case 4:
-        return kTetSides;
-    case 5:
-        return kPyramidSides;
-    case 6:
-        return kWedgeSides;
-    default:
-        return kSidesOfHex;
-    }
+    static constexpr std::span<const Side> kOfSolid[] = {kTetSides, kPyramidSides, kWedgeSides, kSidesOfHex};
+    return kOfSolid[solid_number(info)];
 }
 
 std::span<const Quad> face_corners(CellShape shape)
 {
     const CellShapeInfo& info = shape_info(shape);
-    if (info.dimension < 3) return {};
-    switch (info.corners) {
-    case 4:
-        return kTetFaces;
-    case 5:
-        return kPyramidFaces;
-    case 6:
-        return kWedgeFaces;
-    default:
-        return kHexSides;
-    }
+    static constexpr std::span<const Quad> kOfSolid[] = {kTetFaces, kPyramidFaces, kWedgeFaces, kHexSides};
+    return info.dimension < 3 ? std::span<const Quad>() : kOfSolid[solid_number(info)];
 }
 
 } // namespace lacuna::mesh

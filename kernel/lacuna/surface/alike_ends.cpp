@@ -129,7 +129,7 @@ private:
     {
         for (const FaceId face : volume_.faces(role)) {
             std::map<EdgeId, int> times;
-            for (const EdgeUse& use : all_uses(model_[face])) ++times[use.edge];
+            for (const EdgeUse& use : uses_of(model_[face])) ++times[use.edge];
             for (const Loop& loop : model_[face].loops) {
                 Walk walk;
                 for (const EdgeUse& use : loop.uses) {

@@ -18,7 +18,7 @@ namespace {
 double sag_of_edges(const Model& model, FaceId face)
 {
     double most = 0;
-    for (const EdgeUse& use : all_uses(model[face])) {
+    for (const EdgeUse& use : uses_of(model[face])) {
         const Edge& edge = model[use.edge];
         if (edge.curve == nullptr) continue;
         std::vector<double> params;

@@ -31,7 +31,7 @@ FineFacets copy_of(const Model& model, FaceId face)
     const auto own = [&](Index p) { return local.at(p); };
     for (const Triangle& t : model[face].triangles)
         fine.triangles.push_back({own(t[0]), own(t[1]), own(t[2])});
-    for (const EdgeUse& use : all_uses(model[face])) {
+    for (const EdgeUse& use : uses_of(model[face])) {
         auto [found, fresh] = fine.edges.try_emplace(use.edge);
         if (!fresh) continue;
         const std::vector<Index>& chain = model[use.edge].points;

@@ -36,7 +36,7 @@ public:
             const Face& face = model_.faces[f];
             const bool end = volume.role[f] != Role::wall;
             if (!face.keeps_nodes || !has_cells_to_keep(face, wedges && end)) continue;
-            for (const EdgeUse& use : all_uses(face)) of_quads_.insert(use.edge);
+            for (const EdgeUse& use : uses_of(face)) of_quads_.insert(use.edge);
         }
         const auto is_kept = [&](EdgeId edge) { return kept_.contains(edge); };
         source_ = chain_nodes(model_, link.source, is_kept);

@@ -247,7 +247,7 @@ private:
         const Face& f = base_.model[face];
         std::set<EdgeId> once;
         bool seam = false;
-        for (const EdgeUse& use : all_uses(f)) seam = !once.insert(use.edge).second || seam;
+        for (const EdgeUse& use : uses_of(f)) seam = !once.insert(use.edge).second || seam;
         if (!seam) return found->second;
         Eigen::AlignedBox2d box;
         for (const auto& corners : f.uv) {
@@ -303,7 +303,7 @@ private:
     {
         std::map<EdgeUse, FaceId> left;
         for (const FaceId face : result_.volume->faces(role)) {
-            for (const EdgeUse& use : all_uses(model()[face])) left[use] = face;
+            for (const EdgeUse& use : uses_of(model()[face])) left[use] = face;
         }
         return left;
     }

@@ -25,7 +25,7 @@ EndsMap::EndsMap(const OpenVolume& volume, std::span<const LinkingSurface> links
 void EndsMap::lay_source()
 {
     const Model& model = volume_.model;
-    source_facets_ = facets_of(model, volume_.faces(Role::source));
+    source_facets_ = facet_set(model, volume_.faces(Role::source));
     const geometry::Flattened flat = geometry::flatten(model.points, source_facets_.triangles);
     one_to_one_ = !flat.folded;
     source_.assign(model.points.size(), Vec2::Zero());
@@ -41,7 +41,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
 {
     const Model& model = volume_.model;
     geometry::HarmonicProblem problem;
-    const std::vector<Triangle> triangles = facets_of(model, volume_.faces(Role::target)).triangles;
+    const std::vector<Triangle> triangles = topology::facets_of(model, volume_.faces(Role::target));
     std::map<Index, Vec2> fixed;
     const auto arc_of = [&](const std::vector<Index>& line) {
         return geometry::arc_lengths(places_at(model, line));

@@ -116,7 +116,7 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
                                           const RunContext& context)
 {
     const Model& model = volume.model;
-    const std::vector<Triangle> facets = facets_of(model, link.walls).triangles;
+    const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
     // The mean difference, on the circle, between the free coordinate s and the share of the target's length.
@@ -149,7 +149,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
                        const RunContext& context)
 {
     const Model& model = volume.model;
-    facets_ = facets_of(model, link.walls);
+    facets_ = facet_set(model, link.walls);
     const std::vector<Triangle>& facets = facets_.triangles;
     std::map<Index, Vec2> fixed;
     double end_branch = 0;
@@ -398,7 +398,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
     std::vector<Ring> pieces;
     const auto uses = edge_uses(model);
     for (const FaceId wall : link.walls) {
-        for (const EdgeUse& use : all_uses(model[wall])) {
+        for (const EdgeUse& use : uses_of(model[wall])) {
             if (!taken.insert(use.edge).second) continue;
             const std::vector<FaceUse>& beside = uses[use.edge.index()];
             const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;

@@ -69,7 +69,7 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
 {
     std::set<std::size_t> touched;
     for (const FaceId face : part) {
-        for (const EdgeUse& use : all_uses(model[face])) {
+        for (const EdgeUse& use : uses_of(model[face])) {
             const auto found = of.rim.find(use.edge);
             if (found != of.rim.end()) touched.insert(found->second);
         }

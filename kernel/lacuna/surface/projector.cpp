@@ -10,7 +10,7 @@ namespace lacuna::surface {
 
 using namespace topology;
 
-FacetSet facets_of(const Model& model, std::span<const FaceId> faces)
+FacetSet facet_set(const Model& model, std::span<const FaceId> faces)
 {
     FacetSet facets;
     for (const FaceId face : faces) {
@@ -55,7 +55,7 @@ Vec3 point_on_facets(const Model& model, FaceId face, const FacetPosition& place
 }
 
 Projector::Projector(const Model& model, std::vector<FaceId> faces)
-    : model_(&model), facets_(facets_of(model, faces)), tree_(model.points, facets_.triangles)
+    : model_(&model), facets_(facet_set(model, faces)), tree_(model.points, facets_.triangles)
 {
     for (const FaceId face : faces) {
         if (model[face].surface != nullptr) trimmed_.try_emplace(face, model, face);

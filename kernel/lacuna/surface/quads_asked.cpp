@@ -74,7 +74,7 @@ double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double 
 double sides_round(const Model& model, FaceId face, const SizeField& size, double most)
 {
     double sides = 0;
-    for (const EdgeUse& use : all_uses(model[face])) {
+    for (const EdgeUse& use : uses_of(model[face])) {
         const std::vector<Index>& points = model[use.edge].points;
         for (std::size_t i = 0; i + 1 < points.size() && sides <= most; ++i)
             sides += asked_on(Segment{model.at(points[i]), model.at(points[i + 1])}, size, most);

@@ -34,7 +34,7 @@ SeedTask::SeedTask(const OpenVolume& of, std::span<const LinkingSurface> links, 
 std::vector<EdgeId> edges_of(const Model& model, FaceId face)
 {
     std::vector<EdgeId> edges;
-    for (const EdgeUse& use : all_uses(model[face])) edges.push_back(use.edge);
+    for (const EdgeUse& use : uses_of(model[face])) edges.push_back(use.edge);
     return edges;
 }
 

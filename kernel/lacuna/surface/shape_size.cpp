@@ -152,7 +152,7 @@ public:
     {
         double rim = 0;
         std::map<EdgeId, int> uses;
-        for (const EdgeUse& use : all_uses(model[face])) ++uses[use.edge];
+        for (const EdgeUse& use : uses_of(model[face])) ++uses[use.edge];
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
         for (const auto& [edge, count] : uses) {

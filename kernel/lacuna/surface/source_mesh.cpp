@@ -162,7 +162,7 @@ private:
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
-        for (const EdgeUse& use : all_uses(model_[face])) {
+        for (const EdgeUse& use : uses_of(model_[face])) {
             const std::vector<Index> points = use_points(model_, use), nodes = nodes_along(use);
             for (std::size_t i = 0; i < points.size(); ++i) node_of_point[points[i]] = nodes[i];
         }

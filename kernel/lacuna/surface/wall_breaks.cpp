@@ -33,7 +33,7 @@ bool has_net(const Model& model, const LinkingSurface& link)
         for (const EdgeUse& use : line.line.uses) take(use);
     }
     for (const FaceId wall : link.walls) {
-        for (const EdgeUse& use : all_uses(model[wall])) {
+        for (const EdgeUse& use : uses_of(model[wall])) {
 
             if (!known.contains(use_from(model, use)) || !known.contains(use_to(model, use))) return true;
         }
@@ -50,7 +50,7 @@ int layers_between_rings(const Model& model, const LinkingSurface& link)
     for (const LinkingLine& line : link.lines)
         for (const EdgeUse& use : line.line.uses) along.insert(use.edge);
     for (const FaceId wall : link.walls) {
-        for (const EdgeUse& use : all_uses(model[wall])) {
+        for (const EdgeUse& use : uses_of(model[wall])) {
             if (along.contains(use.edge)) continue;
             crossed.insert({use_from(model, use), use_to(model, use)});
         }

@@ -44,7 +44,7 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
             if (walls.contains(use.face)) faces.push_back(use.face);
         }
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            for (const EdgeUse& use : all_uses(model[faces[i]])) {
+            for (const EdgeUse& use : uses_of(model[faces[i]])) {
                 if (borders.contains(use.edge)) continue;
                 for (const FaceUse& other : uses[use.edge.index()]) {
                     const bool known = std::ranges::find(faces, other.face) != faces.end();

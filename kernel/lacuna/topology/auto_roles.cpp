@@ -5,6 +5,7 @@
 // adds them up.
 #include <lacuna/topology/auto_roles.h>
 
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/marks.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
@@ -55,8 +56,6 @@ constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
 constexpr std::size_t kNone = PatchMap::kNone;
 constexpr std::size_t kGap = kNone - 1; ///< in place of the target's rim: the walls lead to a free loop
-
-EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
 /// The patches that are ends; `kNone` for a missing end.
 struct Reading {
@@ -229,10 +228,10 @@ public:
         RoleCandidate result;
         result.cost = reading.cost;
         if (reading.source != kNone) result.irregular = irregular(reading);
+        const std::array<std::vector<FaceId>*, 3> lists{&result.roles.walls, &result.roles.source,
+                                                        &result.roles.target};
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            std::vector<FaceId>& list = is_source(p, reading)   ? result.roles.source
-                                        : is_target(p, reading) ? result.roles.target
-                                                                : result.roles.walls;
+            std::vector<FaceId>& list = *lists[end_of(p, reading)];
             list.insert(list.end(), map_.patches[p].faces.begin(), map_.patches[p].faces.end());
         }
         result.value = class_of(reading);
@@ -260,7 +259,7 @@ private:
                              : (map_.patches[reading.target].centre - source.centre).stableNormalized();
         double along = 0, area = 0;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            if (is_source(p, reading) || is_target(p, reading)) continue;
+            if (end_of(p, reading) != 0) continue;
             along += way.dot(map_.patches[p].spread * way);
             area += map_.patches[p].area;
         }
@@ -278,16 +277,17 @@ private:
     /// Cost of sharp edges between walls that do not run from end to end.
     [[nodiscard]] double cost_of_loose_edges(const Reading& reading) const
     {
-        const auto end_of = [&](std::size_t p) {
-            return is_source(p, reading) ? 1 : is_target(p, reading) ? 2 : 0;
-        };
+        std::vector<EdgeId> sharp; // where two walls meet at an angle
+        std::ranges::copy_if(sharp_, std::back_inserter(sharp), [&](EdgeId e) {
+            const auto is_wall = [&](std::size_t use) { return end_of(map_.of_use[use], reading) == 0; };
+            return is_wall(2 * e.index()) && is_wall(2 * e.index() + 1);
+        });
         geometry::UnionFind hang(model_.vertices.size());
-        for (const EdgeId e : sharp_edges(reading))
-            hang.unite_least(model_[e].from.index(), model_[e].to.index());
-        std::map<std::size_t, int> touched; // by connected set, the ends it touches
-        for (const EdgeId e : sharp_edges(reading)) touched[hang.find(model_[e].from.index())] |= 0;
+        for (const EdgeId e : sharp) hang.unite_least(model_[e].from.index(), model_[e].to.index());
+        std::map<std::size_t, unsigned> touched; // by connected set, the ends it touches
+        for (const EdgeId e : sharp) touched[hang.find(model_[e].from.index())] |= 0;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            const int end = end_of(p);
+            const unsigned end = end_of(p, reading);
             if (end == 0) continue;
             for (const VertexId v : map_.patches[p].vertices) {
                 const auto found = touched.find(hang.find(v.index()));
@@ -296,42 +296,23 @@ private:
         }
         // The walls of a step run from one part of an end to another.
         const bool steps = reading.step != kNone;
-        const int wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1 : 0) |
-                                       (stepped_[reading.step].target.size() > 1 ? 2 : 0)
-                                 : (reading.target == kNone ? 1 : 3);
+        const unsigned wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1U : 0U) |
+                                            (stepped_[reading.step].target.size() > 1 ? 2U : 0U)
+                                      : (reading.target == kNone ? 1U : 3U);
         double cost = 0;
         for (const auto& [root, ends] : touched)
             cost += (steps ? (ends & wanted) != 0 : (ends & wanted) == wanted) ? 0 : kLoose;
         return cost;
     }
 
-    [[nodiscard]] bool is_source(std::size_t p, const Reading& reading) const
+    /// The end of a candidate that a patch belongs to: 1 the source, 2 the target; 0: it is a wall.
+    [[nodiscard]] unsigned end_of(std::size_t p, const Reading& reading) const
     {
-        return reading.step == kNone ? p == reading.source : has(stepped_[reading.step].source, p);
-    }
-
-    [[nodiscard]] bool is_target(std::size_t p, const Reading& reading) const
-    {
-        return reading.step == kNone ? p == reading.target : has(stepped_[reading.step].target, p);
-    }
-
-    static bool has(const std::vector<std::size_t>& all, std::size_t p)
-    {
-        return std::binary_search(all.begin(), all.end(), p); // found in ascending order
-    }
-
-    /// Edges where two walls meet at an angle.
-    [[nodiscard]] std::vector<EdgeId> sharp_edges(const Reading& reading) const
-    {
-        std::vector<EdgeId> found;
-        for (const EdgeId e : sharp_) {
-            const std::size_t a = map_.of_use[2 * e.index()], b = map_.of_use[2 * e.index() + 1];
-            const auto is_wall = [&](std::size_t p) {
-                return !is_source(p, reading) && !is_target(p, reading);
-            };
-            if (is_wall(a) && is_wall(b)) found.push_back(e);
-        }
-        return found;
+        if (reading.step == kNone) return p == reading.source ? 1 : p == reading.target ? 2 : 0;
+        const SteppedEnds& ends = stepped_[reading.step]; // both ascending
+        return std::ranges::binary_search(ends.source, p)   ? 1
+               : std::ranges::binary_search(ends.target, p) ? 2
+                                                            : 0;
     }
 
     /// Lower bound of the irregular nodes of one end's quads, for the end with fewer loops, which is the one
@@ -458,7 +439,7 @@ private:
     [[nodiscard]] std::optional<double> cost_of_no_end() const
     {
         double cost = 0;
-        const auto parts = connected_parts(model_, all_faces());
+        const auto parts = connected_parts(model_, all_faces(model_));
         if (parts.empty()) return std::nullopt;
         DirectedSides sides(model_.points.size());
         for (const std::vector<FaceId>& part : parts) {
@@ -480,8 +461,7 @@ private:
         std::vector<double> size;
         for (const Rim* rim : {&first, &second}) {
             const std::vector<Vec3> points = loop_places(model_, rim->uses);
-            double length = 0;
-            for (const EdgeUse& use : rim->uses) length += edge_length(model_, use.edge);
+            const double length = length_of(model_, rim->uses);
             Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
             for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
             for (std::size_t i = 0; i < points.size(); ++i)
@@ -492,16 +472,14 @@ private:
             cost += bulge / length;
             centre.push_back(mean);
             size.push_back(length);
-            double along = 0, whole = 0;
+            double along = 0;
             for (const EdgeUse& use : rim->uses) {
                 const FaceId wall = uses_[use.edge.index()].front().face;
                 const Vec3 normal = face_area_vector(model_, wall).stableNormalized();
                 const double flat = face_area_vector(model_, wall).norm() / face_area(model_, wall);
-                const double l = edge_length(model_, use.edge);
-                along += l * flat * std::abs(normal.dot(area.stableNormalized()));
-                whole += l;
+                along += edge_length(model_, use.edge) * flat * std::abs(normal.dot(area.stableNormalized()));
             }
-            if (along > 0.9 * whole) return std::nullopt;
+            if (along > 0.9 * length) return std::nullopt;
         }
         if ((centre[0] - centre[1]).norm() < 1e-3 * std::max(size[0], size[1])) return std::nullopt;
         return cost;
@@ -530,14 +508,6 @@ private:
     }
 
     // --- checks of the walls between the ends -------------------------------------------------------
-
-    [[nodiscard]] std::vector<FaceId> all_faces() const
-    {
-        std::vector<FaceId> faces;
-        for (const SmoothPatch& patch : map_.patches)
-            faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
-        return faces;
-    }
 
     /// Whether a wall of the candidate in `part_of_` uses an edge in this direction.
     [[nodiscard]] bool on_wall(EdgeUse use) const
@@ -648,36 +618,29 @@ private:
         return both_bare ? VolumeClass::II : VolumeClass::III;
     }
 
-    [[nodiscard]] std::string names(const std::vector<FaceId>& faces) const
-    {
-        return names_of(model_, faces);
-    }
-
     [[nodiscard]] std::vector<std::string> reasons(const Reading& reading, const Roles& roles) const
     {
+        const std::string source = names_of(model_, roles.source), target = names_of(model_, roles.target);
         if (reading.source == kNone) {
             const std::size_t tubes = connected_parts(model_, roles.walls).size();
             return {"all faces form " + std::to_string(tubes) + (tubes == 1 ? " tube" : " tubes") +
                     " with a free loop at either side: source and target are missing"};
         }
         if (reading.target == kNone) {
-            return {names(roles.source) +
-                    " has walls on its whole rim, and each ring of walls ends in one free "
-                    "loop: the target is missing"};
+            return {source + " has walls on its whole rim, and each ring of walls ends in one free "
+                             "loop: the target is missing"};
         }
         if (reading.step != kNone && roles.source.size() > 1) {
-            return {"flat faces with the same normal, " + names(roles.source) +
-                    ", are one end, and the opposite faces " + names(roles.target) +
-                    " are the other: both at several heights"};
+            return {"flat faces with the same normal, " + source + ", are one end, and the opposite faces " +
+                    target + " are the other: both at several heights"};
         }
         if (reading.step != kNone) {
-            return {"the flat faces opposite " + names(roles.source) +
-                    " are the other end, at several heights: " + names(roles.target)};
+            return {"the flat faces opposite " + source +
+                    " are the other end, at several heights: " + target};
         }
         const std::size_t loops = map_.patches[reading.source].rims.size();
-        return {"two ends, " + names(roles.source) + " and " + names(roles.target) + ", with " +
-                    std::to_string(loops) + (loops == 1 ? " loop each" : " loops each") +
-                    " and no vertex in common",
+        return {"two ends, " + source + " and " + target + ", with " + std::to_string(loops) +
+                    (loops == 1 ? " loop each" : " loops each") + " and no vertex in common",
                 roles.walls.empty() ? "no faces between them"
                                     : "every other face joins a loop of one end to a loop of the other"};
     }
@@ -704,15 +667,11 @@ private:
 std::string in_words(const Model& model, const Roles& roles, VolumeClass value)
 {
     const auto list = [&](std::string_view role, const std::vector<FaceId>& faces) {
-        std::string text;
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            if (i == kMostFaces) {
-                text += ", …";
-                break;
-            }
-            text += (i == 0 ? "" : ", ") + std::to_string(model[faces[i]].tag);
-        }
-        return faces.empty() ? std::string() : " " + std::string(role) + " = {" + text + "}";
+        const std::string text = full_list(std::span(faces).first(std::min(faces.size(), kMostFaces)),
+                                           [&](FaceId face) { return std::to_string(model[face].tag); });
+        return faces.empty()
+                   ? std::string()
+                   : " " + std::string(role) + " = {" + text + (faces.size() > kMostFaces ? ", …}" : "}");
     };
     return "class " + std::string(to_string(value)) + ":" + list("source", roles.source) +
            list("target", roles.target) + list("walls", roles.walls);

@@ -6,6 +6,7 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/hollows.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,22 +32,11 @@ constexpr double kFacesAsEnd = 2e-4;
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                    const std::vector<FaceId>& from, const std::vector<FaceId>& without)
 {
-    std::vector<bool> taken(model.faces.size(), false);
-    for (const FaceId face : from) taken[face.index()] = true;
-    for (const FaceId face : without) taken[face.index()] = true;
-    std::vector<FaceId> front = from, result;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-        for (const Loop& loop : model[front[i]].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                for (const FaceUse& other : uses[use.edge.index()]) {
-                    if (taken[other.face.index()]) continue;
-                    taken[other.face.index()] = true;
-                    front.push_back(other.face);
-                    result.push_back(other.face);
-                }
-            }
-        }
-    }
+    std::vector<bool> wanted(model.faces.size(), true);
+    for (const FaceId face : from) wanted[face.index()] = false;
+    for (const FaceId face : without) wanted[face.index()] = false;
+    std::vector<FaceId> result = spread_over(model, uses, from, wanted);
+    result.erase(result.begin(), result.begin() + std::ssize(from));
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -80,8 +70,11 @@ public:
         }
         std::map<std::size_t, std::vector<FaceId>> by_root;
         for (const FaceId face : reached) by_root[hang.find(face.index())].push_back(face);
-        for (auto& [root, faces] : by_root) sheets_.push_back(std::move(faces));
-        for (const FaceId face : ends_) add(face, 1);
+        for (auto& [root, faces] : by_root) {
+            edges_.push_back(edges_of(faces));
+            sheets_.push_back(std::move(faces));
+        }
+        for (const EdgeId edge : edges_of(ends_)) ++count_[edge.index()];
     }
 
     /// Whether an edge is used more than twice.
@@ -92,12 +85,8 @@ public:
     /// edge would be used more than twice by it and the ends.
     std::optional<std::vector<Choice>> choices()
     {
-        for (std::size_t s = 0; s < sheets_.size(); ++s) {
-            add_sheet(s, 1);
-            const bool alone = fits(s);
-            add_sheet(s, -1);
-            if (!alone) return std::nullopt;
-        }
+        for (std::size_t s = 0; s < sheets_.size(); ++s)
+            if (!may_add(s)) return std::nullopt;
         chosen_.assign(sheets_.size(), false);
         if (!search(0)) return std::nullopt;
         return std::move(found_);
@@ -109,43 +98,41 @@ public:
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
             if (choice.sheets[s]) add_sheet(s, 1);
         }
-        EdgeId taken;
-        for_edges(sheet, [&](EdgeId edge) {
-            if (!taken.valid() && count_[edge.index()] >= 2) taken = edge;
-        });
+        const auto taken = std::ranges::find_if(edges_[sheet],
+                                                [&](EdgeId edge) { return count_[edge.index()] >= 2; });
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
             if (choice.sheets[s]) add_sheet(s, -1);
         }
-        return taken;
+        return taken == edges_[sheet].end() ? EdgeId() : *taken;
     }
 
 private:
-    template <class Visit>
-    void for_edges(std::size_t sheet, const Visit& visit) const
+    /// The edge of every use of the faces.
+    [[nodiscard]] std::vector<EdgeId> edges_of(const std::vector<FaceId>& faces) const
     {
-        for (const FaceId face : sheets_[sheet]) {
-            for (const Loop& loop : model_[face].loops)
-                for (const EdgeUse& use : loop.uses) visit(use.edge);
-        }
-    }
-
-    void add(FaceId face, int sign)
-    {
-        for (const Loop& loop : model_[face].loops)
-            for (const EdgeUse& use : loop.uses) count_[use.edge.index()] += sign;
+        std::vector<EdgeId> edges;
+        for (const FaceId face : faces)
+            for (const EdgeUse& use : uses_of(model_[face])) edges.push_back(use.edge);
+        return edges;
     }
 
     void add_sheet(std::size_t sheet, int sign)
     {
-        for (const FaceId face : sheets_[sheet]) add(face, sign);
+        for (const EdgeId edge : edges_[sheet]) count_[edge.index()] += sign;
     }
 
     /// Whether adding a sheet left no edge with more than two uses.
     [[nodiscard]] bool fits(std::size_t sheet) const
     {
-        bool fits = true;
-        for_edges(sheet, [&](EdgeId edge) { fits = fits && count_[edge.index()] <= 2; });
-        return fits;
+        return std::ranges::all_of(edges_[sheet], [&](EdgeId edge) { return count_[edge.index()] <= 2; });
+    }
+
+    [[nodiscard]] bool may_add(std::size_t sheet)
+    {
+        add_sheet(sheet, 1);
+        const bool may = fits(sheet);
+        add_sheet(sheet, -1);
+        return may;
     }
 
     /// @return false if the step limit is reached.
@@ -167,13 +154,8 @@ private:
 
     void keep()
     {
-        for (std::size_t s = 0; s < sheets_.size(); ++s) {
-            if (chosen_[s]) continue;
-            add_sheet(s, 1);
-            const bool more = fits(s);
-            add_sheet(s, -1);
-            if (more) return;
-        }
+        for (std::size_t s = 0; s < sheets_.size(); ++s)
+            if (!chosen_[s] && may_add(s)) return;
         std::vector<FaceId> faces = ends_;
         for (std::size_t s = 0; s < sheets_.size(); ++s) {
             if (chosen_[s]) faces.insert(faces.end(), sheets_[s].begin(), sheets_[s].end());
@@ -191,12 +173,9 @@ private:
         try {
             Model part = extract(model_, faces);
             orient_consistently(part);
-            std::vector<FaceId> all;
+            const std::vector<FaceId> all = all_faces(part);
             Vec3 area = Vec3::Zero();
-            for (std::size_t f = 0; f < part.faces.size(); ++f) {
-                all.emplace_back(f);
-                area += face_area_vector(part, FaceId(f));
-            }
+            for (const FaceId face : all) area += face_area_vector(part, face);
             choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
         } catch (const InvalidInput&) {
             return; // these faces form no skin
@@ -208,7 +187,8 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<int> count_; ///< uses of each edge by the ends and the chosen sheets
+    std::vector<std::vector<EdgeId>> edges_; ///< of each sheet, one for each use
+    std::vector<int> count_;                 ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;
     std::size_t steps_ = 0;
@@ -285,17 +265,13 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
                                                        : reachable_from(model, uses, source, target);
     if (auto cavity = walls_of_cavity(model, uses, source, target, context)) return std::move(*cavity);
     Sheets sheets(model, uses, ends, reached, context);
-    if (!sheets.crowded()) return {reached, {}, {}, false, {}};
-    std::optional<std::vector<Choice>> choices = sheets.choices();
-    if (!choices) return {reached, {}, {}, false, {}};
-    if (source.empty() || target.empty())
+    std::optional<std::vector<Choice>> choices;
+    if (sheets.crowded()) choices = sheets.choices();
+    if (choices && (source.empty() || target.empty()))
         std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
-    if (choices->empty()) return {reached, {}, {}, false, {}};
+    if (!choices || choices->empty()) return {reached, {}, {}, false, {}};
     const double same = kSameLength * model.diagonal;
-    const auto least =
-        std::min_element(choices->begin(), choices->end(), [](const Choice& a, const Choice& b) {
-            return a.free_length < b.free_length;
-        })->free_length;
+    const double least = std::ranges::min_element(*choices, {}, &Choice::free_length)->free_length;
     std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });
     std::stable_sort(choices->begin(), choices->end(),
                      [](const Choice& a, const Choice& b) { return a.volume < b.volume; });

@@ -24,18 +24,32 @@ constexpr double kLeastSpread = 1e-3;
 
 } // namespace
 
+FacetNormals facet_normals(const Model& model, FaceId face)
+{
+    FacetNormals found;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        if (!(n.norm() > 0)) continue;
+        found.normals.push_back(n.normalized());
+        found.areas.push_back(n.norm());
+    }
+    return found;
+}
+
+std::vector<Index> corner_points(const Face& face)
+{
+    std::vector<Index> used;
+    for (const Triangle& t : face.triangles) used.insert(used.end(), t.begin(), t.end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
+}
+
 std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
     if (face.kind == "plane" || face.kind == "sphere") return {};
-    std::vector<Vec3> normals;
-    std::vector<double> areas;
-    for (const Triangle& t : face.triangles) {
-        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
-        if (!(n.norm() > 0)) continue;
-        normals.push_back(n.normalized());
-        areas.push_back(n.norm());
-    }
+    const auto [normals, areas] = facet_normals(model, id);
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
     if (spread.square[0] > kMostOff || spread.square[1] < kLeastSpread) return {};
@@ -46,10 +60,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the other
     // unknowns for the slope s of the normals. Facets are chords, so the slope is fitted again about that
     // axis.
-    std::vector<Index> used;
-    for (const Triangle& t : face.triangles) used.insert(used.end(), t.begin(), t.end());
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const std::vector<Index> used = corner_points(face);
     const auto count = static_cast<Eigen::Index>(used.size());
     const Vec3 origin = model.at(used.front());
     const Eigen::Matrix<double, 3, 2> across = spread.axis.rightCols<2>();

@@ -10,12 +10,9 @@ namespace lacuna::topology {
 std::vector<FaceFacts> face_facts(const Model& model)
 {
     std::vector<FaceFacts> facts(model.faces.size());
-    std::vector<FaceId> all;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        all.emplace_back(f);
+    for (std::size_t f = 0; f < model.faces.size(); ++f)
         for (const Triangle& t : model.faces[f].triangles)
             for (const Index p : t) facts[f].box.extend(model.at(p));
-    }
     const auto uses = edge_uses(model);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() == 1) facts[uses[e].front().face.index()].free_edges.emplace_back(e);
@@ -27,7 +24,7 @@ std::vector<FaceFacts> face_facts(const Model& model)
         std::sort(own.neighbours.begin(), own.neighbours.end());
         own.neighbours.erase(std::unique(own.neighbours.begin(), own.neighbours.end()), own.neighbours.end());
     }
-    const auto parts = connected_parts(model, all);
+    const auto parts = connected_parts(model, all_faces(model));
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p]) facts[face.index()].part = p;
     return facts;

@@ -52,19 +52,9 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     for (const char* other : {"plane", "cone", "torus"}) // as declared by the CAD file; a piece may look
                                                          // different
         if (face.kind == other) return {};
-    std::vector<Index> used;
-    std::vector<Vec3> normals;
-    std::vector<double> areas;
-    for (const Triangle& t : face.triangles) {
-        used.insert(used.end(), t.begin(), t.end());
-        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
-        if (!(n.norm() > 0)) continue;
-        normals.push_back(n.normalized());
-        areas.push_back(n.norm());
-    }
+    const auto [normals, areas] = facet_normals(model, id);
     if (normals.empty()) return {};
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const std::vector<Index> used = corner_points(face);
     Eigen::MatrixXd points(static_cast<Eigen::Index>(used.size()), 3);
     for (std::size_t p = 0; p < used.size(); ++p)
         points.row(static_cast<Eigen::Index>(p)) = model.at(used[p]).transpose();

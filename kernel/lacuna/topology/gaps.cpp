@@ -6,6 +6,7 @@
 
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -30,8 +31,7 @@ struct Lines {
 
 std::vector<Gap> gaps(const Model& model, const RunContext& context)
 {
-    const std::vector<FaceId> all = all_faces(model);
-    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all);
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
     std::vector<std::size_t> part_of(model.faces.size(), 0);
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p]) part_of[face.index()] = p;
@@ -47,7 +47,7 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     std::vector<std::vector<Gap>> nearest(free.size());
     for (std::size_t i = 0; i < free.size(); ++i) {
         const std::vector<Index>& chain = model[free[i]].points;
-        for (const Index p : chain) places[i].push_back(model.at(p));
+        places[i] = places_at(model, chain);
         const std::size_t half = chain.size() / 2;
         places[i].push_back((model.at(chain[half - 1]) + model.at(chain[half])) / 2);
         nearest[i].resize(places[i].size());
@@ -76,13 +76,11 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     }
     std::vector<Gap> found;
     for (const std::vector<Gap>& along : nearest) {
-        const auto widest = std::max_element(along.begin(), along.end(),
-                                             [](const Gap& a, const Gap& b) { return a.width < b.width; });
+        const auto widest = std::ranges::max_element(along, {}, &Gap::width);
         if (std::isfinite(widest->width))
             found.push_back({along.back().own, along.back().other, widest->width});
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Gap& a, const Gap& b) { return a.width < b.width; });
+    std::ranges::stable_sort(found, {}, &Gap::width);
     std::vector<Gap> once;
     std::set<std::pair<EdgeId, EdgeId>> known;
     for (const Gap& gap : found) {

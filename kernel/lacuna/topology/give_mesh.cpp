@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,26 +40,15 @@ struct LoopChain {
 
 LoopChain chain_of(const Model& model, const Loop& loop)
 {
-    LoopChain chain{loop.uses, {}, {}, {0}};
+    LoopChain chain{loop.uses, {}, use_points(model, loop.uses), {}};
+    chain.at = geometry::arc_lengths(places_at(model, chain.points));
+    std::size_t first = 0;
     for (const EdgeUse& use : loop.uses) {
-        chain.start.push_back(chain.at.back());
-        const std::vector<Index> points = use_points(model, use);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            chain.points.push_back(points[i]);
-            chain.at.push_back(chain.at.back() + (model.at(points[i + 1]) - model.at(points[i])).norm());
-        }
+        chain.start.push_back(chain.at[first]);
+        first += model[use.edge].points.size() - 1;
     }
     chain.start.push_back(chain.at.back());
-    if (!chain.points.empty()) chain.points.push_back(chain.points.front());
     return chain;
-}
-
-/// Running length at each point of an edge.
-std::vector<double> running_lengths(const Model& model, std::span<const Index> points)
-{
-    std::vector<Vec3> places;
-    for (const Index p : points) places.push_back(model.at(p));
-    return geometry::arc_lengths(places);
 }
 
 /// A triangle repeats its last corner.
@@ -179,8 +169,7 @@ public:
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
         // Drop points that are no longer used, and removed seams.
-        const std::vector<FaceId> all = all_faces(model_);
-        Model whole = extract(model_, all);
+        Model whole = extract(model_, all_faces(model_));
         whole.notes = std::move(model_.notes);
         model_ = std::move(whole);
     }
@@ -218,14 +207,9 @@ private:
                 ++i;
                 continue;
             }
-            for (const FaceId face : faces) {
-                Face& f = model_[face];
-                for (std::size_t t = f.triangles.size(); t-- > 0;) {
-                    if (!is_folded(f.triangles[t])) continue;
-                    f.triangles.erase(f.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-                    if (!f.uv.empty()) f.uv.erase(f.uv.begin() + static_cast<std::ptrdiff_t>(t));
-                }
-            }
+            for (const FaceId face : faces)
+                erase_facets(model_[face],
+                             [&](std::size_t t) { return is_folded(model_[face].triangles[t]); });
             points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
             std::vector<double>& params = model_[id].params;
             if (!params.empty()) params.erase(params.begin() + static_cast<std::ptrdiff_t>(i));
@@ -279,24 +263,15 @@ private:
     {
         std::unordered_map<Index, Vec2> shifts;
         if (!face.uv.empty()) shifts = shifts_of(face);
-        std::size_t kept = 0;
         for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            Triangle triangle = face.triangles[t];
             for (std::size_t k = 0; k < 3; ++k) {
-                if (!face.uv.empty()) {
-                    if (const auto found = shifts.find(triangle[k]); found != shifts.end())
-                        face.uv[t][k] += found->second;
-                }
-                triangle[k] = moved(triangle[k]);
+                Index& corner = face.triangles[t][k];
+                if (const auto found = shifts.find(corner); found != shifts.end())
+                    face.uv[t][k] += found->second;
+                corner = moved(corner);
             }
-            if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-                continue;
-            face.triangles[kept] = triangle;
-            if (!face.uv.empty()) face.uv[kept] = face.uv[t];
-            ++kept;
         }
-        face.triangles.resize(kept);
-        if (!face.uv.empty()) face.uv.resize(kept);
+        erase_facets(face, [&](std::size_t t) { return repeats(face.triangles[t]); });
         for (Quad& quad : face.given_quads) {
             for (Index& n : quad) n = moved(n);
         }
@@ -333,9 +308,9 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& code, const std::string& why) const
+    [[noreturn]] static void refuse(const std::string& why)
     {
-        throw InvalidInput("topology." + code, why);
+        throw InvalidInput("topology.mesh_unlike_face", why);
     }
 
     /// Place the rim's nodes on each loop, in the loop's direction.
@@ -343,9 +318,8 @@ private:
     {
         std::vector<std::vector<Index>> cycles = cycles_of(quads_);
         if (cycles.size() != chains_.size()) {
-            refuse("mesh_unlike_face", "the mesh for " + name_of(model_, face_) + " has " +
-                                           std::to_string(cycles.size()) + " rims and the face has " +
-                                           std::to_string(chains_.size()) + " loops");
+            refuse("the mesh for " + name_of(model_, face_) + " has " + std::to_string(cycles.size()) +
+                   " rims and the face has " + std::to_string(chains_.size()) + " loops");
         }
         rims_.resize(chains_.size());
         int turned = 0;
@@ -362,14 +336,14 @@ private:
                 }
             }
             if (!rims_[best].empty())
-                refuse("mesh_unlike_face", "two rims of the mesh for " + name_of(model_, face_) +
-                                               " lie on the same loop of the face");
+                refuse("two rims of the mesh for " + name_of(model_, face_) +
+                       " lie on the same loop of the face");
             rims_[best] = place_rim(cycle, chains_[best]);
             turned += is_turned(rims_[best], chains_[best].start.back()) ? 1 : 0;
         }
         if (turned != 0 && turned != static_cast<int>(cycles.size()))
-            refuse("mesh_unlike_face", "the rims of the mesh for " + name_of(model_, face_) +
-                                           " are not oriented like its loops; orient all quads alike");
+            refuse("the rims of the mesh for " + name_of(model_, face_) +
+                   " are not oriented like its loops; orient all quads alike");
         if (turned == 0) return;
         for (Quad& quad : quads_) std::swap(quad[is_triangle(quad) ? 0 : 3], quad[1]);
         for (std::vector<RimNode>& rim : rims_) std::reverse(rim.begin(), rim.end());
@@ -386,8 +360,8 @@ private:
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
             const Nearest place = nearest_on(model_, chain.points, chain.at, p);
             if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
-                refuse("mesh_unlike_face", "a node of the mesh for " + name_of(model_, face_) + " is " +
-                                               std::to_string(place.distance) + " off its loops");
+                refuse("a node of the mesh for " + name_of(model_, face_) + " is " +
+                       std::to_string(place.distance) + " off its loops");
             }
             rim.push_back({cycle[i], place.at});
         }
@@ -429,11 +403,12 @@ private:
         const double off = (model_.at(rim[best].point) - place).norm();
         // Two edge ends of the loop itself, or of a closed edge.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
-            refuse("mesh_misses_vertex", "the mesh for " + name_of(model_, face_) + " has no node at " +
-                                             name_of(model_, vertex) +
-                                             ", where edges of other faces end; "
-                                             "the nearest is " +
-                                             std::to_string(off) + " away");
+            throw InvalidInput("topology.mesh_misses_vertex", "the mesh for " + name_of(model_, face_) +
+                                                                  " has no node at " +
+                                                                  name_of(model_, vertex) +
+                                                                  ", where edges of other faces end; "
+                                                                  "the nearest is " +
+                                                                  std::to_string(off) + " away");
         }
         return best;
     }
@@ -450,8 +425,8 @@ private:
         for (std::size_t u = 0; u < corner.size(); ++u) {
             const std::size_t next = corner[(u + 1) % corner.size()];
             if (corner.size() > 1 && corner[u] == next) {
-                refuse("mesh_unlike_face", "the mesh for " + name_of(model_, face_) + " has no side on " +
-                                               name_of(model_, chain.uses[u].edge));
+                refuse("the mesh for " + name_of(model_, face_) + " has no side on " +
+                       name_of(model_, chain.uses[u].edge));
             }
         }
         for (std::size_t u = 0; u < corner.size(); ++u) {
@@ -469,9 +444,8 @@ private:
             } while (i != last);
             for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
                 if (nodes[k + 1].at > nodes[k].at) continue;
-                refuse("mesh_unlike_face", "the nodes of the mesh for " + name_of(model_, face_) + " on " +
-                                               name_of(model_, chain.uses[u].edge) +
-                                               " are not in the order of the edge");
+                refuse("the nodes of the mesh for " + name_of(model_, face_) + " on " +
+                       name_of(model_, chain.uses[u].edge) + " are not in the order of the edge");
             }
             put_on_edge(chain, u, nodes);
         }
@@ -483,7 +457,7 @@ private:
         const EdgeUse use = chain.uses[u];
         const std::vector<Index>& old = model_[use.edge].points;
         check_other_meshes(use.edge, nodes);
-        const std::vector<double> at = running_lengths(model_, old);
+        const std::vector<double> at = geometry::arc_lengths(places_at(model_, old));
         for (RimNode& n : nodes)
             n.at = use.reversed ? chain.start[u] + at.back() - n.at : n.at - chain.start[u];
         if (use.reversed) std::reverse(nodes.begin(), nodes.end());
@@ -496,10 +470,11 @@ private:
         const std::vector<Index>& old = model_[edge].points;
         for (const FaceUse& user : remesher_.users(edge)) {
             if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
-            refuse("meshes_differ", "the mesh for " + name_of(model_, face_) + " has " +
-                                        std::to_string(nodes.size()) + " nodes on " + name_of(model_, edge) +
-                                        ", and the mesh of " + name_of(model_, user.face) + " has " +
-                                        std::to_string(old.size()));
+            throw InvalidInput("topology.meshes_differ", "the mesh for " + name_of(model_, face_) + " has " +
+                                                             std::to_string(nodes.size()) + " nodes on " +
+                                                             name_of(model_, edge) + ", and the mesh of " +
+                                                             name_of(model_, user.face) + " has " +
+                                                             std::to_string(old.size()));
         }
     }
 
@@ -533,16 +508,11 @@ private:
 
 std::set<EdgeId> kept_edges(const Model& model)
 {
-    std::set<EdgeId> edges;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+    std::vector<FaceId> faces = all_faces(model);
+    std::erase_if(faces, [&](FaceId face) { return !model[face].keeps_nodes; });
+    std::set<EdgeId> edges = edges_of(model, faces);
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
         if (model.edges[e].keeps_nodes) edges.emplace(e);
-    }
-    for (const Face& face : model.faces) {
-        if (!face.keeps_nodes) continue;
-        for (const Loop& loop : face.loops) {
-            for (const EdgeUse& use : loop.uses) edges.insert(use.edge);
-        }
-    }
     return edges;
 }
 
@@ -552,7 +522,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
     EdgeRemesher remesher(model);
     for (const EdgeNodes& given : edges) {
         const std::vector<Index>& old = model[given.edge].points;
-        const std::vector<double> at = running_lengths(model, old);
+        const std::vector<double> at = geometry::arc_lengths(places_at(model, old));
         const bool closed = old.front() == old.back();
         const auto refuse = [&](const std::string& why) {
             throw InvalidInput("topology.nodes_off_edge",

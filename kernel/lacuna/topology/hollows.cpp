@@ -23,13 +23,10 @@ std::vector<std::vector<FaceId>> closed_shells(const Model& model,
                                                const std::vector<std::vector<FaceUse>>& uses)
 {
     std::vector<std::vector<FaceId>> shells = connected_parts(model, all_faces(model));
+    const auto is_shared = [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 2; };
     std::erase_if(shells, [&](const std::vector<FaceId>& part) {
-        return !std::all_of(part.begin(), part.end(), [&](FaceId face) {
-            return std::all_of(model[face].loops.begin(), model[face].loops.end(), [&](const Loop& loop) {
-                return std::all_of(loop.uses.begin(), loop.uses.end(),
-                                   [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 2; });
-            });
-        });
+        return !std::ranges::all_of(
+            part, [&](FaceId face) { return std::ranges::all_of(uses_of(model[face]), is_shared); });
     });
     return shells;
 }
@@ -88,10 +85,11 @@ double capped_volume(const Model& model, const std::vector<FaceId>& faces)
     return volume_integral(model, faces) - middle.dot(area) / 3;
 }
 
-std::set<EdgeId> edges_of(const Rim& rim)
+std::set<EdgeId> edges_of(const std::vector<Rim>& rims)
 {
     std::set<EdgeId> edges;
-    for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+    for (const Rim& rim : rims)
+        for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
     return edges;
 }
 
@@ -110,10 +108,10 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity)
 {
     std::vector<FaceId> rest, result;
-    for (const FaceId face : all_faces(model))
-        if (std::ranges::find(cavity, face) == cavity.end()) rest.push_back(face);
-    std::set<EdgeId> brims;
-    for (const Rim& rim : rims(model, cavity)) brims.merge(edges_of(rim));
+    std::ranges::copy_if(all_faces(model), std::back_inserter(rest),
+                         [&](FaceId face) { return std::ranges::find(cavity, face) == cavity.end(); });
+    const std::vector<Rim> mouths = rims(model, cavity);
+    const std::set<EdgeId> brims = edges_of(mouths);
     std::vector<std::vector<FaceId>> parts;
     for (std::vector<FaceId>& part : connected_parts(model, rest)) {
         const std::vector<Rim> own = rims(model, part);
@@ -126,10 +124,9 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
         for (const FaceId face : part) area += face_area(model, face);
         return area;
     });
-    std::set<EdgeId> of_outside;
-    for (const Rim& rim : rims(model, *outside)) of_outside.merge(edges_of(rim));
+    const std::set<EdgeId> of_outside = edges_of(rims(model, *outside));
     parts.erase(outside);
-    for (const Rim& rim : rims(model, cavity)) {
+    for (const Rim& rim : mouths) {
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
         const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
@@ -187,7 +184,7 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
     geometry::UnionFind hang(hollows.size());
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         for (const Rim& rim : rims(model, hollows[h].faces)) {
-            const auto [known, fresh] = first.emplace(edges_of(rim), h);
+            const auto [known, fresh] = first.emplace(edges_of({rim}), h);
             if (!fresh) hang.unite_least(known->second, h);
         }
     }

@@ -2,7 +2,9 @@
 #include <lacuna/topology/shared/left_out.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 
@@ -18,16 +20,12 @@ std::string name_of(const LeftOutFace& face)
 /// Names of the void faces along any of the edges.
 std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
 {
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const Face& face = model.faces[f];
-        if (face.origin != Origin::made_void) continue;
-        const bool along = std::ranges::any_of(face.loops, [&](const Loop& loop) {
-            return std::ranges::any_of(
-                loop.uses, [&](const EdgeUse& use) { return std::ranges::binary_search(edges, use.edge); });
-        });
-        if (along) faces.emplace_back(f);
-    }
+    const auto is_along = [&](const EdgeUse& use) { return std::ranges::binary_search(edges, use.edge); };
+    std::vector<FaceId> faces = all_faces(model);
+    std::erase_if(faces, [&](FaceId face) {
+        return model[face].origin != Origin::made_void ||
+               std::ranges::none_of(uses_of(model[face]), is_along);
+    });
     return names_of(model, faces);
 }
 
@@ -36,10 +34,8 @@ std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edge
 std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector<FaceId>& faces)
 {
     std::vector<int> uses(model.edges.size(), 0);
-    for (const FaceId face : faces) {
-        for (const Loop& loop : model[face].loops)
-            for (const EdgeUse& use : loop.uses) ++uses[use.edge.index()];
-    }
+    for (const FaceId face : faces)
+        for (const EdgeUse& use : uses_of(model[face])) ++uses[use.edge.index()];
     std::vector<LeftOutBeside> found;
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         if (uses[e] != 1) continue;
@@ -59,9 +55,8 @@ void require_none_left_out(const Model& model, const std::vector<FaceId>& faces,
     const std::vector<LeftOutBeside> missing = left_out_beside(model, faces);
     if (missing.empty()) return;
     const LeftOutBeside& first = missing.front();
-    std::string others;
-    for (std::size_t i = 1; i < missing.size(); ++i)
-        others += (i > 1 ? ", " : "") + std::to_string(missing[i].face.tag);
+    const std::string others = full_list(
+        std::span(missing).subspan(1), [](const LeftOutBeside& one) { return std::to_string(one.face.tag); });
     throw InvalidInput(
         "cad.face_left_out",
         name_of(first.face) + " is missing next to " + name_of(model, first.edges.front()) +
@@ -75,9 +70,8 @@ void require_none_left_out(const Model& model, const std::vector<FaceId>& faces,
 std::vector<std::string> left_out_in_words(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    std::vector<FaceId> given;
-    for (std::size_t f = 0; f < model.faces.size(); ++f)
-        if (model.faces[f].origin == Origin::given) given.emplace_back(f);
+    std::vector<FaceId> given = all_faces(model);
+    std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     std::vector<std::string> words;
     for (const LeftOutBeside& missing : left_out_beside(model, given)) {
         const std::string stands = void_faces_along(model, missing.edges);

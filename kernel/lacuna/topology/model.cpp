@@ -4,8 +4,12 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/list_text.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/split_edge.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <string>
@@ -15,37 +19,28 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Position of a directed mesh segment on an edge.
+/// A directed mesh segment on an edge.
 struct SegmentOnEdge {
-    EdgeId edge;
-    std::size_t segment = 0;
-    bool reversed = false;
+    EdgeUse use;
+    bool starts = false; ///< whether the use starts with it
 };
-
-using SegmentMap = std::unordered_map<std::uint64_t, SegmentOnEdge>;
-
-SegmentMap segments_of_edges(const Model& model, const RunContext& context)
-{
-    SegmentMap map;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        check_cancelled(context);
-        const std::vector<Index>& points = model.edges[e].points;
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            map.try_emplace(directed_key(points[i], points[i + 1]), SegmentOnEdge{EdgeId(e), i, false});
-            map.try_emplace(directed_key(points[i + 1], points[i]), SegmentOnEdge{EdgeId(e), i, true});
-        }
-    }
-    return map;
-}
 
 /// The segments of a model's edges, looked up by their ends.
 class EdgeSegments {
 public:
-    EdgeSegments(const Model& model, const RunContext& context)
-        : at_(segments_of_edges(model, context)), on_edge_(model.points.size(), false)
+    EdgeSegments(const Model& model, const RunContext& context) : on_edge_(model.points.size(), false)
     {
-        for (const Edge& edge : model.edges)
-            for (const Index p : edge.points) on_edge_[index(p)] = true;
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            check_cancelled(context);
+            const std::vector<Index>& points = model.edges[e].points;
+            for (const Index p : points) on_edge_[index(p)] = true;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                at_.try_emplace(directed_key(points[i], points[i + 1]),
+                                SegmentOnEdge{{EdgeId(e), false}, i == 0});
+                at_.try_emplace(directed_key(points[i + 1], points[i]),
+                                SegmentOnEdge{{EdgeId(e), true}, i + 2 == points.size()});
+            }
+        }
     }
 
     /// Null if no segment joins the two points.
@@ -57,7 +52,7 @@ public:
     }
 
 private:
-    SegmentMap at_;
+    std::unordered_map<std::uint64_t, SegmentOnEdge> at_;
     std::vector<bool> on_edge_; ///< by point of the model
 };
 
@@ -114,14 +109,6 @@ public:
         return *found;
     }
 
-    /// True if the half-edge starts at an end of its edge.
-    [[nodiscard]] bool starts_use(std::size_t half) const
-    {
-        const SegmentOnEdge& on = on_edge(half);
-        const std::size_t last = model_[on.edge].points.size() - 2;
-        return on.segment == (on.reversed ? last : 0);
-    }
-
 private:
     [[nodiscard]] std::string name() const
     {
@@ -140,13 +127,6 @@ private:
     DirectedSides& sides_;
 };
 
-double loop_length(const Model& model, const Loop& loop)
-{
-    double sum = 0;
-    for (const EdgeUse& use : loop.uses) sum += edge_length(model, use.edge);
-    return sum;
-}
-
 std::vector<Loop> loops_of(const Model& model, const Face& face, const EdgeSegments& segments,
                            DirectedSides& sides)
 {
@@ -154,17 +134,17 @@ std::vector<Loop> loops_of(const Model& model, const Face& face, const EdgeSegme
     std::vector<bool> seen(halves.size(), false);
     std::vector<Loop> loops;
     for (std::size_t start = 0; start < halves.size(); ++start) {
-        if (seen[start] || !halves.on_border(start) || !halves.starts_use(start)) continue;
+        if (seen[start] || !halves.on_border(start) || !halves.on_edge(start).starts) continue;
         Loop loop;
         for (std::size_t half = start; !seen[half]; half = halves.next_on_border(half)) {
             seen[half] = true;
             const SegmentOnEdge& on = halves.on_edge(half);
-            if (halves.starts_use(half)) loop.uses.push_back({on.edge, on.reversed});
+            if (on.starts) loop.uses.push_back(on.use);
         }
         loops.push_back(std::move(loop));
     }
     std::stable_sort(loops.begin(), loops.end(), [&](const Loop& a, const Loop& b) {
-        return loop_length(model, a) > loop_length(model, b);
+        return length_of(model, a.uses) > length_of(model, b.uses);
     });
     return loops;
 }
@@ -203,20 +183,14 @@ std::vector<Index> use_points(const Model& model, EdgeUse use)
 
 double edge_length(const Model& model, EdgeId edge)
 {
-    const std::vector<Index>& points = model[edge].points;
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
-        sum += (model.at(points[i + 1]) - model.at(points[i])).norm();
-    return sum;
+    return geometry::length(places_at(model, model[edge].points));
 }
 
 double face_area(const Model& model, FaceId face)
 {
     double sum = 0;
-    for (const Triangle& t : model[face].triangles) {
-        sum += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0])).norm();
-    }
-    return sum / 2;
+    for (const Triangle& t : model[face].triangles) sum += facet_area_vector(model, t).norm();
+    return sum;
 }
 
 bool has_quads_all_over(const Face& face)
@@ -252,10 +226,8 @@ bool has_cells_to_keep(const Face& face, bool wedges)
 Vec3 face_area_vector(const Model& model, FaceId face)
 {
     Vec3 sum = Vec3::Zero();
-    for (const Triangle& t : model[face].triangles) {
-        sum += (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
-    }
-    return sum / 2;
+    for (const Triangle& t : model[face].triangles) sum += facet_area_vector(model, t);
+    return sum;
 }
 
 std::vector<FaceId> all_faces(const Model& model)
@@ -288,9 +260,7 @@ VertexId add_void_vertex(Model& model, Index point)
 EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points)
 {
     Edge edge;
-    for (const Edge& other : model.edges)
-        if (other.origin == Origin::made_void) edge.tag = std::max(edge.tag, other.tag);
-    ++edge.tag;
+    edge.tag = next_tag(model.edges, Origin::made_void);
     edge.origin = Origin::made_void;
     edge.from = from;
     edge.to = to;
@@ -302,9 +272,7 @@ EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index
 FaceId add_void_face(Model& model, Geometry geometry)
 {
     Face face;
-    for (const Face& other : model.faces)
-        if (other.origin == Origin::made_void) face.tag = std::max(face.tag, other.tag);
-    ++face.tag;
+    face.tag = next_tag(model.faces, Origin::made_void);
     face.origin = Origin::made_void;
     face.geometry = geometry;
     face.kind = "void";
@@ -325,12 +293,25 @@ void build_loops(Model& model, const RunContext& context)
 std::vector<std::vector<FaceUse>> edge_uses(const Model& model)
 {
     std::vector<std::vector<FaceUse>> uses(model.edges.size());
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        for (const Loop& loop : model.faces[f].loops) {
-            for (const EdgeUse& use : loop.uses) uses[use.edge.index()].push_back({FaceId(f), use.reversed});
+    for (const FaceId face : all_faces(model))
+        for (const EdgeUse& use : uses_of(model[face]))
+            uses[use.edge.index()].push_back({face, use.reversed});
+    return uses;
+}
+
+std::vector<FaceId> spread_over(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
+                                std::vector<FaceId> faces, std::vector<bool>& wanted)
+{
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (const EdgeUse& use : uses_of(model[faces[i]])) {
+            for (const FaceUse& other : uses[use.edge.index()]) {
+                if (!wanted[other.face.index()]) continue;
+                wanted[other.face.index()] = false;
+                faces.push_back(other.face);
+            }
         }
     }
-    return uses;
+    return faces;
 }
 
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces)
@@ -342,19 +323,7 @@ std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::
     for (const FaceId start : faces) {
         if (!wanted[start.index()]) continue;
         wanted[start.index()] = false;
-        std::vector<FaceId> part{start};
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            for (const Loop& loop : model[part[i]].loops) {
-                for (const EdgeUse& use : loop.uses) {
-                    for (const FaceUse& other : uses[use.edge.index()]) {
-                        if (!wanted[other.face.index()]) continue;
-                        wanted[other.face.index()] = false;
-                        part.push_back(other.face);
-                    }
-                }
-            }
-        }
-        parts.push_back(std::move(part));
+        parts.push_back(spread_over(model, uses, {start}, wanted));
     }
     return parts;
 }
@@ -389,43 +358,34 @@ void orient_consistently(Model& model)
                 "); the skin of a volume has two at each edge: leave out the others");
     }
 
-    const std::vector<FaceId> all = all_faces(model);
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
-    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
+    for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model))) {
         bool open = false;
         settled[part.front().index()] = true;
         std::vector<FaceId> front{part.front()};
         for (std::size_t i = 0; i < front.size(); ++i) {
             const FaceId face = front[i];
-            for (const Loop& loop : std::vector<Loop>(model[face].loops)) {
-                for (const EdgeUse& use : loop.uses) {
-                    const auto& both = uses[use.edge.index()];
-                    if (both.size() < 2) {
-                        open = true;
-                        continue;
-                    }
-                    const FaceId other = both[0].face == face ? both[1].face : both[0].face;
-                    if (other == face) continue;
-                    // The uses were listed before any flip; `use` includes the flips.
-                    const FaceUse& their = both[0].face == other ? both[0] : both[1];
-                    const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
-                    if (settled[other.index()]) {
-                        if (!agrees) {
-                            throw InvalidInput(
-                                "topology.not_orientable",
-                                name_of(model, face) + " and " + name_of(model, other) +
-                                    " cannot be oriented consistently across " + name_of(model, use.edge) +
-                                    ": the faces form a one-sided band; leave one of them out");
-                        }
-                        continue;
-                    }
-                    if (!agrees) {
-                        flip(model[other]);
-                        flipped[other.index()] = true;
-                    }
-                    settled[other.index()] = true;
-                    front.push_back(other);
+            for (const EdgeUse& use : uses_of(model[face])) {
+                const auto& both = uses[use.edge.index()];
+                open = open || both.size() < 2;
+                if (both.size() < 2) continue;
+                // The uses were listed before any flip; `use` includes the flips.
+                const FaceUse& their = both[0].face == face ? both[1] : both[0];
+                const FaceId other = their.face;
+                if (other == face) continue;
+                const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
+                if (settled[other.index()] && !agrees) {
+                    throw InvalidInput("topology.not_orientable",
+                                       name_of(model, face) + " and " + name_of(model, other) +
+                                           " cannot be oriented consistently across " +
+                                           name_of(model, use.edge) +
+                                           ": the faces form a one-sided band; leave one of them out");
                 }
+                if (settled[other.index()]) continue;
+                if (!agrees) flip(model[other]);
+                flipped[other.index()] = !agrees;
+                settled[other.index()] = true;
+                front.push_back(other);
             }
         }
         if (!open && volume_integral(model, part) < 0) flip_faces(model, part);

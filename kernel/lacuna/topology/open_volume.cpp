@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/gaps.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -15,11 +16,9 @@ namespace lacuna::topology {
 namespace {
 
 constexpr std::array<std::string_view, 6> kClassNames{"closed", "I", "II", "III", "IV", "V"};
+constexpr std::array<std::string_view, 3> kRoleNames{"source", "target", "wall"};
 
-std::string_view word(Role role)
-{
-    return role == Role::source ? "source" : role == Role::target ? "target" : "wall";
-}
+std::string word(Role role) { return std::string(kRoleNames[static_cast<std::size_t>(role)]); }
 
 std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
 {
@@ -38,12 +37,10 @@ std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
 
 std::string tags_of(const Model& model, const std::vector<VertexId>& vertices)
 {
-    std::string text;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (i == 8) return text + ", … (" + std::to_string(vertices.size()) + " in all)";
-        text += (i == 0 ? "" : ", ") + std::to_string(model[vertices[i]].tag);
-    }
-    return text;
+    constexpr std::size_t kMost = 8;
+    const std::string text = full_list(std::span(vertices).first(std::min(vertices.size(), kMost)),
+                                       [&](VertexId v) { return std::to_string(model[v].tag); });
+    return vertices.size() > kMost ? text + ", … (" + std::to_string(vertices.size()) + " in all)" : text;
 }
 
 std::string count(std::size_t n, std::string_view one)
@@ -75,14 +72,10 @@ std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
 void check_walls_touch(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    const std::vector<FaceId> all = all_faces(model);
-    bool ends = false;
-    for (const Role role : volume.role) ends = ends || role != Role::wall;
-    if (!ends) return;
-    for (const std::vector<FaceId>& part : connected_parts(model, all)) {
-        const bool touches = std::any_of(
-            part.begin(), part.end(), [&](FaceId face) { return volume.role[face.index()] != Role::wall; });
-        if (touches) continue;
+    const auto is_wall = [&](FaceId face) { return volume.role[face.index()] == Role::wall; };
+    if (std::ranges::all_of(all_faces(model), is_wall)) return;
+    for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model))) {
+        if (!std::ranges::all_of(part, is_wall)) continue;
         throw InvalidInput("topology.wall_apart",
                            name_of(model, part.front()) +
                                " is named as a wall but touches neither source nor target" +
@@ -96,11 +89,9 @@ std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
     std::vector<FaceId> walls;
     for (const FaceId wall : volume.faces(Role::wall)) {
         bool meets = false, along = false;
-        for (const Loop& loop : volume.model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                meets = meets || use_from(volume.model, use) == vertex;
-                along = along || use.edge == edge;
-            }
+        for (const EdgeUse& use : uses_of(volume.model[wall])) {
+            meets = meets || use_from(volume.model, use) == vertex;
+            along = along || use.edge == edge;
         }
         if (meets && !along) walls.push_back(wall);
     }
@@ -112,27 +103,22 @@ void check_no_shared_edge(const OpenVolume& volume)
 {
     const Model& model = volume.model;
     std::vector<FaceId> owner(model.edges.size());
-    for (const FaceId face : volume.faces(Role::source)) {
-        for (const Loop& loop : model[face].loops)
-            for (const EdgeUse& use : loop.uses) owner[use.edge.index()] = face;
-    }
+    for (const FaceId face : volume.faces(Role::source))
+        for (const EdgeUse& use : uses_of(model[face])) owner[use.edge.index()] = face;
     for (const FaceId face : volume.faces(Role::target)) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                if (!owner[use.edge.index()].valid()) continue;
-                const std::string from = walls_at(volume, model[use.edge].from, use.edge),
-                                  to = walls_at(volume, model[use.edge].to, use.edge);
-                const bool across = !from.empty() && !to.empty() && from != to;
-                throw InvalidInput(
-                    "topology.ends_share_edge",
-                    "source " + name_of(model, owner[use.edge.index()]) + " and target " +
-                        name_of(model, face) + " share " + name_of(model, use.edge) +
-                        ", where layers have no height; " +
-                        (across ? "sweep along that edge, with " + from + " as source and " + to +
-                                      " as target and these two as walls"
-                                : "sweep along that edge: the faces at its two ends are source and "
-                                  "target (they may be missing), and these two are walls"));
-            }
+        for (const EdgeUse& use : uses_of(model[face])) {
+            if (!owner[use.edge.index()].valid()) continue;
+            const std::string from = walls_at(volume, model[use.edge].from, use.edge),
+                              to = walls_at(volume, model[use.edge].to, use.edge);
+            const bool across = !from.empty() && !to.empty() && from != to;
+            throw InvalidInput(
+                "topology.ends_share_edge",
+                "source " + name_of(model, owner[use.edge.index()]) + " and target " + name_of(model, face) +
+                    " share " + name_of(model, use.edge) + ", where layers have no height; " +
+                    (across ? "sweep along that edge, with " + from + " as source and " + to +
+                                  " as target and these two as walls"
+                            : "sweep along that edge: the faces at its two ends are source and "
+                              "target (they may be missing), and these two are walls"));
         }
     }
 }
@@ -143,21 +129,16 @@ void check_ends_apart(const OpenVolume& volume)
     check_no_shared_edge(volume);
     const Model& model = volume.model;
     std::vector<FaceId> owner(model.vertices.size());
-    for (const FaceId face : volume.faces(Role::source)) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) owner[use_from(model, use).index()] = face;
-        }
-    }
+    for (const FaceId face : volume.faces(Role::source))
+        for (const EdgeUse& use : uses_of(model[face])) owner[use_from(model, use).index()] = face;
     for (const FaceId face : volume.faces(Role::target)) {
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                const VertexId vertex = use_from(model, use);
-                if (!owner[vertex.index()].valid()) continue;
-                throw InvalidInput("topology.ends_touch",
-                                   "source " + name_of(model, owner[vertex.index()]) + " and target " +
-                                       name_of(model, face) + " meet in " + name_of(model, vertex) +
-                                       "; the ends of a sweep must not touch: choose other faces");
-            }
+        for (const EdgeUse& use : uses_of(model[face])) {
+            const VertexId vertex = use_from(model, use);
+            if (!owner[vertex.index()].valid()) continue;
+            throw InvalidInput("topology.ends_touch",
+                               "source " + name_of(model, owner[vertex.index()]) + " and target " +
+                                   name_of(model, face) + " meet in " + name_of(model, vertex) +
+                                   "; the ends of a sweep must not touch: choose other faces");
         }
     }
 }
@@ -179,19 +160,15 @@ void check_override(const OpenVolume& volume, const Classification& found)
         refuse(count(found.free_loops.size(), "free loop") + " remain");
         break;
     case VolumeClass::I:
-        if (!source || !target)
-            refuse(std::string("it needs a source and a target, but has no ") +
-                   (source ? "target" : "source"));
-        if (walls)
-            refuse("it must have no walls, but " + count(volume.faces(Role::wall).size(), "wall") +
-                   " are given; leave them out");
-        break;
     case VolumeClass::II:
     case VolumeClass::III:
         if (!source || !target)
             refuse(std::string("it needs a source and a target, but has no ") +
                    (source ? "target" : "source"));
-        if (!walls) refuse("it needs at least one wall, but none is given");
+        if (asked == VolumeClass::I && walls)
+            refuse("it must have no walls, but " + count(volume.faces(Role::wall).size(), "wall") +
+                   " are given; leave them out");
+        if (asked != VolumeClass::I && !walls) refuse("it needs at least one wall, but none is given");
         if (asked == VolumeClass::II && found.wall_free_source.empty())
             refuse("every vertex of the source is on a wall");
         if (asked == VolumeClass::II && found.wall_free_target.empty())
@@ -253,22 +230,17 @@ Model extract(const Model& model, const std::vector<FaceId>& faces)
             Edge& copy = part.edges.back();
             keep_vertex(copy.from);
             keep_vertex(copy.to);
-            for (Index& p : copy.points) keep_point(p);
+            std::ranges::for_each(copy.points, keep_point);
         }
         e = kept;
     };
     for (const FaceId f : faces) {
         part.faces.push_back(model[f]);
         Face& copy = part.faces.back();
-        for (Loop& loop : copy.loops) {
+        for (Loop& loop : copy.loops)
             for (EdgeUse& use : loop.uses) keep_edge(use.edge);
-        }
-        for (Triangle& t : copy.triangles) {
-            for (Index& p : t) keep_point(p);
-        }
-        for (Quad& q : copy.given_quads) {
-            for (Index& p : q) keep_point(p);
-        }
+        for (Triangle& t : copy.triangles) std::ranges::for_each(t, keep_point);
+        for (Quad& q : copy.given_quads) std::ranges::for_each(q, keep_point);
     }
     return part;
 }
@@ -285,11 +257,8 @@ std::vector<FaceId> OpenVolume::faces(Role wanted) const
 std::vector<bool> OpenVolume::on_wall() const
 {
     std::vector<bool> result(model.vertices.size(), false);
-    for (const FaceId wall : faces(Role::wall)) {
-        for (const Loop& loop : model[wall].loops) {
-            for (const EdgeUse& use : loop.uses) result[use_from(model, use).index()] = true;
-        }
-    }
+    for (const FaceId wall : faces(Role::wall))
+        for (const EdgeUse& use : uses_of(model[wall])) result[use_from(model, use).index()] = true;
     return result;
 }
 
@@ -301,14 +270,13 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     const auto take = [&](const std::vector<FaceId>& list, Role role) {
         for (const FaceId face : list) {
             std::optional<Role>& now = given[face.index()];
-            if (now && *now == role) {
+            if (now == role)
                 throw InvalidInput("topology.face_twice", name_of(model, face) + " is named twice as " +
-                                                              std::string(word(role)) + "; name it once");
-            }
+                                                              word(role) + "; name it once");
             if (now) {
-                throw InvalidInput("topology.face_in_two_roles",
-                                   name_of(model, face) + " is named as " + std::string(word(*now)) +
-                                       " and as " + std::string(word(role)) + "; a face has one role");
+                throw InvalidInput("topology.face_in_two_roles", name_of(model, face) + " is named as " +
+                                                                     word(*now) + " and as " + word(role) +
+                                                                     "; a face has one role");
             }
             now = role;
             faces.push_back(face);

@@ -6,6 +6,7 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,9 @@ public:
                 for (std::size_t i = 0; i < 3; ++i) {
                     if (!on_edge[index(t[i])] || !on_edge[index(t[(i + 1) % 3])]) continue;
                     const auto found = beside_.find(edge_key(t[i], t[(i + 1) % 3]));
-                    if (found != beside_.end()) add(found->second, FaceId(f), t);
+                    if (found == beside_.end()) continue;
+                    std::vector<Beside>& facets = found->second; // of each face the first one
+                    if (facets.empty() || facets.back().face != FaceId(f)) facets.push_back({FaceId(f), t});
                 }
             }
         }
@@ -53,8 +56,8 @@ public:
                 const auto found = std::find_if(facets.begin(), facets.end(),
                                                 [&](const Beside& b) { return b.face == use.face; });
                 if (found == facets.end()) continue;
-                normals.push_back(normal_of(found->facet));
                 const Triangle& t = found->facet;
+                normals.push_back(facet_area_vector(model_, t).stableNormalized());
                 middles.push_back((model_.at(t[0]) + model_.at(t[1]) + model_.at(t[2])) / 3);
             }
             if (normals.size() != 2) continue;
@@ -70,17 +73,6 @@ private:
         FaceId face;
         Triangle facet;
     };
-
-    /// For each face, its first facet at the segment.
-    static void add(std::vector<Beside>& facets, FaceId face, const Triangle& facet)
-    {
-        if (facets.empty() || facets.back().face != face) facets.push_back({face, facet});
-    }
-
-    [[nodiscard]] Vec3 normal_of(const Triangle& t) const
-    {
-        return facet_area_vector(model_, t).stableNormalized();
-    }
 
     const Model& model_;
     std::unordered_map<std::uint64_t, std::vector<Beside>> beside_; ///< by the segment
@@ -101,11 +93,9 @@ void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
         patch.area += area;
         patch.centre += area * face_centroid(model, face);
         sum += face_area_vector(model, face);
-        for (const Loop& loop : model[face].loops) {
-            for (const EdgeUse& use : loop.uses) {
-                patch.edges.push_back(use.edge);
-                patch.vertices.push_back(use_from(model, use));
-            }
+        for (const EdgeUse& use : uses_of(model[face])) {
+            patch.edges.push_back(use.edge);
+            patch.vertices.push_back(use_from(model, use));
         }
     }
     patch.centre /= patch.area;

@@ -6,8 +6,10 @@
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/split_edge.h>
 
 #include <algorithm>
 #include <array>
@@ -226,9 +228,9 @@ public:
     WalkImprint run()
     {
         make_points();
+        find_segments();
         refuse_split_quads();
         for (Face& face : model_.faces) cut_at_sides(model_.points, face, sides_);
-        find_segments();
         make_vertices();
         split_edges();
         make_edges();
@@ -244,13 +246,14 @@ private:
     {
         return place.b < 0 ? place.a : made_.at(place);
     }
-    [[nodiscard]] std::size_t segments(const SectionWalk& walk) const
+    /// The points of a walk from one of its places on; the first is repeated at the end of a closed walk.
+    [[nodiscard]] std::vector<Index> points_along(const SectionWalk& walk, std::ptrdiff_t first = 0) const
     {
-        return walk.places.size() - (walk.closed ? 0 : 1);
-    }
-    [[nodiscard]] std::pair<Index, Index> segment(const SectionWalk& walk, std::size_t i) const
-    {
-        return {point(walk.places[i]), point(walk.places[(i + 1) % walk.places.size()])};
+        std::vector<Index> points;
+        for (const SectionPlace& place : walk.places) points.push_back(point(place));
+        std::rotate(points.begin(), points.begin() + first, points.end());
+        if (walk.closed) points.push_back(points.front());
+        return points;
     }
 
     void make_points()
@@ -330,17 +333,10 @@ private:
 
     void refuse_split_quads() const
     {
-        std::set<std::pair<Index, Index>> walked;
-        for (const SectionWalk& walk : walks_) {
-            for (std::size_t i = 0; i < segments(walk); ++i) {
-                const auto [a, b] = segment(walk, i);
-                walked.insert(std::minmax(a, b));
-            }
-        }
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             for (const Quad& quad : model_.faces[f].given_quads) {
-                bool cut = walked.contains(std::minmax(quad[0], quad[2])) ||
-                           walked.contains(std::minmax(quad[1], quad[3]));
+                bool cut = walked_.contains(edge_key(quad[0], quad[2])) ||
+                           walked_.contains(edge_key(quad[1], quad[3]));
                 for (std::size_t k = 0; k < 4; ++k)
                     cut = cut || made_.contains(place_between(quad[k], quad[(k + 1) % 4])) ||
                           made_.contains(place_between(quad[k], quad[(k + 2) % 4]));
@@ -355,16 +351,12 @@ private:
 
     void find_segments()
     {
-        for (const SectionWalk& walk : walks_) {
-            for (std::size_t i = 0; i < segments(walk); ++i) {
-                const auto [a, b] = segment(walk, i);
-                walked_.insert(edge_key(a, b));
-            }
-        }
-        for (const Edge& edge : model_.edges) {
-            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
-                edge_sides_.insert(edge_key(edge.points[i], edge.points[i + 1]));
-        }
+        const auto add = [](std::unordered_set<std::uint64_t>& sides, const std::vector<Index>& points) {
+            for (std::size_t i = 0; i + 1 < points.size(); ++i)
+                sides.insert(edge_key(points[i], points[i + 1]));
+        };
+        for (const SectionWalk& walk : walks_) add(walked_, points_along(walk));
+        for (const Edge& edge : model_.edges) add(edge_sides_, edge.points);
     }
 
     /// Places where a walk crosses an edge, or where it leaves one.
@@ -374,21 +366,18 @@ private:
         for (const Edge& edge : model_.edges) at_edge.insert(edge.points.begin(), edge.points.end());
         for (const Vertex& vertex : model_.vertices) vertex_points_.insert(vertex.point);
         for (const SectionWalk& walk : walks_) {
-            const std::size_t count = segments(walk);
+            const std::vector<Index> points = points_along(walk);
+            const std::size_t count = points.size() - 1;
             const auto runs_along = [&](std::size_t i) {
-                const auto [a, b] = segment(walk, i);
-                return edge_sides_.contains(edge_key(a, b));
+                return edge_sides_.contains(edge_key(points[i], points[i + 1]));
             };
             for (std::size_t i = 0; i < walk.places.size(); ++i) {
-                const Index p = point(walk.places[i]);
                 const bool end = !walk.closed && (i == 0 || i == count);
                 const bool leaves = end || !runs_along(i % count) || !runs_along((i + count - 1) % count);
-                if (at_edge.contains(p) ? leaves : end) vertex_points_.insert(p);
+                if (at_edge.contains(points[i]) ? leaves : end) vertex_points_.insert(points[i]);
             }
-            const bool any = std::ranges::any_of(walk.places, [&](const SectionPlace& place) {
-                return vertex_points_.contains(point(place));
-            });
-            if (!any) vertex_points_.insert(point(walk.places.front()));
+            const bool any = std::ranges::any_of(points, [&](Index p) { return vertex_points_.contains(p); });
+            if (!any) vertex_points_.insert(points.front());
         }
         for (const Vertex& vertex : model_.vertices) vertex_points_.erase(vertex.point);
         for (const Index p : vertex_points_) vertex_at_.emplace(p, add_void_vertex(model_, p));
@@ -398,11 +387,8 @@ private:
 
     void split_edges()
     {
-        std::array<int, 2> next_tag{1, 1};
-        for (const Edge& edge : model_.edges) {
-            int& next = next_tag[edge.origin == Origin::given ? 0 : 1];
-            next = std::max(next, edge.tag + 1);
-        }
+        std::array<int, 2> next{next_tag(model_.edges, Origin::given),
+                                next_tag(model_.edges, Origin::made_void)};
         const std::size_t before = model_.edges.size();
         for (std::size_t e = 0; e < before; ++e) {
             const Edge whole = model_.edges[e];
@@ -412,18 +398,13 @@ private:
                 const bool last = i + 1 == whole.points.size();
                 if (!last && !vertex_points_.contains(whole.points[i])) continue;
                 if (last && from == 0) break; // not split
-                Edge part = whole;
-                const auto first = static_cast<std::ptrdiff_t>(from),
-                           end = static_cast<std::ptrdiff_t>(i) + 1;
-                part.points.assign(whole.points.begin() + first, whole.points.begin() + end);
-                if (!whole.params.empty())
-                    part.params.assign(whole.params.begin() + first, whole.params.begin() + end);
+                Edge part = part_of(whole, from, i);
                 part.from = vertex;
                 part.to = vertex = last ? whole.to : vertex_at_.at(whole.points[i]);
                 if (from == 0) {
                     model_.edges[e] = std::move(part);
                 } else {
-                    part.tag = next_tag[whole.origin == Origin::given ? 0 : 1]++;
+                    part.tag = next[whole.origin == Origin::given ? 0 : 1]++;
                     model_.edges.push_back(std::move(part));
                 }
                 from = i;
@@ -447,10 +428,10 @@ private:
             }
         }
         for (const SectionWalk& walk : walks_) {
-            const std::size_t count = segments(walk), start = first_vertex(walk);
+            const std::vector<Index> points = points_along(walk, first_vertex(walk));
             std::vector<Index> chain;
-            for (std::size_t k = 0; k < count; ++k) {
-                const auto [a, b] = segment(walk, (start + k) % count);
+            for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+                const Index a = points[k], b = points[k + 1];
                 if (edge_sides_.contains(edge_key(a, b))) continue;
                 if (chain.empty()) chain.push_back(a);
                 chain.push_back(b);
@@ -463,11 +444,11 @@ private:
         }
     }
 
-    [[nodiscard]] std::size_t first_vertex(const SectionWalk& walk) const
+    [[nodiscard]] std::ptrdiff_t first_vertex(const SectionWalk& walk) const
     {
         const auto found = std::ranges::find_if(
             walk.places, [&](const SectionPlace& place) { return vertex_at_.contains(point(place)); });
-        return walk.closed ? static_cast<std::size_t>(found - walk.places.begin()) : 0;
+        return walk.closed ? found - walk.places.begin() : 0;
     }
 
     void set_curve(EdgeId id,
@@ -510,11 +491,10 @@ private:
         std::vector<std::vector<EdgeUse>> result;
         for (const SectionWalk& walk : walks_) {
             std::vector<EdgeUse>& line = result.emplace_back();
-            const std::size_t count = segments(walk), start = first_vertex(walk);
-            for (std::size_t k = 0; k < count; ++k) {
-                const auto [a, b] = segment(walk, (start + k) % count);
-                if (vertex_at_.contains(a)) line.push_back(use.at(directed_key(a, b)));
-            }
+            const std::vector<Index> points = points_along(walk, first_vertex(walk));
+            for (std::size_t k = 0; k + 1 < points.size(); ++k)
+                if (vertex_at_.contains(points[k]))
+                    line.push_back(use.at(directed_key(points[k], points[k + 1])));
         }
         return result;
     }
@@ -523,18 +503,14 @@ private:
     void split_faces(std::vector<FaceId>& parent)
     {
         const std::size_t before = model_.faces.size();
-        for (std::size_t f = 0; f < before; ++f) parent.emplace_back(f);
+        parent = all_faces(model_);
+        DirectedSides sides(model_.points.size());
         for (std::size_t f = 0; f < before; ++f) {
-            const std::vector<std::size_t> part = parts_of(model_.faces[f]);
+            const std::vector<std::size_t> part = parts_of(model_.faces[f], sides);
             const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
             if (count < 2) continue;
             const Face whole = model_.faces[f];
-            std::unordered_map<std::uint64_t, std::size_t> part_at; // by side
-            for (std::size_t t = 0; t < part.size(); ++t) {
-                for (std::size_t k = 0; k < 3; ++k)
-                    part_at.emplace(directed_key(whole.triangles[t][k], whole.triangles[t][(k + 1) % 3]),
-                                    part[t]);
-            }
+            sides.read(whole.triangles);
             for (std::size_t p = 0; p < count; ++p) {
                 Face face = whole;
                 face.triangles.clear();
@@ -546,7 +522,7 @@ private:
                     if (!whole.uv.empty()) face.uv.push_back(whole.uv[t]);
                 }
                 for (const Quad& quad : whole.given_quads)
-                    if (part_at.at(directed_key(quad[0], quad[1])) == p) face.given_quads.push_back(quad);
+                    if (part[index(sides.find(quad[0], quad[1])) / 3] == p) face.given_quads.push_back(quad);
                 if (p == 0) {
                     model_.faces[f] = std::move(face);
                 } else {
@@ -558,7 +534,7 @@ private:
     }
 
     /// Part number of each facet, with the walks as separators.
-    [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face) const
+    [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face, DirectedSides& sides) const
     {
         const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
             return walked_.contains(edge_key(t[0], t[1])) || walked_.contains(edge_key(t[1], t[2])) ||
@@ -566,14 +542,11 @@ private:
         });
         if (!met) return {};
         geometry::UnionFind sets(face.triangles.size());
-        std::unordered_map<std::uint64_t, std::size_t> beside;
-        for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint64_t side = edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3]);
-                if (walked_.contains(side)) continue;
-                const auto [other, fresh] = beside.emplace(side, t);
-                if (!fresh) sets.unite_least(other->second, t);
-            }
+        sides.read(face.triangles);
+        for (std::size_t side = 0; side < sides.size(); ++side) {
+            if (walked_.contains(edge_key(sides.from(side), sides.to(side))) || sides.across(side) < 0)
+                continue;
+            sets.unite_least(side / 3, index(sides.across(side)) / 3);
         }
         std::map<std::size_t, std::size_t> number;
         std::vector<std::size_t> part;

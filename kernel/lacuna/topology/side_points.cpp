@@ -44,6 +44,28 @@ void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool,
 
 } // namespace
 
+bool erase_facets(Face& face, const std::function<bool(std::size_t facet)>& gone)
+{
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        if (gone(t)) continue;
+        if (!face.uv.empty()) face.uv[kept] = face.uv[t];
+        face.triangles[kept++] = face.triangles[t];
+    }
+    const bool any = kept < face.triangles.size();
+    face.triangles.resize(kept);
+    if (!face.uv.empty()) face.uv.resize(kept);
+    return any;
+}
+
+bool repeats(std::span<const Index> corners)
+{
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t k = i + 1; k < corners.size(); ++k)
+            if (corners[i] == corners[k]) return true;
+    return false;
+}
+
 void SidePoints::add(Index a, Index b, std::vector<Index> between)
 {
     if (between.empty()) return;

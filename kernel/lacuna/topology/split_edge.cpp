@@ -5,6 +5,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/side_points.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +17,10 @@ namespace {
 /// The faces whose loops use an edge.
 std::vector<FaceId> users_of(const Model& model, EdgeId edge)
 {
-    std::vector<FaceId> users;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        for (const Loop& loop : model.faces[f].loops) {
-            const bool uses = std::any_of(loop.uses.begin(), loop.uses.end(),
-                                          [&](const EdgeUse& use) { return use.edge == edge; });
-            if (uses && (users.empty() || users.back() != FaceId(f))) users.emplace_back(f);
-        }
-    }
+    const auto is_of_edge = [&](const EdgeUse& use) { return use.edge == edge; };
+    std::vector<FaceId> users = all_faces(model);
+    std::erase_if(users,
+                  [&](FaceId face) { return std::ranges::none_of(uses_of(model[face]), is_of_edge); });
     return users;
 }
 
@@ -66,25 +63,12 @@ void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std
 /// Make inner point `at` a vertex and split the edge there.
 EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t at)
 {
-    Vertex vertex{model[id].points[at], 1, Origin::made_void};
-    for (const Vertex& other : model.vertices) vertex.tag = std::max(vertex.tag, other.tag + 1);
-    const EdgeSplit made{VertexId(model.vertices.size()), EdgeId(model.edges.size())};
-    model.vertices.push_back(vertex);
-
-    Edge behind = model[id];
-    for (const Edge& other : model.edges) {
-        if (other.origin == behind.origin) behind.tag = std::max(behind.tag, other.tag + 1);
-    }
-    const auto offset = static_cast<std::ptrdiff_t>(at);
+    const EdgeSplit made{add_void_vertex(model, model[id].points[at]), EdgeId(model.edges.size())};
+    Edge behind = part_of(model[id], at, model[id].points.size() - 1);
+    behind.tag = next_tag(model.edges, behind.origin);
     behind.from = made.vertex;
-    behind.points.erase(behind.points.begin(), behind.points.begin() + offset);
-    Edge& edge = model[id];
-    edge.to = made.vertex;
-    edge.points.resize(at + 1);
-    if (!edge.params.empty()) {
-        behind.params.erase(behind.params.begin(), behind.params.begin() + offset);
-        edge.params.resize(at + 1);
-    }
+    model[id] = part_of(model[id], 0, at);
+    model[id].to = made.vertex;
     model.edges.push_back(std::move(behind));
 
     for (const FaceId f : users) {
@@ -103,6 +87,18 @@ EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std:
 
 } // namespace
 
+Edge part_of(const Edge& whole, std::size_t first, std::size_t last)
+{
+    Edge part = whole;
+    const auto cut = [&](auto& list) {
+        const auto begin = list.begin();
+        list = {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last) + 1};
+    };
+    cut(part.points);
+    if (!part.params.empty()) cut(part.params);
+    return part;
+}
+
 EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
 {
     if (!(fraction > 0 && fraction < 1)) {
@@ -110,9 +106,7 @@ EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
                "at " + std::to_string(fraction) + " of its length; give a fraction between 0 and 1");
     }
     const std::vector<FaceId> users = users_of(model, id);
-    std::vector<Vec3> places;
-    for (const Index p : model[id].points) places.push_back(model.at(p));
-    const std::vector<double> arc = geometry::arc_lengths(places);
+    const std::vector<double> arc = geometry::arc_lengths(places_at(model, model[id].points));
     const double wanted = fraction * arc.back();
     const bool has_inner = arc.size() > 2;
 

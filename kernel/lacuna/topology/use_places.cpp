@@ -3,13 +3,6 @@
 
 namespace lacuna::topology {
 
-std::vector<EdgeUse> all_uses(const Face& face)
-{
-    std::vector<EdgeUse> uses;
-    for (const Loop& loop : face.loops) uses.insert(uses.end(), loop.uses.begin(), loop.uses.end());
-    return uses;
-}
-
 double length_of(const Model& model, const std::vector<EdgeUse>& uses)
 {
     double sum = 0;

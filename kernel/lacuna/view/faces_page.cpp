@@ -2,6 +2,7 @@
 #include <lacuna/view/page.h>
 
 #include <lacuna/closure/shared/model_facts.h>
+#include <lacuna/topology/shared/use_places.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/page_file.h>
 
@@ -62,15 +63,6 @@ Sides sides_of(const Model& model)
     return sides;
 }
 
-/// Edges of a face in the order of its loops: a seam appears twice.
-std::vector<EdgeId> edges_of(const topology::Face& face)
-{
-    std::vector<EdgeId> edges;
-    for (const topology::Loop& loop : face.loops)
-        for (const topology::EdgeUse& use : loop.uses) edges.push_back(use.edge);
-    return edges;
-}
-
 void add_tags(Json& json, const char* key, const Model& model, const std::vector<FaceId>& faces)
 {
     json.key(key).begin_array();
@@ -111,7 +103,7 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
     json.key("role").value(role);
     json.member("first", sides.first[f]).member("quads", sides.quads[f]).member("sides", sides.count[f]);
     json.key("edges").begin_array();
-    for (const EdgeId edge : edges_of(face)) json.value(edge.index());
+    for (const topology::EdgeUse& use : uses_of(face)) json.value(use.edge.index()); // a seam appears twice
     json.end_array();
 }
 

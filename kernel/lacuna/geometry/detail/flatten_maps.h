@@ -28,6 +28,9 @@ struct Facets {
 
 using Positions = std::vector<Vec2>;
 
+/// The points of a loop; the first is repeated at the end.
+std::vector<Vec3> closed_places(const Facets& facets, const std::vector<Index>& loop);
+
 /// Compute `shapes` and `area`.
 void measure_shapes(Facets& facets);
 
@@ -39,10 +42,10 @@ std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 /// Least squares conformal map, scaled to the area of the facets.
 Positions conformal(const Facets& facets);
 /// As-rigid-as-possible map, starting from `positions`.
-Positions as_rigid_as_possible(const Facets& facets, Positions positions, int max_iterations, double settled);
+Positions as_rigid_as_possible(const Facets& facets, Positions positions);
 /// Map of least symmetric Dirichlet energy, starting from `positions`; these are
 /// returned if they flip a triangle.
-Positions injective(const Facets& facets, Positions positions, int max_iterations, double settled);
+Positions injective(const Facets& facets, Positions positions);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);
 

@@ -25,10 +25,8 @@ public:
     /// @throw Cancelled
     Multigrid(Matrix&& matrix, const RunContext& context);
 
-    /// False if aggregation does not reduce the matrix; solve() must not be used then.
-    [[nodiscard]] bool good() const { return good_; }
-
-    /// @return false if it does not converge; `x` is then undefined.
+    /// @return false if aggregation does not reduce the matrix, or if the iteration does not converge; `x` is
+    ///         then undefined.
     /// @throw Cancelled
     [[nodiscard]] bool solve(const Eigen::VectorXd& right, Eigen::VectorXd& x,
                              const RunContext& context) const;
@@ -42,7 +40,7 @@ private:
 
     std::deque<Level> levels_; ///< a deque, so that levels are not copied; the last has no `up` and `down`
     Eigen::PartialPivLU<Eigen::MatrixXd> coarsest_;
-    bool good_ = true;
+    bool good_ = true; ///< whether aggregation reduces the matrix
 };
 
 } // namespace lacuna::geometry

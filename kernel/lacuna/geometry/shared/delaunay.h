@@ -80,7 +80,7 @@ private:
     DelaunayTriangle& triangle(Index t) { return triangles_[static_cast<std::size_t>(t)]; }
     void insert_all(const std::vector<Index>& used, const Vec2& low, double extent);
     void fan(Index point, const Cavity& cavity, std::vector<Index>& fresh);
-    void relink(Index triangle, Index from, Index to, Index next, bool fixed);
+    void relink(Index triangle, Index from, Index to, Index next);
     void mark_fixed(Index a, Index b);
     void replace_strip(const std::vector<Index>& strip, std::vector<Index> left,
                        const std::vector<Index>& right);

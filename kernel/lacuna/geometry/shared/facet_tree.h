@@ -34,9 +34,9 @@ public:
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, in [0, 1], sum 1
         double distance2 = std::numeric_limits<double>::infinity(); ///< squared distance
     };
-    [[nodiscard]] Hit closest(const Vec3& p) const;
     /// Only facets within the squared distance, inclusive, are considered.
-    [[nodiscard]] Hit closest(const Vec3& p, double max_distance2) const;
+    [[nodiscard]] Hit closest(const Vec3& p,
+                              double max_distance2 = std::numeric_limits<double>::infinity()) const;
 
     /// Call `visit` for every pair (own triangle, triangle of other) whose boxes are within `margin`, until
     /// it returns false. For a tree and itself, each pair of different triangles is
@@ -81,6 +81,9 @@ private:
     std::uint32_t build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                         int threads, const RunContext& context);
 
+    /// Visit the leaves below the boxes that `enters` accepts, until `visit` returns false.
+    template <class Enters, class Visit>
+    bool each_leaf(const Enters& enters, const Visit& visit) const;
     /// Visit all intersections up to `farthest`, which `visit` may reduce.
     /// @return false if `visit` stopped it.
     template <class Visit>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/types.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
@@ -17,13 +18,6 @@ enum class FlatMap {
     injective, ///< least symmetric Dirichlet energy, no flipped triangles
     conformal, ///< least squares conformal
     convex,    ///< harmonic to a disc: one-to-one for every shape
-};
-
-/// Options of `flatten()`.
-struct FlattenOptions {
-    double planar_tolerance = 0; ///< tolerance for planar facets [model length]; 0: 1e-9 × their extent
-    int max_iterations = 200;    ///< of each iterative map, >= 1
-    double settled = 1e-6;       ///< relative decrease of the energy at which iterations stop
 };
 
 /// Facets mapped to the plane.
@@ -55,8 +49,7 @@ struct Flattened {
 ///        consistently oriented manifold, have no boundary, or have a handle.
 /// @note  Deterministic. Costs about one sparse factorisation and some dozens of solves; two factorisations
 ///        for a tube.
-Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                  const FlattenOptions& options = {});
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 /// Finds the triangle at a point of the plane, to map it back to space. O(1) inside the triangles, O(log
 /// triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
@@ -82,11 +75,11 @@ private:
     [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
 
     FacetTree tree_;
-    // Square bins over all triangles: bin b may intersect triangles listed_[start_[b]...start_[b + 1]).
+    // Square bins over all triangles, with the triangles that each may intersect.
     Vec2 low_ = Vec2::Zero();
     double bin_ = 1;
     Index across_ = 0, up_ = 0;
-    std::vector<Index> start_, listed_;
+    Incidence bins_;
     std::vector<Weights> weights_;
 };
 

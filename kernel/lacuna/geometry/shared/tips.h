@@ -8,6 +8,9 @@
 
 namespace lacuna::geometry {
 
+/// Sum of the angles of the facets at each point [radians].
+std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<const Triangle> triangles);
+
 /// Inner points whose angles sum to less than 90 % of a full turn: tips of cones. Empty if there are more
 /// than 64, as on coarse facets.
 /// @param triangles  consistently oriented; sides of one triangle only are the border.

@@ -47,6 +47,7 @@ public:
     struct Shrunk {
         std::vector<FaceId> faces;  ///< faces that collapsed
         std::vector<FaceId> meshes; ///< faces that lost their given quads, because some collapsed
+        int edges = 0;              ///< number of edges that collapsed
     };
     /// Apply the point merges and remove facets, edges and faces that collapsed.
     Shrunk settle_points();

@@ -24,7 +24,7 @@ struct FacetSet {
     std::vector<Index> number; ///< of each facet in its face
 };
 
-FacetSet facets_of(const topology::Model& model, std::span<const FaceId> faces);
+FacetSet facet_set(const topology::Model& model, std::span<const FaceId> faces);
 
 /// Facets and the surface from which they were cut.
 struct FacetView {

@@ -4,8 +4,19 @@
 #include <lacuna/topology/model.h>
 
 #include <optional>
+#include <vector>
 
 namespace lacuna::topology {
+
+/// Unit normals and relative areas of a face's facets, without those of no area.
+struct FacetNormals {
+    std::vector<Vec3> normals;
+    std::vector<double> areas;
+};
+FacetNormals facet_normals(const Model& model, FaceId face);
+
+/// The corners of a face's facets, ascending.
+std::vector<Index> corner_points(const Face& face);
 
 /// The cone that a face lies on.
 struct ConeShape {

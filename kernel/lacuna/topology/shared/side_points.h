@@ -3,6 +3,7 @@
 
 #include <lacuna/topology/model.h>
 
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -33,6 +34,13 @@ struct ParamFacet {
 /// @pre  no inserted point is a corner of the facet.
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
+
+/// Remove the facets of a face, with their surface parameters, whose number `gone` accepts.
+/// @return whether any was removed.
+bool erase_facets(Face& face, const std::function<bool(std::size_t facet)>& gone);
+
+/// Whether two corners of a cell are the same point.
+bool repeats(std::span<const Index> corners);
 
 /// Split the facets of a face; its given quads do not change.
 void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& sides);

@@ -3,7 +3,23 @@
 
 #include <lacuna/topology/model.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace lacuna::topology {
+
+/// The next free tag of the entities of an origin.
+template <class Entity>
+int next_tag(const std::vector<Entity>& all, Origin origin)
+{
+    int tag = 1;
+    for (const Entity& one : all)
+        if (one.origin == origin) tag = std::max(tag, one.tag + 1);
+    return tag;
+}
+
+/// The edge from its point `first` to its point `last`; its vertices are set by the caller.
+Edge part_of(const Edge& whole, std::size_t first, std::size_t last);
 
 /// Result of `split_edge()`.
 struct EdgeSplit {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lacuna::healing {
+
+/// The sides of facets, grouped by segment: the undirected sides, numbered by their points. Side k of facet f
+/// runs from corner k to the next and is called 3·f + k. Linear in the facets.
+class FacetSides {
+public:
+    /// @param facets  must outlive the sides. @param points  every corner is in [0, points).
+    FacetSides(std::span<const Triangle> facets, std::size_t points);
+
+    [[nodiscard]] Index from(Index side) const { return facets_[index(side) / 3][index(side) % 3]; }
+    [[nodiscard]] Index to(Index side) const { return facets_[index(side) / 3][(index(side) + 1) % 3]; }
+    [[nodiscard]] Index segment(Index side) const { return segment_[index(side)]; }
+    [[nodiscard]] std::size_t segment_count() const { return first_.size() - 1; }
+    /// The sides on a segment, in order of facet.
+    [[nodiscard]] std::span<const Index> on(Index segment) const
+    {
+        const auto begin = index(first_[index(segment)]);
+        return std::span(sides_).subspan(begin, index(first_[index(segment) + 1]) - begin);
+    }
+
+private:
+    std::span<const Triangle> facets_;
+    std::vector<Index> segment_; ///< of each side
+    std::vector<Index> sides_;   ///< grouped by segment
+    std::vector<Index> first_;   ///< start of each segment in sides_
+};
+
+} // namespace lacuna::healing
