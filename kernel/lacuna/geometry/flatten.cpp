@@ -226,7 +226,7 @@ bool is_tube(const Facets& facets)
 }
 
 /// Try maps in order of distortion until one is one-to-one; else keep the one with the fewest flips.
-void choose_map(const Facets& facets, const std::vector<Segment>& boundary, Flattened& flat)
+void choose_map(const Facets& facets, const std::vector<Segment>& boundary, double settled, Flattened& flat)
 {
     bool any = false;
     const auto good = [&](FlatMap map, const Positions& positions) {
@@ -246,17 +246,18 @@ void choose_map(const Facets& facets, const std::vector<Segment>& boundary, Flat
         if (!ring.empty() && good(FlatMap::ring, ring)) return;
     }
     const Positions conformal = flat::conformal(facets);
-    if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal))) return;
-    if (good(FlatMap::injective, flat::injective(facets, conformal))) return;
+    if (good(FlatMap::rigid, flat::as_rigid_as_possible(facets, conformal, settled))) return;
+    if (good(FlatMap::injective, flat::injective(facets, conformal, settled))) return;
     const Positions convex = flat::convex(facets);
-    if (good(FlatMap::injective, flat::injective(facets, convex))) return;
+    if (good(FlatMap::injective, flat::injective(facets, convex, settled))) return;
     if (good(FlatMap::conformal, conformal)) return;
     good(FlatMap::convex, convex);
 }
 
 } // namespace
 
-Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles)
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                  const FlattenOptions& options)
 {
     if (triangles.empty()) fail("there are no triangles");
     Flattened flat;
@@ -278,7 +279,7 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
         if (!flat.folded) return flat;
     }
     check_disc(facets, boundary, twice, flat.used);
-    choose_map(facets, boundary, flat);
+    choose_map(facets, boundary, options.settled, flat);
     align(flat.position, projected);
     return flat;
 }

@@ -26,9 +26,8 @@ using Eigen::Matrix2d;
 /// Half the digits of a double: triangles thinner than this are degenerate.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
-/// Limit on the iterations of a map, and relative decrease of its energy at which they stop.
+/// Limit on the iterations of a map.
 constexpr int kMostIterations = 200;
-constexpr double kSettled = 1e-6;
 
 template <class Solver>
 void check_solved(const Solver& solver)
@@ -202,7 +201,7 @@ Matrix2d rotation_of(const Matrix2d& j)
 
 } // namespace
 
-Positions as_rigid_as_possible(const Facets& facets, Positions positions)
+Positions as_rigid_as_possible(const Facets& facets, Positions positions, double settled)
 {
     // The stiffness matrix is constant: factor it once, with point 0 fixed.
     const auto size = static_cast<Index>(positions.size()) - 1;
@@ -234,7 +233,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions)
             for (std::size_t i = 0; i < 3; ++i)
                 if (c[i] > 0) right.row(c[i] - 1) += shape.area * (r * shape.gradient[i]).transpose();
         }
-        if (!(before - energy > kSettled * before) && iteration > 0) break;
+        if (!(before - energy > settled * before) && iteration > 0) break;
         before = energy;
         const Eigen::MatrixX2d solution = solver.solve(right);
         positions[0].setZero();
@@ -340,7 +339,7 @@ private:
 
 } // namespace
 
-Positions injective(const Facets& facets, Positions positions)
+Positions injective(const Facets& facets, Positions positions, double settled)
 {
     scale_to_area(facets, positions);
     double energy = symmetric_dirichlet(facets, positions);
@@ -359,7 +358,7 @@ Positions injective(const Facets& facets, Positions positions)
             if (found < energy) break;
         }
         if (!(found < energy)) break;
-        const bool done = energy - found <= kSettled * energy;
+        const bool done = energy - found <= settled * energy;
         positions = trial;
         energy = found;
         if (done) break;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 namespace lacuna::healing {
 
@@ -22,7 +23,7 @@ std::vector<bool> repeated(std::span<const std::array<Index, N>> cells, std::spa
         std::sort(cell.begin(), cell.end());
         most = std::max(most, cell.front());
     }
-    const Incidence at_lowest = incidence(index(most) + 1, [&](const auto& visit) {
+    Incidence at_lowest = incidence(index(most) + 1, [&](const auto& visit) {
         for (std::size_t c = 0; c < sorted.size(); ++c)
             visit(index(sorted[c].front()), static_cast<Index>(c));
     });
@@ -31,8 +32,9 @@ std::vector<bool> repeated(std::span<const std::array<Index, N>> cells, std::spa
     };
     std::vector<bool> result(cells.size(), false);
     for (std::size_t p = 0; p < at_lowest.size(); ++p) {
-        std::vector<Index> heap(at_lowest.of(p).begin(), at_lowest.of(p).end());
-        std::ranges::stable_sort(heap, {}, key);
+        const auto heap =
+            std::span(at_lowest.items).subspan(index(at_lowest.begin[p]), at_lowest.of(p).size());
+        std::ranges::sort(heap, {}, [&](Index c) { return std::pair(key(c), c); });
         for (std::size_t i = 1; i < heap.size(); ++i)
             result[index(heap[i])] = key(heap[i]) == key(heap[i - 1]);
     }

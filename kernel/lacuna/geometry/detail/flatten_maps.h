@@ -42,10 +42,10 @@ std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 /// Least squares conformal map, scaled to the area of the facets.
 Positions conformal(const Facets& facets);
 /// As-rigid-as-possible map, starting from `positions`.
-Positions as_rigid_as_possible(const Facets& facets, Positions positions);
+Positions as_rigid_as_possible(const Facets& facets, Positions positions, double settled);
 /// Map of least symmetric Dirichlet energy, starting from `positions`; these are
 /// returned if they flip a triangle.
-Positions injective(const Facets& facets, Positions positions);
+Positions injective(const Facets& facets, Positions positions, double settled);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);
 

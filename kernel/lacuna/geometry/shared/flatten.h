@@ -20,6 +20,11 @@ enum class FlatMap {
     convex,    ///< harmonic to a disc: one-to-one for every shape
 };
 
+/// Options of `flatten()`.
+struct FlattenOptions {
+    double settled = 1e-6; ///< relative decrease of the energy at which iterations stop
+};
+
 /// Facets mapped to the plane.
 struct Flattened {
     std::vector<Index> used;         ///< the given points that the triangles use, ascending
@@ -49,7 +54,8 @@ struct Flattened {
 ///        consistently oriented manifold, have no boundary, or have a handle.
 /// @note  Deterministic. Costs about one sparse factorisation and some dozens of solves; two factorisations
 ///        for a tube.
-Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles);
+Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                  const FlattenOptions& options = {});
 
 /// Finds the triangle at a point of the plane, to map it back to space. O(1) inside the triangles, O(log
 /// triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
