@@ -139,7 +139,7 @@ void check_middles(const SweptAssembly& whole, bool full)
         const mesh::HexMesh& mesh = whole.parts[p].mesh;
         REQUIRE(whole.number[p].size() == mesh.node_count());
         for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-            for (const Index n : mesh::skin_nodes(mesh, i).all())
+            for (const Index n : mesh::skin_nodes(mesh, i))
                 skin[p].insert(whole.number[p][static_cast<std::size_t>(n)]);
         }
     }

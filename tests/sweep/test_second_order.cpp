@@ -99,7 +99,7 @@ double worst_off_radius(const mesh::HexMesh& mesh, double radius, double other)
 {
     double worst = 0;
     for (std::size_t i = 2 * mesh.quads.size(); i < mesh.skin_count(); ++i)
-        for (const Index n : mesh::skin_nodes(mesh, i).all()) {
+        for (const Index n : mesh::skin_nodes(mesh, i)) {
             const double r = mesh.node(index(n)).head<2>().norm();
             worst = std::max(worst, std::min(std::abs(r - radius), std::abs(r - other)));
         }
@@ -243,7 +243,7 @@ TEST_CASE("nodes of order 2 that are left to be made are those of a mesh that ho
                                  made.middles.nodes.begin() + static_cast<std::ptrdiff_t>(first)));
             }
             for (std::size_t i = 0; i < made.skin_count(); ++i)
-                for (const Index node : mesh::skin_nodes(made, i).all())
+                for (const Index node : mesh::skin_nodes(made, i))
                     CHECK(swept.layers->on_skin(node) == made.node(index(node)));
         }
         test::check_valid(made);

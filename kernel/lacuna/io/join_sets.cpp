@@ -111,7 +111,7 @@ public:
             share += area_[i];
             if (old.kind == sides && !added_.sides.empty()) set.sides.push_back(added_.sides[i]);
             if (old.kind == elements) set.members.push_back(added_.skin[i]);
-            for (const Index node : skin_nodes(added_.mesh, i).all())
+            for (const Index node : skin_nodes(added_.mesh, i))
                 if (old.kind == nodes) set.members.push_back(added_.nodes[index(node)]);
         }
         add(set.sides, {});

@@ -175,7 +175,7 @@ private:
             for (std::size_t i = begin; i < end && added_.bulk == nullptr; ++i) {
                 poll(i);
                 const std::size_t c = kinds.cell(i);
-                for (const Index node : cell_nodes(mesh_, c).all()) block.nodes.push_back(point(node));
+                for (const Index node : cell_nodes(mesh_, c)) block.nodes.push_back(point(node));
                 block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
                 block.regions.push_back(region);
             }
@@ -364,7 +364,7 @@ private:
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t i = kinds.skin(k);
                 if (is_inner(i) || is_there(i)) continue;
-                for (const Index node : skin_nodes(mesh_, i).all()) block.nodes.push_back(point(node));
+                for (const Index node : skin_nodes(mesh_, i)) block.nodes.push_back(point(node));
                 block.tags.push_back(skin_tag(i));
                 block.regions.push_back(region_of(i));
             }
@@ -438,7 +438,7 @@ private:
         }
         set.kind = DeckSet::Kind::nodes;
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_nodes(mesh_, i).all()) set.members.push_back(point_tag(node));
+            for (const Index node : skin_nodes(mesh_, i)) set.members.push_back(point_tag(node));
         add_set(set, name, name);
         if (!has_sides()) return;
         DeckSet cells, sides;

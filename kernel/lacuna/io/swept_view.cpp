@@ -139,7 +139,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const mesh::HexMesh& mesh, const NodeR
     std::vector<Eigen::AlignedBox3d> boxes(mesh.patches.size() + 1);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         Eigen::AlignedBox3d& box = boxes[index(skin_quad(mesh, i).patch)];
-        for (const Index node : skin_nodes(mesh, i).all()) box.extend(nodes.on_skin(node));
+        for (const Index node : skin_nodes(mesh, i)) box.extend(nodes.on_skin(node));
     }
     // The interior of a valid mesh lies within the bounding box of its skin.
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) boxes.back().extend(boxes[p]);

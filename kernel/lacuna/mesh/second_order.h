@@ -32,7 +32,10 @@ struct CellNodes {
     std::array<Index, 27> node{};
     std::size_t count = 0;
 
-    [[nodiscard]] std::span<const Index> all() const { return std::span(node).first(count); }
+    [[nodiscard]] const Index* begin() const { return node.data(); }
+    [[nodiscard]] const Index* end() const { return node.data() + count; }
+    [[nodiscard]] std::span<const Index> all() const& { return std::span(node).first(count); }
+    void all() const&& = delete; ///< the nodes would be gone before they are read
 };
 
 /// The middle nodes of a swept mesh of order 2. Their numbers follow from level and layer; nothing is stored

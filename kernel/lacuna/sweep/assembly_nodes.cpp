@@ -54,7 +54,7 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 {
     std::vector<bool> known(mesh.middles.nodes.size(), false);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        for (const Index n : mesh::skin_nodes(mesh, i).all()) {
+        for (const Index n : mesh::skin_nodes(mesh, i)) {
             if (index(n) < mesh.nodes.size() || known[index(n) - mesh.nodes.size()]) continue;
             known[index(n) - mesh.nodes.size()] = true;
             nodes.push_back({part, n});

@@ -15,7 +15,8 @@ namespace {
 /// The face on the other side of an edge.
 std::string beyond(const Model& model, EdgeId edge, FaceId face)
 {
-    for (const FaceUse& use : edge_uses(model)[edge.index()])
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
+    for (const FaceUse& use : uses[edge.index()])
         if (use.face != face) return name_of(model, use.face);
     return name_of(model, edge);
 }
