@@ -145,6 +145,98 @@ tells("closure.hole_closed", box:format("1", 3))
 tells("closure.walls_filled", box:format("nil", 1))
 tells(nil, box:format("nil", 3))
 
+-- A barrel with two opposite walls, which bulge by a share of its radius: too little to lead the void edges.
+local barrel = [[
+local sides, height, rows, bulge = 8, 2, 12, %g
+local model = lacuna.model()
+local function at(k, z)
+  local r, angle = 1 + bulge * 4 * z / height * (1 - z / height), 2 * math.pi * k / sides
+  return { r * math.cos(angle), r * math.sin(angle), z }
+end
+for _, z in ipairs { 0, height } do
+  local points, cells = {}, {}
+  for k = 1, sides do
+    points[k] = at(k - 1, z)
+    if k > 2 then cells[k - 2] = { 1, k - 1, k } end
+  end
+  model:add_face { name = z == 0 and "source" or "target", points = points, cells = cells }
+end
+for _, k in ipairs { 0, 4 } do
+  local points, cells = {}, {}
+  for row = 0, rows do
+    points[2 * row + 1], points[2 * row + 2] = at(k, height * row / rows), at(k + 1, height * row / rows)
+    if row > 0 then cells[row] = { 2 * row - 1, 2 * row, 2 * row + 2, 2 * row + 1 } end
+  end
+  model:add_face { name = "wall_" .. k, points = points, cells = cells }
+end
+local void = model:open_volume { source = "source", target = "target", walls = { "wall_0", "wall_4" } }]]
+for _, bulge in ipairs { 0.032, 0.035, 0.038 } do
+  tells("closure.straight_assumed", barrel:format(bulge))
+end
+tells(nil, barrel:format(0.01))
+
+-- A prism whose missing top has a rim of one wave a side: a membrane, where a guess is asked for.
+local waves = [[
+local sides, cuts, wave = %d, 6, %g
+local model = lacuna.model()
+local floor, fan, n = { { 0, 0, 0 } }, {}, sides * cuts
+local function at(i, z)
+  local t = i %% cuts / cuts
+  local a, b = 2 * math.pi * (i // cuts) / sides, 2 * math.pi * (i // cuts + 1) / sides
+  return { (1 - t) * math.cos(a) + t * math.cos(b), (1 - t) * math.sin(a) + t * math.sin(b),
+    z + (z > 0 and wave * math.cos(2 * math.pi * t) or 0) }
+end
+for i = 0, n - 1 do
+  floor[i + 2], fan[i + 1] = at(i, 0), { 1, (i + 1) %% n + 2, i + 2 }
+end
+model:add_face { name = "floor", points = floor, cells = fan }
+local walls = {}
+for k = 0, sides - 1 do
+  local points, cells = {}, {}
+  for j = 0, cuts do
+    local i = (k * cuts + j) %% n
+    points[2 * j + 1], points[2 * j + 2] = at(i, 0), at(i, 1.2)
+    if j > 0 then cells[j] = { 2 * j - 1, 2 * j + 1, 2 * j + 2, 2 * j } end
+  end
+  walls[k + 1] = model:add_face { points = points, cells = cells }
+end
+local void = model:open_volume { source = "floor", walls = walls, reading = 1 }]]
+for _, sides in ipairs { 5, 6, 8 } do
+  tells("closure.membrane", waves:format(sides, 0.2))
+  tells(nil, waves:format(sides, 0))
+end
+
+-- A counterbore without its mouth, whose floor has a hole: its faces look into it, or out of it.
+local counterbore = [[
+local sides, radius, height, inward = %d, %g, 2, %s
+local model = lacuna.model()
+local function at(k, r, z)
+  return { r * math.cos(2 * math.pi * k / sides), r * math.sin(2 * math.pi * k / sides), z }
+end
+local function add(name, points, cells)
+  if inward then
+    for _, cell in ipairs(cells) do cell[1], cell[2], cell[3], cell[4] = cell[4], cell[3], cell[2], cell[1] end
+  end
+  return model:add_face { name = name, points = points, cells = cells }
+end
+local points, cells = {}, {}
+for k = 1, sides do
+  points[k], points[k + sides] = at(k, 1, 0), at(k, radius, 0)
+  local next = k %% sides + 1
+  cells[k] = { k, k + sides, next + sides, next }
+end
+local walls = { add("floor", points, cells) }
+for k = 1, sides do
+  walls[k + 1] = add("wall_" .. k, { at(k, 1, 0), at(k + 1, 1, 0), at(k + 1, 1, height), at(k, 1, height) },
+    { { 1, 2, 3, 4 } })
+end
+local void = model:open_volume { walls = walls }]]
+for _, sides in ipairs { 4, 6 } do
+  tells("closure.hole_covered", counterbore:format(sides, 0.4, "true"))
+  tells(nil, counterbore:format(sides, 0.4, "false"))
+  tells(nil, counterbore:format(sides, 0.1, "true"))
+end
+
 -- Nothing is assumed where all is given.
 tells(nil, prism("sides = 6", ends .. ', walls = "auto"'))
 tells(nil, prism('sides = 6, drop = { "target" }', 'source = "source", walls = "auto"'))
