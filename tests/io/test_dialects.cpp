@@ -406,7 +406,8 @@ TEST_CASE("lines between the datasets of a universal file are passed over, also 
         CAPTURE(file);
         const io::Deck read = io::read_deck("x.unv", file);
         CHECK(content_of(read) == content_of(block));
-        CHECK(has(failure("x.unv", sets[0] + "  2467\n" + sets[1]), "expected -1, which begins a dataset"));
+        CHECK(has(failure("x.unv", sets[0] + sets[1].substr(sets[1].find("2412"))),
+                  "expected -1, which begins a dataset"));
         CHECK(has(failure("x.unv", text + "\n"), "io."));
     }
 }
