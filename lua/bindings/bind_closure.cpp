@@ -80,7 +80,6 @@ int close(lua_State* L)
     lua_settop(L, 2);
     auto& state = hold<VolumeState>(L, 1);
     const bool by_hand = has_options(L, 2, "close");
-    if (state.closure && by_hand) fail(L, "close: the volume is sealed already, by other options");
     auto& options = temporary<CloseOptions>(L);
     read_options(L, 2, "close", kCloseOptions, options);
     RunContext& context = push_context(L);

@@ -35,7 +35,23 @@ local lacuna = require "lacuna"
 print(("lacuna %s (%s, Gmsh %s)"):format(lacuna.version, _VERSION, lacuna.gmsh_version))
 )lua";
 
-/// Run a recipe until it calls lacuna.params, and list the parameters that it declares.
+/// Whether the compiled text of a recipe names lacuna.params. If it does not compile, or comes from standard
+/// input, only a run can tell.
+bool may_declare_parameters(lua_State* L, const std::string& recipe)
+{
+    if (recipe == "-") return true;
+    std::string code;
+    const auto append = [](lua_State* /*state*/, const void* part, std::size_t size, void* to) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(part), size);
+        return 0;
+    };
+    const bool compiles = luaL_loadfile(L, recipe.c_str()) == LUA_OK && lua_dump(L, append, &code, 1) == 0;
+    lua_pop(L, 1);
+    return !compiles || code.find("params") != std::string::npos;
+}
+
+/// Run a recipe until it calls lacuna.params, and list the parameters that it declares. One that does not
+/// call it is not run.
 void list_parameters(const std::string& recipe, lacuna::Interpreter& interpreter)
 {
     struct Listing {
@@ -56,7 +72,7 @@ void list_parameters(const std::string& recipe, lacuna::Interpreter& interpreter
     lua_pushcclosure(L, stop, 1);
     interpreter.call(4);
     try {
-        interpreter.run_file(recipe);
+        if (may_declare_parameters(L, recipe)) interpreter.run_file(recipe);
         std::printf("%s has no parameters: it does not call lacuna.params\n", recipe.c_str());
     } catch (const lacuna::Cancelled&) {
         if (!listing.done) throw;

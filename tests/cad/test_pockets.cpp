@@ -4,6 +4,7 @@
 
 #include <lacuna/cad/load.h>
 #include <lacuna/closure/close.h>
+#include <lacuna/closure/shared/cavities.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
@@ -46,6 +47,34 @@ TEST_CASE("a box with a round pocket or boss in its top has the pocket or boss i
             CHECK(swept.min_scaled_jacobian >= 0.2);
             // Chords of the circle lose a share of the disc, less than a tenth at ten sides.
             CHECK(std::abs(quality::measure(swept.mesh).volume - exact) < 0.1 * disc * 0.2);
+        }
+    }
+}
+
+TEST_CASE("voids of one face within a solid are listed as inner voids, a body in one is not")
+{
+    const test::TempFolder folder;
+    const double pi = std::numbers::pi;
+    for (const double radius : {0.5, 1.0, 1.5}) {
+        const std::string r = std::to_string(radius);
+        const std::vector<std::pair<std::string, double>> shapes{
+            {"Sphere(2)={0,0,0," + r + "};\n", 4 * pi * std::pow(radius, 3) / 3},
+            {"Torus(2)={0,0,0," + r + ",0.3};\n", 2 * pi * pi * radius * 0.09}};
+        for (const auto& [shape, exact] : shapes) {
+            for (const bool loose : {false, true}) {
+                CAPTURE(shape);
+                CAPTURE(loose);
+                const std::string script =
+                    "SetFactory(\"OpenCASCADE\");\nBox(1)={-3,-3,-3,6,6,6};\n" + shape +
+                    "BooleanDifference(3)={ Volume{1}; Delete; }{ Volume{2}; Delete; };\n" +
+                    (loose ? "Sphere(4)={" + r + "-0.1,0,0,0.05};\n" : "");
+                const Model model = cad::load({folder.write("void.geo", script)});
+                const auto found = closure::cavities(model);
+                REQUIRE(found.size() == 1);
+                CHECK(found[0].kind == "inner void");
+                CHECK(found[0].faces.size() == 1);
+                CHECK(found[0].volume == doctest::Approx(exact).epsilon(0.05));
+            }
         }
     }
 }

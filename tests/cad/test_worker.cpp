@@ -350,9 +350,10 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     folder.write("other/two.geo", "Point(8) = {0, 0, 0};\n");
     for (const std::string& line :
          {"SystemCall \"touch " + made + "\";", "NonBlockingSystemCall \"touch " + made + "\";",
-          std::string("Exit;"), "Save \"" + made + "\"", std::string("Include \"other/two.geo\";"),
-          std::string("Merge \"/etc/passwd\";"), std::string("Merge \"../x.step\";"),
-          std::string("Merge Str(\"a\", \"b\");"), std::string("Include \"absent.geo\";")}) {
+          std::string("If (1 > 0) Exit; EndIf"), "Save \"" + made + "\"",
+          std::string("Include \"other/two.geo\";"), std::string("Merge \"/etc/passwd\";"),
+          std::string("Merge \"../x.step\";"), std::string("Merge Str(\"a\", \"b\");"),
+          std::string("Include \"absent.geo\";")}) {
         CAPTURE(line);
         const std::string path = folder.write("asks.geo", "Point(1) = {0, 0, 0}; /* Save\n*/ " + line + "\n");
         const std::string words = failure([&] { (void)cad::load({path}); });
@@ -365,6 +366,26 @@ TEST_CASE("a script that asks for more than geometry is refused, with the line")
     const std::string words = failure(
         [&] { (void)cad::load({folder.write("in.geo", "Include \"asking.geo\";\n")}); });
     CHECK(has(words, folder.path("asking.geo") + ", line 3"));
+    folder.write("ending.geo", "Point(3) = {0, 0, 0};\nExit;\n");
+    CHECK(has(failure([&] { (void)cad::load({folder.write("in.geo", "Include \"ending.geo\";\n")}); }),
+              folder.path("ending.geo") + ", line 2"));
+}
+
+TEST_CASE("nothing of a script behind Exit is run or looked at")
+{
+    const test::TempFolder folder;
+    const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 2, 3};\n";
+    const double area = test::total_area(cad::load({folder.write("plain.geo", box)}));
+    for (const std::string before : {"", "If (1 > 2) Point(9) = {0, 0, 0}; EndIf\n",
+                                     "For i In {1 : 2}\n  x~{i} = i;\nEndFor\n", "Exiting = 1; // Exit;\n"}) {
+        for (const std::string behind : {"", "Box(2) = {5, 0, 0, 1, 1, 1};\n", "SystemCall \"ls\";\n",
+                                         "Include \"absent.geo\";\n", "this is no command\n", "Exit;\n"}) {
+            CAPTURE(before);
+            CAPTURE(behind);
+            const std::string path = folder.write("exits.geo", box + before + "Exit;\n" + behind);
+            CHECK(test::total_area(cad::load({path})) == doctest::Approx(area));
+        }
+    }
 }
 
 TEST_CASE("commands of a script that write files, run plugins or mesh are skipped with a note, not run")

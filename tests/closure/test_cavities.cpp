@@ -2,6 +2,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/closure/shared/cavities.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/topology/shared/hollows.h>
 
 #include <doctest/doctest.h>
 
@@ -112,6 +113,43 @@ TEST_CASE(
         }
         CHECK(sum == doctest::Approx(volume));
         CHECK(closure::cavities(model).size() == found.size());
+    }
+}
+
+TEST_CASE("a void of one smooth face is an inner void, though it has no ends; bodies inside it are found")
+{
+    for (const int sides : {12, 16, 24, 36}) {
+        for (const double wide : {1.0, 1.5, 2.0}) { // of the equator, height 2
+            for (const bool loose : {false, true}) {
+                CAPTURE(sides);
+                CAPTURE(wide);
+                CAPTURE(loose);
+                Turned round{.sides = sides};
+                double volume = 0;
+                for (int k = 0; k <= 12; ++k) {
+                    const double angle = std::numbers::pi * k / 12;
+                    round.rings.emplace_back(wide * std::max(std::sin(angle), 0.05), -std::cos(angle));
+                    if (k == 0) continue;
+                    const auto& [a, low] = round.rings[round.rings.size() - 2];
+                    const auto& [b, high] = round.rings.back();
+                    volume += (high - low) * polygon(sides, 1) * (a * a + a * b + b * b) / 3;
+                }
+                healing::FacetSoup soup;
+                soup.label_name = {"solid", "void", "body"};
+                add(soup, {.sides = 4, .rings = {{10, -5}, {10, 5}}}, {0, 0, 0}, false, 0);
+                add(soup, round, {0, 0, 0}, sides % 8 == 0, 1);
+                const Vec3 at(loose ? 0.0 : 20.0, 0, 0);
+                add(soup, {.sides = 5, .rings = {{0.3, -0.3}, {0.3, 0.3}}}, at, false, 2);
+                const topology::Model model = healing::split_facets(soup, {60, 1e-9});
+                const auto found = of_kind(model, "inner void");
+                REQUIRE(found.size() == 1);
+                CHECK(found[0].faces.size() == 1);
+                CHECK(found[0].volume == doctest::Approx(volume));
+                const auto inside = topology::bodies_inside(model, topology::extract(model, found[0].faces));
+                CHECK(inside.size() == (loose ? 1 : 0));
+                for (const FaceId face : inside) CHECK(model[face].name == "body");
+            }
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <map>
 #include <random>
 #include <sstream>
@@ -368,10 +369,17 @@ TEST_CASE("an STL solid may end in two words, and its loops and facets too")
     }
 }
 
-TEST_CASE("text between the datasets of a universal file is passed over, numbers are not")
+TEST_CASE("lines between the datasets of a universal file are passed over, also numbers, but no dataset")
 {
-    const std::vector<std::string> lines{"Workpiece", "File written 19 May 2019 09:58:46", "19 May 2019",
-                                         "-1 is a mark", "*** end of block ***"};
+    const std::vector<std::string> lines{"Workpiece",
+                                         "File written 19 May 2019 09:58:46",
+                                         "19 May 2019",
+                                         "-1 is a mark",
+                                         "*** end of block ***",
+                                         "2019 5 19",
+                                         "  17",
+                                         "0.5 1e3",
+                                         "2411"};
     int number = 0;
     for (const Block& block : blocks()) {
         std::vector<std::string> sets(2);
@@ -398,7 +406,8 @@ TEST_CASE("text between the datasets of a universal file is passed over, numbers
         CAPTURE(file);
         const io::Deck read = io::read_deck("x.unv", file);
         CHECK(content_of(read) == content_of(block));
-        CHECK(has(failure("x.unv", sets[0] + "  2467\n" + sets[1]), "expected -1, which begins a dataset"));
+        CHECK(has(failure("x.unv", sets[0] + sets[1].substr(sets[1].find("2412"))),
+                  "expected -1, which begins a dataset"));
         CHECK(has(failure("x.unv", text + "\n"), "io."));
     }
 }
@@ -463,6 +472,35 @@ TEST_CASE("AVS and HEC-MW files are refused by their names, whatever their endin
     }
     // Counts alone are no such file.
     CHECK(has(failure("x.inp", "1 2 3 4 5\n*NODE\n"), "io.no_faces"));
+}
+
+TEST_CASE("binary AVS files are refused by that name, in either byte order")
+{
+    int number = 0;
+    const std::vector<std::string> endings{".inp", ".msh", ".dat", ".unv", ".obj"};
+    for (const Block& block : blocks()) {
+        for (const bool big : {false, true}) {
+            std::string bytes = "\x07";
+            const auto add = [&](auto value) {
+                std::array<char, sizeof value> own;
+                std::memcpy(own.data(), &value, sizeof value);
+                if (big) std::reverse(own.begin(), own.end());
+                bytes.append(own.data(), own.size());
+            };
+            for (const int count : {block.nodes(), block.cells(), 0, 1, 0, 8 * block.cells()}) add(count);
+            for (int c = 0; c < block.cells(); ++c)
+                for (const int what : {c + 1, 1, 8, 7}) add(what);
+            for (int c = 0; c < block.cells(); ++c)
+                for (const int node : block.cell(c)) add(node);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (int n = 1; n <= block.nodes(); ++n) add(static_cast<float>(block.at(n)[axis]));
+            const std::string ending = endings[static_cast<std::size_t>(number++) % endings.size()];
+            CAPTURE(ending);
+            CHECK(has(failure("x" + ending, bytes), "a binary AVS UCD file, which is not read"));
+            // One that ends before its counts do is no such file.
+            CHECK(!has(failure("x" + ending, bytes.substr(0, bytes.size() - 1)), "AVS"));
+        }
+    }
 }
 
 TEST_CASE("OBJ lines go on behind a backslash, comments do not")

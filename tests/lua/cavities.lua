@@ -156,6 +156,67 @@ for name, kind in pairs(kinds) do
 end
 check.that(members >= 20)
 
+--- A box of 10 × 10 × 6 with a pocket whose floor has a ledge along one side wall, from wall to wall or, with
+--- `gap`, short of the next one.
+local function ledged(x, y, floor, width, height, gap)
+  local model = lacuna.model()
+  local function face(name, points, cells) model:add_face { name = name, points = points, cells = cells } end
+  local function corners(a, b, z) return { -a, -b, z }, { a, -b, z }, { a, b, z }, { -a, b, z } end
+  local p, q, r, s = corners(x, y, 6)
+  local a, b, c, d = corners(5, 5, 6)
+  face("top", { a, b, c, d, p, q, r, s }, { { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 }, { 4, 1, 5, 8 } })
+  local e, f, g, h = corners(5, 5, 0)
+  face("bottom", { e, f, g, h }, { { 4, 3, 2, 1 } })
+  for i, side in ipairs { { e, f, b, a }, { f, g, c, b }, { g, h, d, c }, { h, e, a, d } } do
+    face("out" .. i, side, { { 1, 2, 3, 4 } })
+  end
+  local high, edge, right = floor + height, width - y, x - gap -- of the ledge
+  local function at(u, v, z) return { u, v, z } end
+  face("left", { at(-x, y, 6), at(-x, y, floor), at(-x, edge, floor), at(-x, edge, high), at(-x, -y, high),
+    at(-x, -y, 6) }, { { 6, 5, 4 }, { 6, 4, 1 }, { 1, 4, 3 }, { 1, 3, 2 } })
+  face("back", { at(-x, y, floor), at(x, y, floor), at(x, y, 6), at(-x, y, 6) }, { { 1, 2, 3, 4 } })
+  face("ledge", { at(-x, -y, high), at(right, -y, high), at(right, edge, high), at(-x, edge, high) },
+    { { 1, 2, 3, 4 } })
+  face("riser", { at(-x, edge, floor), at(right, edge, floor), at(right, edge, high), at(-x, edge, high) },
+    { { 1, 2, 3, 4 } })
+  if gap == 0 then
+    face("right", { at(x, y, 6), at(x, y, floor), at(x, edge, floor), at(x, edge, high), at(x, -y, high),
+      at(x, -y, 6) }, { { 4, 5, 6 }, { 1, 4, 6 }, { 3, 4, 1 }, { 2, 3, 1 } })
+    face("front", { at(-x, -y, high), at(x, -y, high), at(x, -y, 6), at(-x, -y, 6) }, { { 4, 3, 2, 1 } })
+    face("floor", { at(-x, edge, floor), at(x, edge, floor), at(x, y, floor), at(-x, y, floor) },
+      { { 1, 2, 3, 4 } })
+  else
+    face("right", { at(x, -y, floor), at(x, y, floor), at(x, y, 6), at(x, -y, 6) }, { { 1, 2, 3, 4 } })
+    face("front", { at(-x, -y, high), at(right, -y, high), at(right, -y, floor), at(x, -y, floor),
+      at(x, -y, 6), at(-x, -y, 6) }, { { 1, 2, 6 }, { 2, 5, 6 }, { 2, 3, 4 }, { 2, 4, 5 } })
+    face("end", { at(right, -y, floor), at(right, edge, floor), at(right, edge, high), at(right, -y, high) },
+      { { 1, 2, 3, 4 } })
+    face("floor", { at(-x, edge, floor), at(right, edge, floor), at(right, -y, floor), at(x, -y, floor),
+      at(x, y, floor), at(-x, y, floor) }, { { 1, 2, 6 }, { 2, 5, 6 }, { 2, 3, 4 }, { 2, 4, 5 } })
+  end
+  return model, 4 * x * y * (6 - floor) - width * height * (2 * x - gap)
+end
+
+-- A ledge that runs into side walls is a wall, for these lead past it from the floor to the mouth.
+for _, x in ipairs { 2, 3 } do
+  for _, floor in ipairs { 1, 2 } do
+    for _, width in ipairs { 1, 2 } do
+      for _, height in ipairs { 1, 1.5, 2.5 } do
+        local model, volume = ledged(x, 3, floor, width, height, 0)
+        local void = model:open_volume { source = "floor", walls = "auto" }
+        check.equal(void.class, "IV")
+        local quality = void:sweep({ size = 1 }):quality()
+        check.that(quality.certified)
+        check.near(quality.volume, volume, 1e-6 * volume)
+      end
+    end
+  end
+end
+-- One that ends short of a wall has edges across the layers.
+check.fails(function()
+  ledged(3, 3, 2, 2, 2, 2):open_volume({ source = "floor", walls = "auto" }):sweep { size = 1 }
+end, "crosses the layers")
+
 -- Faces outside of any cavity have the whole skin, which a pocketed plate cannot be swept by.
 local pocketed = plate { (kinds.blind(4)), other }
 check.equal(#pocketed:open_volume({ source = "top", walls = "auto" }):model():faces(), #pocketed:faces())

@@ -163,11 +163,15 @@ for name, lines in pairs {
   late = "local lacuna = require 'lacuna'\nlocal part = lacuna.load 'nowhere.step'\nlacuna.params { a = 1 }",
   none = "local x = 1",
   caught = "pcall(require('lacuna').params, { a = 1 })\nassert(io.open('ran', 'w')):close()",
-  made = "local part = require('lacuna').synthetic.prism {}\nassert(io.open('ran', 'w')):close()",
+  made = "local part = require('lacuna').synthetic.prism {}\nassert(io.open('ran', 'w')):close()\n" ..
+    "require('lacuna').params { a = 1 }",
   wrong = "require('lacuna').params(3)",
+  plain = "assert(io.open('ran', 'w')):close()\nprint 'it runs'",
+  without = "-- no params\nlocal part = require('lacuna').load 'nowhere.step'",
 } do
   check.write(folder .. "/" .. name .. ".lua", lines)
-  local told = { caught = "a=1", none = "has no parameters", late = "before lacuna.params",
+  local none = "has no parameters"
+  local told = { caught = "a=1", none = none, late = "before lacuna.params", plain = none, without = none,
     made = "lacuna.synthetic.prism before" }
   expect({ name .. ".lua", "--help" }, told[name] and 0 or 1, { told[name] },
       told[name] and {} or { "params: needs a table" })
@@ -205,6 +209,8 @@ for _, ending in ipairs { "step", "stp", "STEP", "iges", "igs", "brep" } do
   expect({ path }, 1, {}, { path .. ":1:", "`lacuna info " .. path .. "`" })
   for _, words in ipairs { { "check", path }, { "check", "--json", path }, { "convert", path, "x.msh" } } do
     expect(words, 1, {}, { path .. " is CAD, which has no mesh", "`lacuna info`", "io.no_mesh" })
+    for i, word in ipairs(words) do words[i] = word:gsub("part%.", "nosuch.") end
+    expect(words, 1, {}, { "there is no file nosuch." .. ending, "io.no_file" })
   end
 end
 

@@ -150,6 +150,10 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
         if (text.size() > kLongestScript)
             throw InvalidInput("cad.script", own + " is too long for a script (64 MiB at most)");
         const ScriptContent found = look_through_script(own, text);
+        if (i > 0 && !found.skipped.empty() && found.skipped.back().word == "Exit")
+            throw InvalidInput("cad.script", own + ", line " + std::to_string(found.skipped.back().line) +
+                                                 ": Exit in a file that a script includes ends that script "
+                                                 "too; remove it");
         skip_commands(input, input.descriptors[i], own, std::move(text), found.skipped);
         for (const ScriptFile& wanted : found.files) {
             const auto known = std::find_if(input.file.contents.begin(), input.file.contents.end(),

@@ -16,21 +16,18 @@ struct Word {
     std::string_view word, does;
 };
 constexpr std::array kRefused{
-    Word{"SystemCall", "runs a command"},
-    Word{"NonBlockingSystemCall", "runs a command"},
-    Word{"System", "runs a command"},
-    Word{"OnelabRun", "runs a program"},
-    Word{"OnelabAction", "runs a program"},
-    Word{"CreateOverlay", "writes files"},
-    Word{"Exit", "ends Gmsh"},
+    Word{"SystemCall", "runs a command"},   Word{"NonBlockingSystemCall", "runs a command"},
+    Word{"System", "runs a command"},       Word{"OnelabRun", "runs a program"},
+    Word{"OnelabAction", "runs a program"}, Word{"CreateOverlay", "writes files"},
 };
 /// Commands that write files or mesh instead of making geometry, each between blanks.
 constexpr std::string_view kSkipped =
     " Save Print CreateFile Plugin Mesh Remesh RefineMesh OptimizeMesh AdaptMesh RelocateMesh RecombineMesh "
     "TransformMesh SetOrder PartitionMesh UnpartitionMesh RenumberMeshNodes RenumberMeshElements ";
-/// Commands that are followed by a file name.
-constexpr std::array<std::string_view, 5> kFiles{"Include", "Merge", "MergeFile", "ShapeFromFile",
-                                                 "ListFromFile"};
+/// Words that begin and end commands that may be run never or several times, each between blanks.
+constexpr std::string_view kBegins = " If For Macro Function ", kEnds = " EndIf EndFor Return ";
+/// Commands that are followed by a file name, each between blanks.
+constexpr std::string_view kFiles = " Include Merge MergeFile ShapeFromFile ListFromFile ";
 
 class Scanner {
 public:
@@ -106,9 +103,14 @@ private:
         if (at_ < text_.size() && text_[at_] == '.') return;
         for (const Word& refused : kRefused)
             if (found == refused.word) refuse(std::string(found) + " " + std::string(refused.does));
-        const bool skipped = kSkipped.find(" " + std::string(found) + " ") != std::string_view::npos;
+        const auto is_one_of = [between = " " + std::string(found) + " "](std::string_view words) {
+            return words.find(between) != std::string_view::npos;
+        };
+        depth_ += is_one_of(kBegins) ? 1 : is_one_of(kEnds) ? -1 : 0;
+        if (found == "Exit") return end_at(from);
+        const bool skipped = is_one_of(kSkipped);
         if (found == "Printf" || (skipped && begins_command(found))) command(found, from);
-        if (std::find(kFiles.begin(), kFiles.end(), found) != kFiles.end()) file(found);
+        if (is_one_of(kFiles)) file(found);
     }
     /// Whether the word is used as a command and not as a variable name.
     bool begins_command(std::string_view found)
@@ -140,6 +142,13 @@ private:
         line_ = line;
         refuse(word + " has no ';' at its end");
     }
+    /// Remove what follows from `from` on: Gmsh does not come to it.
+    void end_at(std::size_t from)
+    {
+        if (depth_ != 0) refuse("Exit within If, For or a macro ends Gmsh at a place that is not known");
+        content_.skipped.push_back({"Exit", line_, from, text_.size()});
+        at_ = text_.size();
+    }
     void file(std::string_view found)
     {
         skip_to_code();
@@ -160,7 +169,7 @@ private:
     const std::string& path_;
     std::string_view text_;
     std::size_t at_ = 0;
-    int line_ = 1;
+    int line_ = 1, depth_ = 0; ///< in what `kBegins` begins
     ScriptContent content_;
 };
 

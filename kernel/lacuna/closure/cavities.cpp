@@ -5,6 +5,8 @@
 #include <lacuna/topology/shared/hollows.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -17,24 +19,25 @@ namespace {
 /// @param mouths  number of free loops of its faces
 const char* word(VolumeClass value, std::size_t mouths)
 {
-    switch (value) {
-    case VolumeClass::closed:
-        return "inner void";
-    case VolumeClass::IV:
-        return "pocket";
-    case VolumeClass::V:
-        return mouths > 1 ? "bore" : "slot";
-    default:
-        return "slot";
-    }
+    return value == VolumeClass::closed            ? "inner void"
+           : value == VolumeClass::IV              ? "pocket"
+           : value == VolumeClass::V && mouths > 1 ? "bore"
+                                                   : "slot";
 }
 
 std::optional<Cavity> cavity(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
 {
+    const std::size_t mouths = rims(model, faces).size();
     const auto readings = unless_refused([&] { return find_readings(model, faces, context); });
-    if (!readings || readings->size() != 1) return std::nullopt;
-    const VolumeClass value = readings->front().classification.value;
-    return Cavity{word(value, rims(model, faces).size()), faces, value, readings->front().enclosed};
+    if (readings && readings->size() == 1) {
+        const VolumeClass value = readings->front().classification.value;
+        return Cavity{word(value, mouths), faces, value, readings->front().enclosed};
+    }
+    if (mouths > 0) return std::nullopt;
+    Model own = extract(model, faces);
+    orient_consistently(own);
+    return Cavity{word(VolumeClass::closed, mouths), faces, VolumeClass::closed,
+                  std::abs(volume_integral(own, all_faces(own)))};
 }
 
 /// Hollows that share a whole rim, merged.
@@ -42,13 +45,11 @@ std::vector<std::vector<FaceId>> joined(const Model& model, const std::vector<Ho
 {
     const std::vector<std::size_t> first = joined_hollows(model, hollows);
     std::map<std::size_t, std::vector<FaceId>> by_root;
-    for (std::size_t h = 0; h < hollows.size(); ++h) {
-        std::vector<FaceId>& faces = by_root[first[h]];
-        faces.insert(faces.end(), hollows[h].faces.begin(), hollows[h].faces.end());
-    }
+    for (std::size_t h = 0; h < hollows.size(); ++h)
+        if (std::ranges::count(first, first[h]) > 1)
+            std::ranges::copy(hollows[h].faces, std::back_inserter(by_root[first[h]]));
     std::vector<std::vector<FaceId>> result;
     for (auto& [root, faces] : by_root) {
-        if (faces.size() == hollows[root].faces.size()) continue; // alone
         std::sort(faces.begin(), faces.end());
         result.push_back(std::move(faces));
     }

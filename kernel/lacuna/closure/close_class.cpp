@@ -7,9 +7,14 @@
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <iterator>
+#include <numbers>
 #include <set>
 
 namespace lacuna::closure {
@@ -53,7 +58,7 @@ void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loo
               const Tools& tools)
 {
     const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
-    VoidFilling filling = tools.way.cap == Cap::parallel
+    VoidFilling filling = role == Role::target && tools.way.cap == Cap::parallel
                               ? parallel_cap(volume, loops, name, tools.context)
                               : fill(volume, loops, tools.bending(), name, tools.context);
     note(closure, filling.algorithm);
@@ -121,24 +126,49 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// Eq. (3) and (4): the free loops of source and walls are those of the target.
+/// Whether walls run on beside a rim in its plane, as round a hole in them, and do not end there edge on.
+bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
+{
+    const double kBetween = std::numbers::sqrt2 / 2; // 45°, halfway between the two
+    const Model& model = volume.model;
+    const std::vector<Index> around = loop_points(model, rim.uses);
+    const std::set<Index> on_rim(around.begin(), around.end());
+    const Vec3 normal = geometry::newell_vector(loop_places(model, rim.uses)).stableNormalized();
+    double beside = 0, all = 0;
+    for (const FaceId wall : volume.faces(Role::wall)) {
+        for (const Triangle& t : model[wall].triangles) {
+            if (std::ranges::count_if(t, [&](Index p) { return on_rim.contains(p); }) != 2) continue;
+            const Vec3 area = facet_area_vector(model, t);
+            beside += std::abs(area.dot(normal));
+            all += area.norm();
+        }
+    }
+    return beside > kBetween * all;
+}
+
+/// Eq. (3) and (4): the free loops of source and walls are those of the target. Departure: where walls have
+/// holes as well, these become walls.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
-    const std::set<EdgeId> on_source = edges_of(model, volume.faces(Role::source));
+    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     std::vector<Loop> loops;
-    for (const Rim& rim : free_loops(volume)) {
+    const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
+    const std::vector<Rim> open = free_loops(volume);
+    for (const Rim& rim : open) {
         for (const EdgeUse& use : rim.uses) {
-            if (!on_source.contains(use.edge)) continue;
+            if (volume.role[uses[use.edge.index()].front().face.index()] != Role::source) continue;
             throw NotClosed("closure.wall_missing",
                             name_of(model, use.edge) +
                                 " of the source has no wall, and the tops of the walls given do not "
                                 "determine the missing target there; name the wall, or the target");
         }
-        loops.push_back(reversed(rim));
+        if (open.size() > wanted && is_hole_of_walls(volume, rim))
+            add_face(volume, closure, {reversed(rim)}, Role::wall, tools);
+        else
+            loops.push_back(reversed(rim));
     }
-    const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
     if (loops.size() != wanted) {
         throw NotClosed("closure.loop_counts",
                         "the source has " + std::to_string(wanted) + " loops and the walls leave " +
@@ -149,7 +179,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     if (tools.way.planes) {
         if (auto filled = fill_missing_end(volume, tools.context)) {
             closure.void_edges = std::move(filled->void_edges);
-            closure.void_faces = std::move(filled->void_faces);
+            std::ranges::copy(filled->void_faces, std::back_inserter(closure.void_faces));
             note(closure, "Algorithm 4");
             return;
         }

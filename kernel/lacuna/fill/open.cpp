@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/topology/shared/auto_walls.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <utility>
@@ -110,6 +111,10 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         if (request.override_class) volume.as_read.reset();
         volume.classification = topology::classify(volume.volume);
     }
+    for (const FaceId face : topology::bodies_inside(model, volume.volume.model, context))
+        log_line(context, "note: the body of " + topology::name_of(model, face) +
+                              " lies inside the volume, and the mesh goes through it; name its faces too if "
+                              "the mesh should leave it out");
     if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
     volume.name = request.name;
     volume.material = request.material;

@@ -9,6 +9,7 @@
 #include <lacuna/fill/detail/members.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lacuna::fill {
@@ -44,6 +45,19 @@ bool must_match(const Volume& volume, const closure::CloseOptions& options, cons
     return !(topology::free_edges(open).empty() && closure::has_steps(open, context));
 }
 
+/// Undo the closing with which the roles of a volume were found. An end that was a void face is missing then.
+void reopen(Volume& volume, const RunContext& context)
+{
+    topology::Roles roles;
+    for (const auto& [list, role] :
+         {std::pair{&roles.source, Role::source}, {&roles.target, Role::target}, {&roles.walls, Role::wall}})
+        std::ranges::copy_if(volume.volume.faces(role), std::back_inserter(*list), [&](FaceId face) {
+            return volume.volume.model[face].origin == topology::Origin::given;
+        });
+    volume.volume = topology::open_volume(volume.volume.model, roles, context);
+    volume.closure.reset();
+}
+
 } // namespace
 
 Volume override_class(Volume volume, topology::VolumeClass value)
@@ -69,6 +83,10 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options, const RunContext& context)
 {
+    if (volume.closure && options && volume.told)
+        throw InvalidInput("lua.sealed", "close: the volume is sealed already; give these options to its "
+                                         "first close()");
+    if (volume.closure && options) reopen(volume, context);
     if (options) volume.others.reset();
     if (volume.closure) { // sealed while its roles were found, without logging its assumptions
         if (!std::exchange(volume.told, true)) closure::log_notes(*volume.closure, context);

@@ -63,8 +63,10 @@ Volume override_class(Volume volume, topology::VolumeClass value);
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options = {},
              const RunContext& context = {});
 
-/// Match source and target where closing needs it, and seal the volume unless it is sealed already.
-/// @throw  as `matching::match()` and `closure::close()`.
+/// Match source and target where closing needs it, and seal the volume unless it is sealed already. A volume
+/// that was sealed to find its roles is sealed anew if options are given.
+/// @throw InvalidInput "lua.sealed"  options are given and close() was called before.
+///                     Otherwise as `matching::match()` and `closure::close()`.
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options = {},
              const RunContext& context = {});
 

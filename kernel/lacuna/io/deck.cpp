@@ -8,6 +8,7 @@
 #include <lacuna/io/detail/vtk_cells.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -42,11 +43,29 @@ std::vector<std::string_view> words_of_line(Cursor& cursor)
     return words;
 }
 
+/// Whether bytes are a binary AVS UCD file: 7, then six counts in either byte order (nodes, cells, three
+/// kinds of values, corners of all cells), and at least four numbers of each cell, the corners and
+/// coordinates.
+bool is_binary_avs(std::string_view bytes)
+{
+    constexpr std::int64_t kHead = 1 + 6 * 4;
+    if (std::ssize(bytes) < kHead || bytes[0] != 7) return false;
+    return std::ranges::any_of(std::array{true, false}, [&](bool big) {
+        const auto count = [&](std::size_t k) -> std::int64_t {
+            return from_bytes<std::uint32_t>(bytes.data() + 1 + 4 * k, big);
+        };
+        const std::int64_t nodes = count(0), cells = count(1), corners = count(5);
+        return nodes > 0 && cells > 0 && corners >= cells &&
+               std::ssize(bytes) >= kHead + 16 * cells + 4 * corners + 12 * nodes;
+    });
+}
+
 /// What a file is that nobody here reads, though its ending is one of theirs; empty where it is none.
 ///
 /// HEC-MW: a keyword behind an exclamation mark. AVS UCD: five counts, then a node's number and coordinates.
 std::string_view unread_by_content(std::string_view bytes)
 {
+    if (is_binary_avs(bytes)) return "a binary AVS UCD file";
     constexpr std::size_t kHead = 8192; // bytes, comments among them: a choice
     Cursor cursor({}, bytes.substr(0, kHead));
     const auto first = words_of_line(cursor), second = words_of_line(cursor);
@@ -163,8 +182,10 @@ Deck read_deck(const std::string& name, std::string_view bytes)
 Deck read_deck(const std::string& path, const RunContext& context)
 {
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
-        if (ending_of(path) == cad)
+        if (ending_of(path) == cad) {
+            check_file(path);
             throw InvalidInput("io.no_mesh", path + " is CAD, which has no mesh; `lacuna info` lists faces");
+        }
     needed_reader(path, {});
     Deck deck = read_deck(path, read_file(path));
     for (const std::string& warning : deck.warnings) log_line(context, "note: " + warning);

@@ -75,6 +75,7 @@ struct DeckSet {
     std::vector<DeckTag> members{}; ///< of nodes or elements, rising, each once; may name what is in `texts`
     std::vector<DeckSide> sides{};  ///< of a surface, rising, each once
     bool listed = false;            ///< Abaqus has a card of it, even where it is all elements of a region
+    bool of_one_deck = false;       ///< holds all nodes or solids of one of the decks that were merged
 };
 
 /// A part put in place. Decks without parts have none.

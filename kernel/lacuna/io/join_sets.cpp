@@ -180,10 +180,11 @@ std::vector<std::size_t> sets_of_all(const Deck& deck)
     std::vector<DeckTag> nodes;
     add(nodes, deck.point_tags);
     const std::vector<DeckTag> solids = solids_of(deck);
-    for (std::size_t s = 0; s < deck.sets.size() && deck.gap.gone.empty(); ++s) {
+    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
         const DeckSet& set = deck.sets[s];
         const bool of_nodes = set.kind == DeckSet::Kind::nodes;
-        if (holds(set.members, of_nodes ? nodes : solids) && (of_nodes || is_of_all(deck, set)))
+        if (set.of_one_deck || (deck.gap.gone.empty() && holds(set.members, of_nodes ? nodes : solids) &&
+                                (of_nodes || is_of_all(deck, set))))
             found.push_back(s);
     }
     return found;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 namespace lacuna::io {
 namespace {
@@ -55,7 +56,7 @@ public:
         add_blocks(first_region);
         const std::size_t first_set = all_.sets.size();
         add_sets();
-        for (const std::size_t s : sets_of_all(more_)) of_all_.push_back(all_.sets[first_set + s].name);
+        for (const std::size_t s : sets_of_all(more_)) all_.sets[first_set + s].of_one_deck = true;
         add_texts();
         all_.path += ", " + more_.path;
         all_.gap.names.insert(all_.gap.names.end(), more_.gap.names.begin(), more_.gap.names.end());
@@ -69,9 +70,6 @@ public:
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
         all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());
     }
-
-    /// Sets that hold all of the deck, as they are called now.
-    [[nodiscard]] const std::vector<std::string>& of_all() const { return of_all_; }
 
 private:
     /// Refuse, or mark, what both decks have.
@@ -94,10 +92,11 @@ private:
 
     [[nodiscard]] std::vector<DeckTag> shared_properties() const
     {
-        std::vector<DeckTag> a, b;
-        for (const DeckRegion& region : all_.regions) a.push_back(region.tag);
-        for (const DeckRegion& region : more_.regions) b.push_back(region.tag);
-        return in_both(a, b);
+        const auto tags = [](const Deck& deck) {
+            const auto of_all = std::views::transform(deck.regions, &DeckRegion::tag);
+            return std::vector<DeckTag>(of_all.begin(), of_all.end());
+        };
+        return in_both(tags(all_), tags(more_));
     }
 
     [[nodiscard]] static bool has_set(const Deck& deck, const DeckSet& wanted, const std::string& name)
@@ -212,7 +211,6 @@ private:
     bool same_, clashes_ = false;
     DeckTag node_offset_ = 0, cell_offset_ = 0;
     Index first_point_ = 0;
-    std::vector<std::string> of_all_;
 };
 
 } // namespace
@@ -221,17 +219,9 @@ Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options
 {
     if (decks.empty()) throw InvalidInput("io.no_file", "no deck was given");
     Deck all = *decks.front().deck;
-    std::vector<std::string> of_one; // sets of all of one of the decks
-    for (const std::size_t s : sets_of_all(all)) of_one.push_back(all.sets[s].name);
-    for (const DeckInScale& more : decks.subspan(1)) {
-        Merger merger(all, *more.deck, options, context);
-        merger.merge(more.scale / decks.front().scale);
-        of_one.insert(of_one.end(), merger.of_all().begin(), merger.of_all().end());
-    }
-    for (const std::size_t s : sets_of_all(all)) std::erase(of_one, all.sets[s].name);
-    if (decks.size() > 1 && !of_one.empty())
-        log_line(context, "note: " + listed(of_one) +
-                              ": these sets hold all of one deck alone, and get no new nodes or cells");
+    for (const std::size_t s : sets_of_all(all)) all.sets[s].of_one_deck = decks.size() > 1;
+    for (const DeckInScale& more : decks.subspan(1))
+        Merger(all, *more.deck, options, context).merge(more.scale / decks.front().scale);
     return all;
 }
 

@@ -250,18 +250,22 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may join a set: not if its section would give them a second material.
+    /// Whether the cells may join a set: not if its section would give them a second material or, where each
+    /// of several decks has one for all its cells, a second section.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
         const std::optional<std::string> section = section_material(deck_, set.name);
         if (!section) return true;
-        const bool other = !options_.material.empty() && !same_word(*section, material_);
+        const bool chosen = !options_.material.empty() || (set.of_one_deck && !material_.empty());
+        const bool has_other = set.of_one_deck && !section_set_.empty() && section_set_ != set.name;
+        const bool other = has_other || (chosen && !same_word(*section, material_));
         if (other)
             log_line(context_, "note: " + volume_ + " is not in the set " + set.name +
                                    ", whose section has the material " + *section);
         if (other || is_emptied(set.name)) return false;
-        return has_section_ = true;
+        section_set_ = set.name;
+        return true;
     }
 
     /// Add a group as a set, named `wanted` if that is free. It is merged with the set of a mesh added
@@ -500,7 +504,7 @@ private:
             if (number != material_ && !material_.empty()) text += ", material " + material_;
             deck_.texts.push_back({DeckText::Place::cards, "",
                                    text + "\nPSOLID," + std::to_string(region.tag) + "," + number + "\n"});
-        } else if (deck_.format == DeckFormat::abaqus && !material_.empty() && !has_section_ &&
+        } else if (deck_.format == DeckFormat::abaqus && !material_.empty() && section_set_.empty() &&
                    !section_material(deck_, region.name)) {
             add_model_cards(deck_, "*SOLID SECTION, ELSET=" + region.name + ", MATERIAL=" + material_ + "\n");
         }
@@ -515,7 +519,7 @@ private:
     std::string material_;
     std::vector<Index> point_; ///< for each node of the mesh
     std::string volume_, element_;
-    bool has_section_ = false;                   ///< from a set of the deck that the cells join
+    std::string section_set_;                    ///< set of the deck whose section the cells have
     std::map<std::string, std::string> renamed_; ///< groups whose names were in use
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     DeckTag first_cell_ = 1;

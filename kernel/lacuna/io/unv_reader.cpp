@@ -58,18 +58,25 @@ public:
     void read()
     {
         std::size_t datasets = 0;
+        std::string_view between; // the first line of numbers alone since the last dataset
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
             if (line != kMark) {
-                // Text between them; numbers alone are what a dataset lacks or has too many.
                 split(line);
-                if (std::ranges::all_of(numbers_, [](auto word) { return parse_real(word).has_value(); }))
-                    cursor_.fail("expected -1, which begins a dataset, found " + shown(line));
+                if (between.empty() &&
+                    std::ranges::all_of(numbers_, [](auto word) { return parse_real(word).has_value(); }))
+                    between = line;
                 into_.pass_over("lines between datasets");
                 continue;
             }
             ++datasets;
-            const auto dataset = cursor_.integer_of(cursor_.full_line());
+            const std::string_view head = cursor_.full_line();
+            // These numbers are a dataset without its first mark if this mark is its last one.
+            if (!between.empty() && (head.empty() || head == kMark))
+                cursor_.fail_at(static_cast<std::size_t>(between.data() - whole_.data()),
+                                "expected -1, which begins a dataset, found " + shown(between));
+            between = {};
+            const auto dataset = cursor_.integer_of(head);
             if (!read_dataset(static_cast<int>(std::clamp<std::int64_t>(dataset, -1, 100000))))
                 text_ += whole_.substr(begin, cursor_.position() - begin);
         }

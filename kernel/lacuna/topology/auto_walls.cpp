@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace lacuna::topology {
@@ -29,14 +30,15 @@ constexpr double kSameVolume = 0.01;
 constexpr double kFacesAsEnd = 2e-4;
 
 /// Every face connected to some faces over shared edges without crossing the excluded ones.
-std::vector<FaceId> reachable_from(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                   const std::vector<FaceId>& from, const std::vector<FaceId>& without)
+std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
+                                   const std::vector<FaceId>& without)
 {
-    std::vector<bool> wanted(model.faces.size(), true);
-    for (const FaceId face : from) wanted[face.index()] = false;
-    for (const FaceId face : without) wanted[face.index()] = false;
-    std::vector<FaceId> result = spread_over(model, uses, from, wanted);
-    result.erase(result.begin(), result.begin() + std::ssize(from));
+    std::vector<FaceId> rest = all_faces(model), result;
+    std::erase_if(rest, [&](FaceId face) { return std::ranges::find(without, face) != without.end(); });
+    for (const std::vector<FaceId>& part : connected_parts(model, rest))
+        if (std::ranges::find_first_of(part, from) != part.end())
+            std::ranges::copy(part, std::back_inserter(result));
+    std::erase_if(result, [&](FaceId face) { return std::ranges::find(from, face) != from.end(); });
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -216,16 +218,35 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
+/// Faces around walls that run from an end past these faces to the rim of a cavity, as around a ledge at a
+/// side wall: no step of the end has them all round, so they are walls too.
+std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
+                                   const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
+{
+    const auto uses = edge_uses(model);
+    std::set<FaceId> found;
+    for (const std::vector<FaceId>& part : connected_parts(model, walls)) {
+        std::set<FaceId> round;
+        for (const Rim& rim : rims(model, part))
+            for (const EdgeUse& use : rim.uses)
+                for (const FaceUse& by : uses[use.edge.index()]) round.insert(by.face);
+        const auto is_outside = [&](FaceId face) {
+            return !std::ranges::binary_search(cavity, face) && std::ranges::find(end, face) == end.end();
+        };
+        if (std::ranges::find_first_of(round, end) != round.end() && std::ranges::any_of(round, is_outside))
+            found.merge(round);
+    }
+    return found;
+}
+
 /// The walls of an end in a cavity; empty if an end on the same skin lies outside the cavity, because the
 /// solid itself is then the volume.
-std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                          const std::vector<FaceId>& source,
+std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {
     const std::vector<FaceId>& end = source.empty() ? target : source;
     WallChoice result{cavity_round(model, end, context), {}, {}, true, {}};
-    const std::vector<FaceId> skin = reachable_from(model, uses, result.walls, {}); // includes faces outside
-                                                                                    // the cavity
+    const std::vector<FaceId> skin = reachable_from(model, result.walls, {}); // with faces outside the cavity
     for (const std::vector<FaceId>* list : {&source, &target}) {
         for (const FaceId face : *list) {
             if (std::ranges::binary_search(skin, face)) return std::nullopt;
@@ -240,8 +261,12 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
         return face_area_vector(oriented, face).dot(way) > (1 - kFacesAsEnd) * face_area(oriented, face);
     };
     if (!std::ranges::all_of(end, faces_as_end)) return result;
-    std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), faces_as_end);
-    std::erase_if(result.walls, faces_as_end);
+    std::vector<FaceId> across = result.walls;
+    std::erase_if(across, faces_as_end);
+    const std::set<FaceId> walls = beside_long_walls(oriented, across, end, result.walls);
+    const auto is_more = [&](FaceId face) { return faces_as_end(face) && !walls.contains(face); };
+    std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), is_more);
+    std::erase_if(result.walls, is_more);
     for (const FaceId face : result.more_of_end)
         log_line(context, "note: " + name_of(model, face) + " of the same cavity becomes part of " +
                               name_of(model, end.front()) + "'s end, because it faces the same way");
@@ -260,11 +285,10 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
 {
     std::vector<FaceId> ends = source;
     ends.insert(ends.end(), target.begin(), target.end());
-    const auto uses = edge_uses(model);
-    const std::vector<FaceId> reached = source.empty() ? reachable_from(model, uses, target, source)
-                                                       : reachable_from(model, uses, source, target);
-    if (auto cavity = walls_of_cavity(model, uses, source, target, context)) return std::move(*cavity);
-    Sheets sheets(model, uses, ends, reached, context);
+    const std::vector<FaceId> reached = source.empty() ? reachable_from(model, target, source)
+                                                       : reachable_from(model, source, target);
+    if (auto cavity = walls_of_cavity(model, source, target, context)) return std::move(*cavity);
+    Sheets sheets(model, edge_uses(model), ends, reached, context);
     std::optional<std::vector<Choice>> choices;
     if (sheets.crowded()) choices = sheets.choices();
     if (choices && (source.empty() || target.empty()))
@@ -273,8 +297,7 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     const double same = kSameLength * model.diagonal;
     const double least = std::ranges::min_element(*choices, {}, &Choice::free_length)->free_length;
     std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });
-    std::stable_sort(choices->begin(), choices->end(),
-                     [](const Choice& a, const Choice& b) { return a.volume < b.volume; });
+    std::ranges::stable_sort(*choices, {}, &Choice::volume);
     WallChoice result = walls_of(choices->front(), sheets);
     if (choices->size() > 1 && (*choices)[1].volume * (1 - kSameVolume) <= choices->front().volume) {
         throw InvalidInput("topology.walls_ambiguous",

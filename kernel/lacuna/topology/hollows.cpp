@@ -10,6 +10,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -152,9 +153,6 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
     const auto uses = edge_uses(model);
     const std::vector<std::vector<FaceId>> shells = closed_shells(model, uses);
     const std::vector<std::vector<FaceId>> inner = turn_inner_shells(model, shells, context);
-    std::vector<bool> closed(model.faces.size(), false);
-    for (const std::vector<FaceId>& shell : shells)
-        for (const FaceId face : shell) closed[face.index()] = true;
     const std::vector<double> fold = folds_across(model, uses, context);
     geometry::UnionFind hang(model.faces.size());
     for (const std::vector<FaceId>& shell : inner)
@@ -164,12 +162,12 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
             hang.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
     }
     std::map<std::size_t, std::vector<FaceId>> by_root;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        if (closed[f]) by_root[hang.find(f)].emplace_back(f);
-    }
+    for (const std::vector<FaceId>& shell : shells)
+        for (const FaceId face : shell) by_root[hang.find(face.index())].push_back(face);
     std::vector<Hollow> found;
-    for (const auto& [root, faces] : by_root) {
+    for (auto& [root, faces] : by_root) {
         check_cancelled(context);
+        std::sort(faces.begin(), faces.end());
         const bool flat = std::all_of(faces.begin(), faces.end(),
                                       [&](FaceId face) { return model[face].kind == "plane"; });
         if ((flat && faces.size() < 3) || !(capped_volume(model, faces) < 0)) continue;
@@ -198,7 +196,8 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
 {
     const auto uses = edge_uses(given);
     const bool open = std::ranges::any_of(faces, [&](FaceId face) {
-        return uses[given[face].loops.front().uses.front().edge.index()].size() != 2;
+        const std::vector<Loop>& loops = given[face].loops; // none: closed by itself
+        return !loops.empty() && uses[loops.front().uses.front().edge.index()].size() != 2;
     });
     const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(given, context);
     if (found.empty()) return {};
@@ -206,20 +205,40 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     orient_consistently(model);
     const std::vector<std::size_t> first = joined_hollows(model, found);
     std::set<std::size_t> taken;
-    for (std::size_t h = 0; h < found.size(); ++h) {
-        if (std::ranges::any_of(
-                faces, [&](FaceId face) { return std::ranges::binary_search(found[h].faces, face); }))
-            taken.insert(first[h]);
-    }
+    for (std::size_t h = 0; h < found.size(); ++h)
+        if (std::ranges::find_first_of(found[h].faces, faces) != found[h].faces.end()) taken.insert(first[h]);
     std::vector<FaceId> cavity;
-    for (std::size_t h = 0; h < found.size(); ++h) {
-        if (taken.contains(first[h]))
-            cavity.insert(cavity.end(), found[h].faces.begin(), found[h].faces.end());
-    }
+    for (std::size_t h = 0; h < found.size(); ++h)
+        if (taken.contains(first[h])) std::ranges::copy(found[h].faces, std::back_inserter(cavity));
     if (cavity.empty()) return {};
     for (const FaceId face : enclosed_by(model, cavity)) cavity.push_back(face);
     std::sort(cavity.begin(), cavity.end());
     return cavity;
+}
+
+std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const RunContext& context)
+{
+    constexpr double kInside = 0.6; // above the winding number on the skin itself, 0.5
+    std::set<int> own;
+    std::vector<Triangle> facets;
+    for (const Face& face : volume.faces) {
+        own.insert(face.tag);
+        facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
+    }
+    const geometry::FacetTree tree(volume.points, facets, context);
+    std::vector<FaceId> found;
+    for (const std::vector<FaceId>& shell : closed_shells(model, edge_uses(model))) {
+        check_cancelled(context);
+        const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
+        if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
+        const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
+            const Triangle& t = model[face].triangles.front();
+            const Vec3 p = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+            return tree.bounds().contains(p) && std::abs(tree.winding_number(p)) > kInside;
+        });
+        if (inside != shell.end()) found.push_back(*inside);
+    }
+    return found;
 }
 
 } // namespace lacuna::topology

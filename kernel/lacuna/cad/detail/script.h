@@ -23,7 +23,8 @@ struct SkippedCommand {
 /// The commands of a Gmsh script that do more than make geometry.
 struct ScriptContent {
     std::vector<ScriptFile> files;
-    std::vector<SkippedCommand> skipped; ///< commands that write files, run plugins or mesh; in order
+    /// Commands that write files, run plugins or mesh, and all from `Exit` on; in order.
+    std::vector<SkippedCommand> skipped;
 };
 
 /// Parse a Gmsh script before it is run: find the files that it includes or merges, which must be names
@@ -31,8 +32,8 @@ struct ScriptContent {
 ///
 /// The sandbox of the CAD process forbids all of this in any case. Parsing gives an error that names the
 /// line, and makes scripts usable that also mesh or write files.
-/// @throw InvalidInput  "cad.script": the script runs programs, ends the process, or names a file in another
-///                      folder or by an expression.
+/// @throw InvalidInput  "cad.script": the script runs programs, ends under a condition, or names a file in
+///                      another folder or by an expression.
 ScriptContent look_through_script(const std::string& path, std::string_view text);
 
 } // namespace lacuna::cad

@@ -9,7 +9,8 @@
 
 namespace lacuna::closure {
 
-/// A hollow of a solid that is a valid open volume.
+/// A hollow of a solid that is a valid open volume, or a void within it, which may have no ends to sweep
+/// between.
 struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
     std::vector<FaceId> faces; ///< ascending: the `faces` to name for an open volume
@@ -18,7 +19,8 @@ struct Cavity {
 };
 
 /// The cavities of the solids of a model: hollows of topology::hollows(), alone and merged with those that
-/// share a whole rim, for which find_readings() finds exactly one void. In the order of their first faces.
+/// share a whole rim, for which find_readings() finds exactly one void, and all without a mouth. In the order
+/// of their first faces.
 /// @throw Cancelled
 /// @note  One call of find_readings() per hollow.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});

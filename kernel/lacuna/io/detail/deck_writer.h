@@ -232,8 +232,6 @@ DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 /// @param layered  of one part
 DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
-DeckFile vtu_of_deck(const Deck& deck, const LayeredBulk* layered = nullptr);
-DeckFile vtk_of_deck(const Deck& deck, bool binary, const LayeredBulk* layered = nullptr);
 
 /// Text of one place, all parts.
 std::string text_at(const Deck& deck, DeckText::Place place);

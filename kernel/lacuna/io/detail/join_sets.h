@@ -56,7 +56,7 @@ inline Quad shell_key(const DeckBlock& block, std::size_t e)
 }
 
 /// Places of the sets that hold all nodes of a deck, or all solids: of these sets those that are called "all"
-/// or "eall", or are a second name of what regions hold.
+/// or "eall", or are a second name of what regions hold. Also those that did before decks were merged.
 std::vector<std::size_t> sets_of_all(const Deck& deck);
 
 /// Put what a mesh has into the sets of a deck that are to hold it: those of all, and those that held some of

@@ -37,4 +37,10 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
+/// The closed bodies of a model that lie inside a volume made of other faces of it: a face of each.
+/// @param volume  some faces of the model, with their tags; void faces may be added.
+/// @throw Cancelled
+/// @note  O(facets of the volume) for each face within its bounding box.
+std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const RunContext& context = {});
+
 } // namespace lacuna::topology
