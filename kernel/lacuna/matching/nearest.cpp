@@ -126,8 +126,8 @@ private:
         return best;
     }
 
-    /// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the nearest
-    /// source vertex of each target vertex that has no partner or several.
+    /// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the
+    /// nearest source vertex of each target vertex that has no partner or several.
     void match_vertices()
     {
         std::vector<int> met(target_.vertex.size(), 0);

@@ -99,7 +99,8 @@ struct Classification {
 /// @throw InvalidInput  an override that contradicts the faces; says which ones.
 Classification classify(const OpenVolume& volume);
 
-/// A face, an edge or a vertex for a message: `face 12`, `face 12 "lid"`, `edge 3 (vertices 4-9)`, `vertex 4`.
+/// A face, an edge or a vertex for a message: `face 12`, `face 12 "lid"`, `edge 3 (vertices 4-9)`,
+/// `vertex 4`.
 NamedEntity entity_of(const Model& model, FaceId face);
 NamedEntity entity_of(const Model& model, EdgeId edge);
 NamedEntity entity_of(const Model& model, VertexId vertex);

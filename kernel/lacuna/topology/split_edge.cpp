@@ -19,8 +19,7 @@ std::vector<FaceId> users_of(const Model& model, EdgeId edge)
 {
     const auto is_of_edge = [&](const EdgeUse& use) { return use.edge == edge; };
     std::vector<FaceId> users = all_faces(model);
-    std::erase_if(users,
-                  [&](FaceId face) { return std::ranges::none_of(uses_of(model[face]), is_of_edge); });
+    std::erase_if(users, [&](FaceId face) { return std::ranges::none_of(uses_of(model[face]), is_of_edge); });
     return users;
 }
 
