@@ -47,7 +47,8 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
                         "the walls came with {} rows of quads between source and target, and {} layers were "
                         "asked for",
                         needed(columns.rows), found(layers))
-                    .remedy("leave out 'layers', or load with keep_mesh = false"));
+                    .remedy("leave out 'layers'{}",
+                            options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
         }
     }
     if (asked.empty() || options.layers.heights.empty()) {

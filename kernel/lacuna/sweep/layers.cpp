@@ -10,7 +10,6 @@
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <array>

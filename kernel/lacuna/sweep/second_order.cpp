@@ -70,14 +70,12 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
         }
     }
     if (!result.layers) repaired = hold_middles(volume, mesh, faces, skin.middles, result, context);
-    result.report = std::string("order 2: ") + (mesh.middles.full ? "hex27" : "hex20") + ", " +
-                    std::to_string(mesh::middle_count(mesh)) + " middle nodes; of those on the skin " +
-                    std::to_string(skin.counts.exact) + " on exact curves and surfaces, " +
-                    std::to_string(skin.counts.facets) + " on facets, " + std::to_string(skin.counts.given) +
-                    " given";
+    result.report = formatted("order 2: {}, {} middle nodes; of those on the skin {} on exact curves and "
+                              "surfaces, {} on facets, {} given",
+                              mesh.middles.full ? "hex27" : "hex20", mesh::middle_count(mesh),
+                              skin.counts.exact, skin.counts.facets, skin.counts.given);
     if (repaired > 0)
-        result.report += "; the inner ones of " + std::to_string(repaired) +
-                         " cells moved to make them valid";
+        result.report += formatted("; the inner ones of {} cells moved to make them valid", repaired);
     return result;
 }
 
