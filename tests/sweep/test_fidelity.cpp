@@ -232,7 +232,7 @@ TEST_CASE("distances are those to the nearest of all facets and all quads, by an
                         CAPTURE(taper);
                         CAPTURE(cuts);
                         CAPTURE(size);
-                        CAPTURE(one.faces[f].name);
+                        CAPTURE(one.faces[f].tag);
                         CHECK(one.faces[f].max_distance == many.faces[f].max_distance);
                         CHECK(one.faces[f].mean_distance == many.faces[f].mean_distance);
                         CHECK(one.faces[f].place == many.faces[f].place);

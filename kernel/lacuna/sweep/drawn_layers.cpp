@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/drawn_layers.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/morph.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
@@ -70,8 +71,10 @@ std::string in_words(const StuckCorner& stuck, const mesh::HexMesh& mesh, const 
                           entity_of(model, b));
         break;
     }
-    return where + " lie in one line, and the cell that has both at one corner has no volume wherever its "
-                   "other nodes are; name other faces as source and target, or cut the volume there";
+    return formatted(
+        "{} lie in one line, and the cell that has both at one corner has no volume wherever its "
+        "other nodes are; name other faces as source and target, or cut the volume there",
+        where);
 }
 
 std::string in_words(const Improved& improved)

@@ -16,10 +16,10 @@ void check_amount(const mesh::HexMesh& mesh)
     const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
     const std::size_t all = (2 * index(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
-    throw InvalidInput(
-        "sweep.too_many",
-        "a mesh of order 2 would take " + std::to_string(all) +
-            " numbers of nodes, more than there are; ask for a larger 'size' or fewer 'layers'");
+    throw InvalidInput(Message("sweep.too_many",
+                               "a mesh of order 2 would take {} numbers of nodes, more than there are",
+                               found(all))
+                           .remedy("ask for a larger 'size' or fewer 'layers'"));
 }
 
 /// The quality of a mesh whose nodes are left to be made, and they; none where cells are not valid so.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/size_words.h>
 
+#include <lacuna/core/message.h>
+
 #include <cmath>
 #include <limits>
 

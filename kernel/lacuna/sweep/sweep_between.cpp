@@ -385,8 +385,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
             continue;
-        result.report.push_back("walls: " + name_of(volume.model, wall) +
-                                " is smaller than the quads there and has none, nor a group");
+        result.report.push_back(
+            formatted("walls: {} is smaller than the quads there and has none, nor a group",
+                      entity_of(volume.model, wall)));
     }
     report_progress(context, "proof of every cell");
     check_cancelled(context);
