@@ -43,7 +43,7 @@ struct Outcome {
     {
         if (refusal) return *refusal;
         const quality::Finding& finding = *result->proof.finding;
-        return {quality::fault_code(finding.fault), "{}", finding.message};
+        return Message::of_text(quality::fault_code(finding.fault), finding.message);
     }
 };
 
