@@ -112,8 +112,7 @@ public:
                                                  faces.second, pair_.tolerance);
             if (hinged)
                 throw InvalidInput(message_of(miss, "assembly.crack",
-                                              ". They have an edge in common, so the two meshes would open "
-                                              "along it as a crack"));
+                                              ". They have an edge in common, which would open as a crack"));
             if (miss.reach_in && overlap.depth > limit_of(faces))
                 throw InvalidInput(
                     message_of(miss, "assembly.overlap", ". Volumes of an assembly may touch, not overlap"));
