@@ -28,7 +28,7 @@ void set_near_misses(lua_State* L, const fill::FilledParts& mesh)
         set_number(L, "width", miss.width);
         set_number(L, "tolerance", miss.tolerance);
         set_boolean(L, "reach_in", miss.reach_in);
-        set_string(L, "message", miss.message.c_str());
+        set_string(L, "message", miss.message.text());
     });
     lua_setfield(L, -2, "near_misses");
 }
@@ -115,8 +115,8 @@ int mesh_left_out(lua_State* L)
     push_array(L, state.left_out, [&](const auto& out) {
         lua_createtable(L, 0, 3);
         set_string(L, "region", out.region);
-        set_string(L, "code", out.code);
-        set_string(L, "message", out.message);
+        set_string(L, "code", out.message.code());
+        set_string(L, "message", out.message.text());
     });
     return 1;
 }

@@ -645,7 +645,7 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
     static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
     count_parts(arguments, path, crew);
     for (const sweep::LeftOut& out : state.left_out)
-        log_line(context, "note: " + path.text() + " has a hole: left out is " + out.message);
+        log_line(context, formatted("note: {} has a hole: left out is {}", path.text(), out.message.text()));
     write_parts(state, path, arguments, crew, context);
 }
 

@@ -335,7 +335,7 @@ struct Tally {
         try {
             const SweptAssembly whole = sweep::sweep_assembly(members.list());
             check_assembly(whole, volume, share);
-            for (const sweep::NearMiss& miss : whole.near_misses) FAIL_CHECK(miss.message);
+            for (const sweep::NearMiss& miss : whole.near_misses) FAIL_CHECK(miss.message.text());
             ++meshed;
             pieces += whole.parts.size();
         } catch (const Error& error) {

@@ -17,7 +17,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <regex>
 #include <string>
 
 using namespace lacuna;
@@ -70,15 +69,15 @@ std::vector<Misfit> misfits(const Fidelity& fidelity)
     return found;
 }
 
-std::string refusal(const OpenVolume& volume, const SweepOptions& options)
+std::optional<Message> refusal(const OpenVolume& volume, const SweepOptions& options)
 {
     try {
         sweep::sweep(volume, options);
     } catch (const NotSweepable& error) {
         CHECK(error.code() == "sweep.deviation");
-        return error.what();
+        return error.message();
     }
-    return "";
+    return std::nullopt;
 }
 
 /// A box with a square pocket in its target, whose walls and floor are target too.
@@ -233,7 +232,7 @@ TEST_CASE("distances are those to the nearest of all facets and all quads, by an
                         CAPTURE(taper);
                         CAPTURE(cuts);
                         CAPTURE(size);
-                        CAPTURE(one.faces[f].name);
+                        CAPTURE(one.faces[f].tag);
                         CHECK(one.faces[f].max_distance == many.faces[f].max_distance);
                         CHECK(one.faces[f].mean_distance == many.faces[f].mean_distance);
                         CHECK(one.faces[f].place == many.faces[f].place);
@@ -403,7 +402,10 @@ TEST_CASE("quads given to the wrong face, a face left out, a fold and a node off
         const Fidelity fidelity = compared(volume, mesh);
         const auto found = misfits(fidelity);
         CHECK(std::count(found.begin(), found.end(), Misfit::no_quads) == 1);
-        CHECK_FALSE(sweep::misfit_in_words(fidelity, mesh.layers).empty());
+        const std::optional<Message> message = sweep::misfit(fidelity, mesh.layers);
+        REQUIRE(message);
+        CHECK(message->code() == "sweep.deviation");
+        CHECK(message->entities().size() == 1);
     }
     SUBCASE("the skin folds over within its face")
     {
@@ -495,23 +497,19 @@ TEST_CASE("sizes and layers that refusals name lead to a mesh within a few steps
             SweepOptions options = layers_of(4, 0.6);
             options.max_deviation = allowed;
             options.volume_share = 0;
-            std::string why = refusal(volume, options);
-            CHECK(!why.empty());
-            for (int round = 0; !why.empty() && round < 6; ++round) {
-                CAPTURE(why);
-                std::smatch found;
-                if (std::regex_search(why, found, std::regex("a size of ([0-9.e-]+) would do"))) {
-                    const double size = std::stod(found[1]);
-                    options.size = [size](const Vec3&) { return size; };
-                } else if (std::regex_search(why, found, std::regex("([0-9]+) layers would do"))) {
-                    options.layers.count = std::stoi(found[1]);
-                } else {
-                    FAIL("nothing named");
-                }
+            std::optional<Message> why = refusal(volume, options);
+            CHECK(why);
+            for (int round = 0; why && round < 6; ++round) {
+                CAPTURE(why->text());
+                REQUIRE(why->needed().size() == 2); // the distance, and the size or the layers
+                if (const auto* size = std::get_if<double>(&why->needed()[1]))
+                    options.size = [even = *size](const Vec3&) { return even; };
+                else
+                    options.layers.count = static_cast<int>(std::get<long long>(why->needed()[1]));
                 why = refusal(volume, options);
                 ++tried;
             }
-            CHECK(why == "");
+            CHECK_FALSE(why);
         }
     }
     MESSAGE(tried << " things tried");

@@ -4,6 +4,8 @@
 #include "support/refusal.h"
 #include "support/volumes.h"
 
+#include <lacuna/core/shared/number_text.h>
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -75,22 +77,21 @@ double tolerance_of(const Pair& pair)
 }
 
 /// The number after "tolerance = " in a message.
-double tolerance_in(const std::string& message)
+/// The tolerance that a remedy names, in its digits.
+double tolerance_in(const Message& message)
 {
-    const std::string before = "tolerance = ";
-    const std::size_t at = message.rfind(before);
-    REQUIRE(at != std::string::npos);
-    return std::stod(message.substr(at + before.size()));
+    REQUIRE(!message.needed().empty());
+    return std::stod(with_digits(std::get<double>(message.needed().back()), 2));
 }
 
-std::string message_of(const Members& members)
+Message message_of(const Members& members)
 {
     try {
         sweep::sweep_assembly(members.list());
     } catch (const Error& error) {
-        return error.what();
+        return error.message();
     }
-    return "";
+    return {"test.no_error", "nothing is refused"};
 }
 
 void check_joined(const Members& members, double volume, double share)
@@ -127,9 +128,10 @@ TEST_CASE("faces a little further apart than the tolerance are named, with the t
         CHECK(miss.least == doctest::Approx(gap).epsilon(1e-6));
         CHECK(miss.area == doctest::Approx(pair.area).epsilon(1e-6));
         CHECK(!miss.reach_in);
-        CHECK(log.find(miss.message) != std::string::npos);
-        CHECK(miss.message.find("part_1") != std::string::npos);
-        CHECK(miss.message.find("part_2") != std::string::npos);
+        CHECK(log.find(miss.message.text()) != std::string::npos);
+        CHECK(miss.message.text().find("part_1") != std::string::npos);
+        CHECK(miss.message.text().find("part_2") != std::string::npos);
+        CHECK(miss.message.entities().size() == 2);
         CHECK(tolerance_in(miss.message) == doctest::Approx(miss.tolerance));
         check_joined(pair.members(tolerance_in(miss.message)), pair.volume(), 5e-3);
         ++joined;

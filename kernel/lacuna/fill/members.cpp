@@ -180,7 +180,7 @@ bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& r
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
-        left_out.push_back({region, error.code(), region + ": " + error.what()});
+        left_out.push_back({region, error.message().about(region)});
         return false;
     }
 }
@@ -233,8 +233,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     }
     check_known_faces(all);
     for (sweep::AssemblyMember& member : members) keep_known_faces(member);
-    if (members.empty() && !left_out.empty())
-        throw NotSweepable(left_out.front().code, left_out.front().message);
+    if (members.empty() && !left_out.empty()) throw NotSweepable(left_out.front().message);
     FilledParts mesh{sweep::sweep_assembly(members, context), {}, {}, std::move(left_out)};
     for (const std::size_t m : mesh.swept.member) {
         mesh.regions.push_back(members[m].turn_of.empty() ? members[m].region : members[m].turn_of);
@@ -243,7 +242,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     for (const Part& one : all)
         if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
     for (const sweep::LeftOut& out : mesh.left_out)
-        mesh.swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
+        mesh.swept.report.push_back(formatted("left out: {} [{}]", out.message.text(), out.message.code()));
     mesh.left_out.insert(mesh.left_out.end(), mesh.swept.left_out.begin(), mesh.swept.left_out.end());
     return mesh;
 }

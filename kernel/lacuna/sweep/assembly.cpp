@@ -41,28 +41,22 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
 /// Two meshes of a shared face are the same where their nodes are apart by no more than this part of the
 /// largest coordinate: rounding of the same patch in another order.
 constexpr double kRounding = 1e-12;
-/// What a line for everybody begins with.
-constexpr const char* kNote = "note: ";
 /// The facets of a flat face have areas that add up to the face's but for this share.
 constexpr double kFlat = 1e-9;
 
-/// A refusal without its advice to load without a mesh, for a member that came with none: the quads it speaks
-/// of are those of neighbours that were meshed before.
-std::string without_load_hint(std::string why)
+/// Codes of errors whose remedy is to remesh a given face, or to load it without its mesh.
+constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
+                                                     "surface.kept_rim", "sweep.layers_given"};
+
+/// Why a member failed. If it came without a mesh, quads that stay were made by neighbours that were meshed
+/// before it, so that loading it in another way helps nothing.
+Message why_failed(const AssemblyMember& member, const Error& error)
 {
-    bool any = false;
-    for (const std::string hint :
-         {"; load with keep_mesh = false", ", or load with keep_mesh = false",
-          ", or load one with keep_mesh = false", ", or load it with keep_mesh = false",
-          "; quads = \"paved\" meshes it anew, as does loading with keep_mesh = false"}) {
-        for (std::size_t at = why.find(hint); at != std::string::npos; at = why.find(hint)) {
-            any = true;
-            const std::string rest = why.substr(at + hint.size());
-            const bool other = hint.front() == ';' && rest.starts_with(", or ");
-            why = why.substr(0, at) + (other ? "; " + rest.substr(5) : rest);
-        }
-    }
-    return any ? why + " (the quads and nodes it came with are those of its neighbours there)" : why;
+    Message why = error.message().about(member.region);
+    if (came_with_mesh(member) || std::ranges::find(kGivenMesh, error.code()) == kGivenMesh.end()) return why;
+    return std::move(why).remedy(
+        "its neighbours made these quads and nodes: give all of them the same 'size' "
+        "and 'layers'");
 }
 
 /// A member's own mesh of a shared face came out unlike its neighbour's.
@@ -72,10 +66,7 @@ struct UnlikeNeighbour : Error {
 
 /// A member could not be swept, alone or where others had been before it.
 struct MemberFailed : NotSweepable {
-    MemberFailed(std::size_t which, const std::string& code, const std::string& why)
-        : NotSweepable(code, why), member(which)
-    {
-    }
+    MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
 };
 
@@ -108,7 +99,7 @@ public:
             sweep_all();
         } catch (const MemberFailed& failed) {
             if (!carry_lines()) throw;
-            log_line(context_, failed.what());
+            log_line(context_, failed.message().text());
             sweep_again();
         }
         number_nodes(result_, pairs_);
@@ -124,11 +115,11 @@ private:
     {
         std::set<std::string> said;
         for (const std::size_t m : order_) {
-            for (const std::string& line : result_.parts[m].defaults) {
-                if (!said.insert(line).second) continue;
-                const std::string note = line.starts_with(kNote) ? kNote : "";
-                log_line(context_, note + members_[m].region + ": " + line.substr(note.size()));
-            }
+            const std::string& region = members_[m].region;
+            for (const std::string& line : result_.parts[m].defaults)
+                if (said.insert(line).second) log_line(context_, formatted("{}: {}", region, line));
+            for (const std::string& note : result_.parts[m].notes)
+                if (said.insert(note).second) log_line(context_, formatted("note: {}: {}", region, note));
         }
     }
 
@@ -142,19 +133,20 @@ private:
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume")
                 throw InvalidInput(
-                    "assembly.same_name",
-                    "a volume of an assembly is named \"volume\", which is the group of all of "
-                    "them; give it another name");
+                    Message("assembly.same_name",
+                            "a volume of an assembly is named \"volume\", which is the group of all of them")
+                        .remedy("give it another name"));
             const SweepOptions &first = members_.front().options, &own = members_[m].options;
             if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
-                throw InvalidInput("assembly.order",
-                                   members_.front().region + " and " + members_[m].region +
-                                       " are one mesh, whose cells are of one order, with or without "
-                                       "'serendipity'; give both the same");
+                throw InvalidInput(Message("assembly.order",
+                                           "{} and {} are one mesh, whose cells are of one order, with or "
+                                           "without 'serendipity'",
+                                           members_.front().region, members_[m].region)
+                                       .remedy("give both the same"));
             for (std::size_t n = 0; n < m; ++n) {
                 if (members_[m].region == members_[n].region)
-                    throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"" +
-                                                                 members_[m].region + "\"");
+                    throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"{}\"",
+                                       members_[m].region);
             }
         }
     }
@@ -193,7 +185,7 @@ private:
         result_.shared = std::move(found.whole);
         result_.near_misses = std::move(found.near);
         for (const NearMiss& miss : result_.near_misses) {
-            notes_.push_back("near miss: " + miss.message);
+            notes_.push_back(miss.message.about("near miss").text());
             log_line(context_, notes_.back());
         }
     }
@@ -210,7 +202,7 @@ private:
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) { // what was wrong first says more
-            log_line(context_, error.what());
+            log_line(context_, error.message().text());
         }
         notes_.insert(notes_.end(), lines.begin(), lines.end());
         return !lines.empty();
@@ -252,7 +244,7 @@ private:
             }
             if (!reason) reason = failed;
             if (std::ranges::find(first, failed->member) != first.end()) break;
-            log_line(context_, failed->what());
+            log_line(context_, failed->message().text());
             first.insert(first.begin(), failed->member);
         }
         throw MemberFailed(*reason);
@@ -262,7 +254,7 @@ private:
     {
         if (order.size() < 2) return;
         const auto name = [&](std::size_t m) { return members_[m].region; };
-        result_.report.push_back("meshed in this order: " + full_list(order, name));
+        result_.report.push_back(formatted("meshed in this order: {}", full_list(order, name)));
     }
 
     std::optional<MemberFailed> sweep_in_order()
@@ -290,9 +282,7 @@ private:
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
-                const std::string why = came_with_mesh(members_[m]) ? error.what()
-                                                                    : without_load_hint(error.what());
-                MemberFailed failed(m, error.code(), members_[m].region + ": " + why);
+                MemberFailed failed(m, why_failed(members_[m], error));
                 if (!neighbours.empty()) return failed;
                 throw failed;
             }
@@ -353,6 +343,7 @@ private:
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(touching, options.second_order);
         options.beside.between = shared_faces_of(m);
+        options.beside.own_mesh = came_with_mesh(member);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
             return settle(m, alike, skin, faces);
         };
@@ -375,7 +366,7 @@ private:
         try {
             sweep_it();
         } catch (const UnlikeNeighbour& unlike) {
-            log_line(context_, unlike.what());
+            log_line(context_, unlike.message().text());
             alike.clear();
             handed = neighbours;
             sweep_it();
@@ -434,9 +425,9 @@ private:
             part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
         for (const std::size_t other : from_members) {
             if (own.agrees(*states_[other].middles)) continue;
-            throw NotSweepable("assembly.not_shared", members_[m].region + " and " + members_[other].region +
-                                                          " have middle nodes in different places on what "
-                                                          "they share");
+            throw NotSweepable("assembly.not_shared",
+                               "{} and {} have middle nodes in different places on what they share",
+                               members_[m].region, members_[other].region);
         }
     }
 
@@ -475,9 +466,9 @@ private:
             const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,
                                           quads_of(n.other, n.there), within);
             if (!pairs)
-                throw UnlikeNeighbour("assembly.unlike", name_in(members_[m], n.own) +
-                                                             " is meshed unlike its neighbour; that mesh is "
-                                                             "handed on to it");
+                throw UnlikeNeighbour("assembly.unlike",
+                                      "{} of {} is meshed unlike its neighbour; that mesh is handed on to it",
+                                      entity_in(members_[m], n.own), members_[m].region);
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
         }
@@ -555,20 +546,20 @@ private:
         std::erase_if(pairs_, [&](const SharedNodes& face) { return face.own == m; });
         for (const auto& [own, other, there] : neighbours) {
             const std::vector<Quad> a = quads_of(m, own), b = quads_of(other, there);
+            const NamedEntity face_a = entity_in(members_[m], own),
+                              face_b = entity_in(members_[other], there);
+            const std::string &region_a = members_[m].region, &region_b = members_[other].region;
             if (auto pairs = same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
                 pairs_.push_back({m, other, std::move(*pairs)});
-                lines.push_back("shared: " + name_in(members_[other], there) + " and " +
-                                name_in(members_[m], own) + ", " + std::to_string(a.size()) +
-                                (a.size() == 1 ? " quad" : " quads"));
+                lines.push_back(formatted("shared: {} of {} and {} of {}, {} {}", face_b, region_b, face_a,
+                                          region_a, a.size(), a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
-            std::string why;
-            for (const std::string& line : part.report)
-                if (line.find("not kept") != std::string::npos) why += "; " + line;
-            throw NotSweepable("assembly.not_shared",
-                               name_in(members_[m], own) + " and " + name_in(members_[other], there) +
-                                   " are one face, and their meshes differ on it: " +
-                                   std::to_string(a.size()) + " quads and " + std::to_string(b.size()) + why);
+            throw NotSweepable(
+                "assembly.not_shared",
+                "{} of {} and {} of {} are one face, and their meshes differ on it: {} quads and {}{}",
+                face_a, region_a, face_b, region_b, found(a.size()), needed(b.size()),
+                part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
     }
 
@@ -605,9 +596,11 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
             SweptAssembly swept = Assembler(left, context).run();
             swept.member = std::move(place);
             for (const auto& [region, failed] : without_wedges)
-                swept.report.push_back(std::string("fallback: meshed with wedges, because ") + failed.what());
+                swept.report.push_back(
+                    formatted("fallback: meshed with wedges, because {}", failed.message().text()));
             for (const LeftOut& out : left_out)
-                swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
+                swept.report.push_back(
+                    formatted("left out: {} [{}]", out.message.text(), out.message.code()));
             swept.left_out = std::move(left_out);
             return swept;
         } catch (const MemberFailed& failed) {
@@ -619,13 +612,13 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
             } else if (const auto first = without_wedges.find(member.region); first != without_wedges.end()) {
                 throw MemberFailed(first->second); // says more than what fails with wedges
             } else if (fallback == Fallback::leave_out && left.size() > 1) {
-                left_out.push_back({member.region, failed.code(), failed.what()});
+                left_out.push_back({member.region, failed.message()});
                 left.erase(left.begin() + static_cast<std::ptrdiff_t>(failed.member));
                 place.erase(place.begin() + static_cast<std::ptrdiff_t>(failed.member));
             } else {
                 throw;
             }
-            log_line(context, failed.what());
+            log_line(context, failed.message().text());
         }
     }
 }

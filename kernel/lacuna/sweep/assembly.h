@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/mesh_part.h>
 #include <lacuna/sweep/sweep.h>
@@ -56,7 +57,7 @@ struct NearMiss {
     double area = 0;                        ///< of the faces within that distance [model length²]
     double length = 0;                      ///< of the edge within that distance [model length]
     double tolerance = 0;                   ///< of both models that would join the faces [model length]
-    std::string message;                    ///< the above as text
+    Message message{"assembly.near_miss", "a near miss"}; ///< the above as a note
 };
 
 /// The faces shared by members: the same surface within the tolerance, with any facets; or void faces with
@@ -71,7 +72,8 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
 
 /// A volume of an assembly that could not be meshed and was left out.
 struct LeftOut {
-    std::string region, code, message; ///< its name, and the error
+    std::string region; ///< its name
+    Message message;    ///< of the error
 };
 
 /// Hexahedra of several sweeps with common nodes at shared faces.

@@ -24,6 +24,8 @@ using namespace topology;
 
 namespace {
 
+constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
+
 /// Chords that cross at less than this sine run along each other: ends of either are what counts then.
 constexpr double kAlong = 1e-6;
 
@@ -188,7 +190,9 @@ private:
 struct SideOfPair {
     OpenVolume* volume;
     FaceId face;
-    bool fixed = false; ///< the skin of a mesh that stays as it is
+    bool fixed = false;   ///< the skin of a mesh that stays as it is
+    NamedEntity whole{};  ///< the face before parts were split off
+    std::string region{}; ///< of the member
 
     [[nodiscard]] Model& model() const { return volume->model; }
 };
@@ -281,8 +285,7 @@ struct Parts {
     std::vector<FaceId> a, b;
 };
 
-Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const std::string& names,
-                   const RunContext& context)
+Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const RunContext& context)
 {
     const double within = std::max({limit, a.model().tolerance, b.model().tolerance});
     std::vector<Vec3> stops = corners_of(a);
@@ -307,21 +310,25 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
     for (const auto& [side, lines] : {std::pair(&a, &onto_a), std::pair(&b, &onto_b)}) {
         if (lines->empty() || side->model()[side->face].given_quads.empty()) continue;
         throw InvalidInput(
-            "assembly.part_of_face",
-            names + ": " + name_of(side->model(), side->face) +
-                (side->fixed
-                     ? " is a face of a mesh that stays as it is, and cannot be split along the rim of "
-                       "the other; put the volume it was made of in its place, or split the face "
-                       "there before that is meshed"
-                     : " came with quads, which stay as they are and cannot be split along the rim of "
-                       "the other; mesh the two faces alike, or, of a mesh from a file, load it with "
-                       "keep_mesh = false"));
+            Message(kPartOfFace,
+                    "{} of {} and {} of {}: {} {}, and cannot be split along the rim of the other", a.whole,
+                    a.region, b.whole, b.region, entity_of(side->model(), side->face),
+                    side->fixed ? "is a face of a mesh that stays as it is"
+                                : "came with quads, which stay as they are")
+                .remedy("{}", side->fixed
+                                  ? "put the volume it was made of in its place, or split the face there "
+                                    "before that is meshed"
+                                  : "mesh the two faces alike, or, of a mesh from a file, load it with "
+                                    "keep_mesh = false"));
     }
     Parts parts{split_along(a, onto_a, context), split_along(b, onto_b, context)};
     if (parts.a.empty() || parts.b.empty())
-        throw InvalidInput("assembly.part_of_face",
-                           names + ": the rim of one cannot be laid onto the facets of the other; split the "
-                                   "larger face along it where the faces were made");
+        throw InvalidInput(
+            Message(kPartOfFace,
+                    "{} of {} and {} of {}: the rim of one cannot be laid onto the facets of the "
+                    "other",
+                    a.whole, a.region, b.whole, b.region)
+                .remedy("split the larger face along it where the faces were made"));
     return parts;
 }
 
@@ -338,10 +345,11 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
     for (const PartlyShared& pair : pairs) {
         check_cancelled(context);
         const SharedFace& faces = pair.faces;
-        const std::string names = name_in(members[faces.a], faces.face_a) + " and " +
-                                  name_in(members[faces.b], faces.face_b);
+        const AssemblyMember &a = members[faces.a], &b = members[faces.b];
+        const NamedEntity face_a = entity_in(a, faces.face_a), face_b = entity_in(b, faces.face_b);
         const auto side = [&](std::size_t m, FaceId face) {
-            return SideOfPair{&volumes[m], face, members[m].fixed != nullptr};
+            return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
+                              members[m].region};
         };
         // Parts made on the way are met by those of the other.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
@@ -349,14 +357,16 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);
             for (std::size_t j = 0; j < all_b.size(); ++j) {
                 const Parts made = imprint_pair(side(faces.a, all_a[i]), side(faces.b, all_b[j]), pair.limit,
-                                                names, context);
+                                                context);
                 all_a.insert(all_a.end(), made.a.begin() + 1, made.a.end());
                 all_b.insert(all_b.end(), made.b.begin() + 1, made.b.end());
             }
             parts(faces.b, faces.face_b) = all_b;
         }
         parts(faces.a, faces.face_a) = all_a;
-        report.push_back("imprinted: " + names + " share a part, which is a face of both now");
+        report.push_back(
+            formatted("imprinted: {} of {} and {} of {} share a part, which is a face of both now", face_a,
+                      a.region, face_b, b.region));
     }
     return report;
 }

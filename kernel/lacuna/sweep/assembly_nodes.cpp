@@ -155,15 +155,23 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         const auto& [a, b] = segments[index(near.segment)];
         const double f = fraction_along(p, a, b);
         if ((p - ((1 - f) * a + f * b)).norm() > tolerance) continue;
-        std::string why =
-            "they touch along an edge and share no face there; give them the same size along it";
-        for (const NearMiss& miss : assembly.near_misses) {
-            if (miss.a == std::min(part, side.part) && miss.b == std::max(part, side.part))
-                why = miss.message;
-        }
-        throw NotSweepable("assembly.hanging_node", members[part].region + " has a node at " +
-                                                        place_in_short(p) + ", where " +
-                                                        members[side.part].region + " has none: " + why);
+        const std::string &region = members[part].region, &other = members[side.part].region;
+        const auto miss = std::ranges::find_if(assembly.near_misses, [&](const NearMiss& near_miss) {
+            return near_miss.a == std::min(part, side.part) && near_miss.b == std::max(part, side.part);
+        });
+        if (miss == assembly.near_misses.end())
+            throw NotSweepable(Message("assembly.hanging_node",
+                                       "{} has a node at {}, where {} has none: they touch along an edge and "
+                                       "share no face there",
+                                       region, place_in_short(p), other)
+                                   .remedy("give them the same size along it"));
+        throw NotSweepable(
+            Message("assembly.hanging_node",
+                    "{} has a node at {}, where {} has none: {} are up to {:.2g} off each other and share no "
+                    "nodes",
+                    region, place_in_short(p), other, miss->message.entities(), found(miss->width))
+                .remedy("{}", miss->message.remedy())
+                .attempt(miss->message));
     }
 }
 

@@ -233,7 +233,7 @@ private:
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
-            log_line(context_, member.region + ": " + error.what());
+            log_line(context_, error.message().about(member.region).text());
         }
     }
 
@@ -278,7 +278,7 @@ private:
                                        : std::clamp(static_cast<int>(std::lround(asked.count * until / all)),
                                                     before + 1, asked.count - left);
             const std::size_t e = number(m, edges[k].edge);
-            ask_class(e, {node - before, members_[m].region + ": " + asked.name});
+            ask_class(e, {node - before, members_[m].region, asked.name});
             if (edges.size() == 1 && asked.bias != 1)
                 bias_[same_.find(e)] = {e, edges[k].reversed ? 1 / asked.bias : asked.bias};
             before = node;
@@ -286,17 +286,19 @@ private:
     }
     struct SidesOfClass {
         int count = 0;
-        std::string name; ///< who asks
+        std::string region; ///< of the member that asks
+        Argument name;      ///< of what asks there
     };
     void ask_class(std::size_t e, const SidesOfClass& sides)
     {
         const auto [found, fresh] = intervals_.try_emplace(classes_.find(e), sides);
         if (fresh || found->second.count == sides.count) return;
-        throw NotSweepable("surface.sides_asked", "intervals: " + sides.name + " asks for " +
-                                                      std::to_string(sides.count) + " sides, and " +
-                                                      found->second.name + " for " +
-                                                      std::to_string(found->second.count) +
-                                                      "; volumes that share edges have as many sides there");
+        const SidesOfClass& before = found->second;
+        throw NotSweepable(Message("surface.sides_asked",
+                                   "intervals: {}: {} asks for {} sides, and {}: {} for {}", sides.region,
+                                   sides.name, lacuna::found(sides.count), before.region, before.name,
+                                   needed(before.count))
+                               .remedy("volumes that share edges have as many sides there"));
     }
 
     /// Walls have rows and columns, and so has an end of one member that is a wall of another: opposite edges
@@ -465,11 +467,14 @@ private:
     [[noreturn]] void refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const
     {
         const AssemblyMember& own = members_[m];
-        throw NotSweepable("assembly.layers_differ",
-                           "boundary layers of " + name_in(members_[there.member], there.face) + " and of " +
-                               name_in(own, face) + " are unlike and both end on " +
-                               name_in(own, edges_[e].edge) +
-                               ", which is an edge of both; give both faces one table");
+        const AssemblyMember& other = members_[there.member];
+        throw NotSweepable(
+            Message("assembly.layers_differ",
+                    "boundary layers of {} of {} and of {} of {} are unlike and both end on {} of "
+                    "{}, which is an edge of both",
+                    entity_in(other, there.face), other.region, entity_in(own, face), own.region,
+                    entity_in(own, edges_[e].edge), own.region)
+                .remedy("give both faces one table"));
     }
 
     /// Sides that rows take of an edge and what is left of its length, both as it is.
@@ -493,13 +498,14 @@ private:
             const int taken = beside_rows(e).first, count = count_.at(classes_.find(e));
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
-            throw NotSweepable("assembly.layers_rows",
-                               "boundary layers of " + name_in(members_[end.member], end.face) + " take " +
-                                   std::to_string(taken) + " sides of " +
-                                   name_in(members_[edges_[e].member], edges_[e].edge) + ", which has " +
-                                   std::to_string(count) +
-                                   " by the layers or nodes asked for or given; ask for fewer rows or more "
-                                   "layers");
+            const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
+            throw NotSweepable(
+                Message("assembly.layers_rows",
+                        "boundary layers of {} of {} take {} sides of {} of {}, which has {} by "
+                        "the layers or nodes asked for or given",
+                        entity_in(own, end.face), own.region, needed(taken), entity_in(other, edges_[e].edge),
+                        other.region, found(count))
+                    .remedy("ask for fewer rows or more layers"));
         }
     }
 
@@ -513,16 +519,15 @@ private:
             const AssemblyMember &a = members_[found->second], &b = members_[m];
             if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
             throw NotSweepable("assembly.layers",
-                               a.region + " and " + b.region +
-                                   " lie side by side and are swept the same way, so they have as many "
-                                   "layers; asked for are " +
-                                   std::to_string(layers_asked(found->second)) + " and " +
-                                   std::to_string(layers_asked(m)));
+                               "{} and {} lie side by side and are swept the same way, so they have as many "
+                               "layers; asked for are {} and {}",
+                               a.region, b.region, lacuna::found(layers_asked(found->second)),
+                               lacuna::found(layers_asked(m)));
         }
         ask_sides();
         for (const auto& [of, m] : asked)
             if (const auto other = intervals_.find(of); other != intervals_.end())
-                ask_class(of, {layers_asked(m), members_[m].region + ": its layers"});
+                ask_class(of, {layers_asked(m), members_[m].region, "its layers"});
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             Kept& of = kept_of_class_[classes_.find(e)];
             of = std::max(of, kept_[e]);
@@ -540,9 +545,10 @@ private:
         }
         for (const auto& [of, sides] : most) {
             if (!(sides < std::numeric_limits<Index>::max() / 16.0))
-                throw InvalidInput("sweep.too_many",
-                                   "an edge of the assembly would have more sides than can be numbered; ask "
-                                   "for a larger 'size'");
+                throw InvalidInput(
+                    Message("sweep.too_many",
+                            "an edge of the assembly would have more sides than can be numbered")
+                        .remedy("ask for a larger 'size'"));
             count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
         }
         for (const auto& [of, m] : asked) {
@@ -666,9 +672,10 @@ private:
             if (common_[e]) all += count_.at(classes_.find(e));
         }
         if (all > kMostNodes)
-            throw InvalidInput("sweep.too_many", "the edges that volumes of the assembly share would have " +
-                                                     std::to_string(static_cast<long long>(all)) +
-                                                     " sides; ask for a larger 'size' or fewer 'layers'");
+            throw InvalidInput(Message("sweep.too_many",
+                                       "the edges that volumes of the assembly share would have {:.0f} sides",
+                                       found(all))
+                                   .remedy("ask for a larger 'size' or fewer 'layers'"));
         plan.nodes.resize(members_.size());
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;

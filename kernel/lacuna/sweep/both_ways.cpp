@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/imprint.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <optional>
@@ -36,13 +35,15 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
 /// What one way came to: a mesh, or the error it ended with.
 struct Outcome {
     std::optional<ProvedSweep> result;
-    std::optional<NotSweepable> refusal;
+    std::optional<Message> refusal;
 
     [[nodiscard]] bool usable() const { return result && !result->proof.finding; }
     [[nodiscard]] bool good() const { return usable() && result->swept.min_scaled_jacobian >= kPoor; }
-    [[nodiscard]] std::string why() const
+    [[nodiscard]] Message why() const
     {
-        return refusal ? std::string(refusal->what()) : result->proof.finding->message;
+        if (refusal) return *refusal;
+        const quality::Finding& finding = *result->proof.finding;
+        return {quality::fault_code(finding.fault), "{}", finding.message};
     }
 };
 
@@ -53,7 +54,7 @@ Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const 
     try {
         outcome.result = sweep_one_way(volume, options, outline);
     } catch (const NotSweepable& error) {
-        outcome.refusal = error;
+        outcome.refusal = error.message();
     }
     return outcome;
 }
@@ -69,8 +70,8 @@ ProvedSweep taken(Outcome& outcome, const std::string& way)
 std::string how_it_was(const Outcome& outcome)
 {
     return outcome.usable()
-               ? "the least scaled Jacobian is " + in_short(outcome.result->swept.min_scaled_jacobian)
-               : "it is refused: " + outcome.why();
+               ? formatted("the least scaled Jacobian is {:.2g}", outcome.result->swept.min_scaled_jacobian)
+               : outcome.why().about("it is refused").text();
 }
 
 /// Whether the quads of one end's face can be laid out between both outlines.
@@ -104,24 +105,25 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
     if (keeps_quads(turned, options)) {
         Outcome kept = outcome_of(turned, options, sweep_one_way);
         if (kept.usable())
-            return taken(kept, "swept from the " + end_of(turned) + ", which came with quads; the " +
-                                   end_of(volume) + " did not");
-        if (kept.refusal && kept.refusal->code() == "surface.given_triangles") throw *kept.refusal;
-        log_line(context, "swept from the " + end_of(turned) + ", to keep its quads: " + kept.why());
+            return taken(kept, formatted("swept from the {}, which came with quads; the {} did not",
+                                         end_of(turned), end_of(volume)));
+        if (kept.refusal && kept.refusal->code() == "surface.given_triangles")
+            throw NotSweepable(*kept.refusal);
+        log_line(context,
+                 formatted("swept from the {}, to keep its quads: {}", end_of(turned), kept.why().text()));
     }
     const bool turned_first = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
                               surface::inner_edges(volume, Role::source).empty();
     const OpenVolume &first = turned_first ? turned : volume, &second = turned_first ? volume : turned;
     Outcome one = outcome_of(first, options, sweep_one_way);
     if (one.good() && turned_first)
-        return taken(one, "swept from the " + end_of(first) + ", whose faces meet in edges; the " +
-                              end_of(volume) + " is one face");
+        return taken(one, formatted("swept from the {}, whose faces meet in edges; the {} is one face",
+                                    end_of(first), end_of(volume)));
     if (one.good()) return std::move(*one.result);
-    log_line(context,
-             "swept from the " + end_of(first) + ": " +
-                 (one.usable() ? "least scaled Jacobian " + in_short(one.result->swept.min_scaled_jacobian)
-                               : one.why()) +
-                 "; the other way is tried");
+    log_line(context, formatted("swept from the {}: {}; the other way is tried", end_of(first),
+                                one.usable() ? formatted("least scaled Jacobian {:.2g}",
+                                                         one.result->swept.min_scaled_jacobian)
+                                             : one.why().text()));
     Outcome other = outcome_of(second, options, sweep_one_way);
     const bool swap = other.usable() && (!one.usable() || other.result->swept.min_scaled_jacobian >
                                                               one.result->swept.min_scaled_jacobian);
@@ -134,7 +136,7 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
         if (better->good() || !poor_cells || !can_lie_between(*way, options)) break;
         Outcome between = outcome_of(*way, options, sweep_one_way, Outline::mean);
         if (!between.usable())
-            log_line(context, "laid out between the outlines of both ends: " + between.why());
+            log_line(context, between.why().about("laid out between the outlines of both ends").text());
         if (!between.usable() || (better->usable() && between.result->swept.min_scaled_jacobian <=
                                                           better->result->swept.min_scaled_jacobian))
             continue;
@@ -143,22 +145,16 @@ ProvedSweep sweep_both_ways(const OpenVolume& volume, const SweepOptions& option
         mean_from = end_of(*way);
     }
     if (better == &mean)
-        return taken(mean, "laid out between the outlines of both ends and swept from the " + mean_from +
-                               "; from one outline alone " + how_it_was(swap ? other : one));
+        return taken(mean,
+                     formatted("laid out between the outlines of both ends and swept from the {}; from one "
+                               "outline alone {}",
+                               mean_from, how_it_was(swap ? other : one)));
     if (swap)
-        return taken(other, "swept from the " + end_of(second) + "; from the " + end_of(first) + " " +
-                                how_it_was(one));
+        return taken(other, formatted("swept from the {}; from the {} {}", end_of(second), end_of(first),
+                                      how_it_was(one)));
     if (one.usable()) return std::move(*one.result);
     // What went wrong first says more than what goes wrong second.
-    if (one.refusal) {
-        std::string message = one.why();
-        if (!other.usable() && other.why() != message)
-            message += "\nfrom the " + end_of(second) + ": " + other.why();
-        throw NotSweepable(one.refusal->code(), message);
-    }
-    if (!other.usable())
-        one.result->proof.finding->message += "\nfrom the " + end_of(second) + ": " + other.why();
-    return std::move(*one.result);
+    throw NotSweepable(one.why().attempt(other.why().about("from the " + end_of(second))));
 }
 
 } // namespace lacuna::sweep

@@ -58,8 +58,8 @@ public:
 private:
     [[noreturn]] void refuse() const
     {
-        throw NotSweepable("surface.not_imprinted", name_of(to_, whole_.front()) +
-                                                        " has other points on its rim than its neighbour's");
+        throw NotSweepable("surface.not_imprinted", "{} has other points on its rim than its neighbour's",
+                           entity_of(to_, whole_.front()));
     }
 
     [[nodiscard]] std::vector<EdgeId> rim_of_whole() const
@@ -262,8 +262,9 @@ public:
         }
         std::vector<std::string> report;
         for (const std::size_t m : split_)
-            report.push_back("imprinted: ends of " + members_[m].region +
-                             " are split along lines that go on through their neighbours");
+            report.push_back(
+                formatted("imprinted: ends of {} are split along lines that go on through their neighbours",
+                          members_[m].region));
         return report;
     }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/drawn_layers.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/plan_heights.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <array>
@@ -194,12 +194,11 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
     }
     if (volume.turned_round) reverse_heights(best);
     best.erase(best.begin());
-    const std::string count = std::to_string(layers);
     return DrawnLayers{std::move(best),
-                       "layers: " + count + " as asked, nearer to each other in the bends, from " +
-                           in_short(lowest * way.column) + " to " + in_short(highest * way.column) +
-                           " high; heights stay as given: layers = { 1/" + count + ", 2/" + count +
-                           ", …, 1 } are even ones"};
+                       formatted("layers: {0} as asked, nearer to each other in the bends, from {1:.2g} to "
+                                 "{2:.2g} high; heights stay as given: layers = {{ 1/{0}, 2/{0}, …, 1 }} are "
+                                 "even ones",
+                                 layers, lowest * way.column, highest * way.column)};
 }
 
 } // namespace lacuna::sweep

@@ -6,7 +6,6 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,23 +91,25 @@ const FaceFidelity* worst_misfit(const Fidelity& fidelity)
     return worst;
 }
 
-/// The layers, or the size, by which straight sides follow a face that bends away under them: what is named
-/// is a tenth below what would just do by their sag, as sides differ a little.
-std::string more_of_it(const FaceFidelity& face, int layers, const FidelityOptions& options)
+/// Names the layers, or the size, by which straight sides follow a face that bends away under them: a tenth
+/// below what would just do by their sag, as sides differ a little.
+Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
+                         const FidelityOptions& options)
 {
     // The sag of a straight side grows with the square of its length, its share of the side with the length.
     constexpr double kBelow = 0.9;
     const double share = kBelow * face.allowed / face.found;
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
     if (face.along_layers) {
-        return "The face bends there from layer to layer: by the sag of straight sides " +
-               std::to_string(static_cast<int>(std::ceil(layers / by))) + " layers would do instead of " +
-               std::to_string(layers);
+        return std::move(message).remedy(
+            "by the sag of straight sides {} layers would do instead of {}, as it bends from layer to layer",
+            needed(static_cast<int>(std::ceil(layers / by))), found(layers));
     }
     const double asked = options.size ? options.size(face.found_at) : face.source_side;
-    return "The face bends there and a side of " + in_short(face.side) +
-           " cannot follow: by the sag of straight sides a size of " +
-           in_short(rounded_down(std::min(face.source_side, asked) * by)) + " would do";
+    return std::move(message).remedy("by the sag of straight sides a size of {:.2g} would do, where a side "
+                                     "of {:.2g} cannot follow the bend",
+                                     needed(rounded_down(std::min(face.source_side, asked) * by)),
+                                     found(face.side));
 }
 
 } // namespace
@@ -152,7 +153,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
-        face.name = name_of(model, patch.face);
+        face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;
         face.made_void = model[patch.face].origin == Origin::made_void;
         const double own = face_area(model, patch.face);
@@ -165,32 +166,36 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     return result;
 }
 
-std::string misfit_in_words(const Fidelity& fidelity, int layers, const FidelityOptions& options)
+std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options)
 {
     const FaceFidelity* worst = worst_misfit(fidelity);
     const bool given = options.max_deviation > 0;
-    if (worst == nullptr) return {};
+    if (worst == nullptr) return std::nullopt;
     const bool whole_side = worst->allowed > (kShareOfSide + kShareAtTip) / 2 * worst->side;
     const bool least = worst->allowed > 2 * kShareAtTip * worst->side;
-    const std::string limit = in_short(worst->allowed) +
-                              (given        ? " (max_deviation)"
-                               : least      ? ", the least allowed on a face of its extent"
-                               : whole_side ? ", a quad's side there"
-                                            : ", a quarter of a quad's side there");
-    const std::string name = worst->name, place = at_place(worst->found_at);
+    const char* const limit = given        ? " (max_deviation)"
+                              : least      ? ", the least allowed on a face of its extent"
+                              : whole_side ? ", a quad's side there"
+                                           : ", a quarter of a quad's side there";
+    const std::string code = "sweep.deviation", place = at_place(worst->found_at);
     if (worst->misfit == Misfit::no_quads)
-        return "the mesh leaves out " + name + ", about " + in_short(worst->found) + " wide, at " + place +
-               ": no quad of its skin lies on it, and only faces up to " + limit +
-               ", may be left out. The sides of quads there are " + in_short(worst->side) + " long";
+        return Message(
+            code,
+            "the mesh leaves out {}, about {:.2g} wide, at {}: no quad of its skin lies on it, and only "
+            "faces up to {:.2g}{}, may be left out. The sides of quads there are {:.2g} long",
+            worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
     if (worst->misfit == Misfit::folded)
-        return "the skin of the mesh folds over on " + name + ": a quad at " + place +
-               " faces into the volume";
-    return name + ": the skin of the mesh is " + in_short(worst->found) + " off it at " + place +
-           ", more than " + limit + ". " +
-           (worst->misfit == Misfit::straight
-                ? more_of_it(*worst, layers, options)
-                : "The quads there run across an edge of the face; the sides of the largest are " +
-                      in_short(worst->side) + " long");
+        return Message(code, "the skin of the mesh folds over on {}: a quad at {} faces into the volume",
+                       worst->entity, place);
+    if (worst->misfit == Misfit::straight)
+        return with_finer_sides(
+            Message(code, "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}",
+                    worst->entity, found(worst->found), place, needed(worst->allowed), limit),
+            *worst, layers, options);
+    return Message(code,
+                   "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}. The quads there run "
+                   "across an edge of the face; the sides of the largest are {:.2g} long",
+                   worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
 }
 
 void require_volume(const Fidelity& fidelity, int layers)
@@ -198,26 +203,29 @@ void require_volume(const Fidelity& fidelity, int layers)
     const double off = fidelity.volume / fidelity.sealed_volume - 1;
     if (!(std::abs(off) > kMostOfVolume)) return;
     const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
-    throw NotSweepable("sweep.deviation",
-                       "the mesh's volume is " + in_short(100 * std::abs(off)) + " % " +
-                           (off < 0 ? "less" : "more") + " than what was sealed, and more than " +
-                           in_short(100 * kMostOfVolume) + " % are taken for another shape; its skin is " +
-                           in_short(worst->max_distance) + " off " + worst->name + " at " +
-                           at_place(worst->place) + ". Ask for more than " + std::to_string(layers) +
-                           " layers or a smaller 'size', or say by max_deviation how far it may be off");
+    throw NotSweepable(
+        Message("sweep.deviation",
+                "the mesh's volume is {:.2g} % {} than what was sealed, and more than {:.2g} % are taken for "
+                "another shape. Its skin is {:.2g} off {} at {}",
+                found(100 * std::abs(off)), off < 0 ? "less" : "more", needed(100 * kMostOfVolume),
+                found(worst->max_distance), worst->entity, at_place(worst->place))
+            .remedy("ask for more than {} layers or a smaller 'size', or say by max_deviation how far it may "
+                    "be off",
+                    found(layers)));
 }
 
 std::string in_words(const Fidelity& fidelity)
 {
     const double more = 100 * (fidelity.volume / fidelity.sealed_volume - 1);
-    std::string line = "shape: volume " + with_digits(fidelity.volume, 6) + " of " +
-                       with_digits(fidelity.sealed_volume, 6) + " sealed (" + (more < 0 ? "" : "+") +
-                       with_decimals(more, 2) + " %), skin off by " + in_short(fidelity.max_distance) +
-                       " at most, " + in_short(fidelity.mean_distance) + " on average";
+    std::string line = formatted(
+        "shape: volume {:.6g} of {:.6g} sealed ({}{:.2f} %), skin off by {:.2g} at most, "
+        "{:.2g} on average",
+        fidelity.volume, fidelity.sealed_volume, more < 0 ? "" : "+", more, fidelity.max_distance,
+        fidelity.mean_distance);
     const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
     const double rounding = 1e-9 * std::cbrt(std::abs(fidelity.sealed_volume));
     if (worst != fidelity.faces.end() && worst->max_distance > rounding)
-        line += "; most on " + worst->name + " at " + at_place(worst->place);
+        line += formatted("; most on {} at {}", worst->entity, at_place(worst->place));
     return line;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
@@ -8,6 +9,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,9 +27,9 @@ enum class Misfit {
 
 /// Distance between the mesh's skin and one face of the sealed skin.
 struct FaceFidelity {
-    FaceId face;      ///< of the volume's model
-    std::string name; ///< as messages name it: `face 12 "lid"`
-    int tag = 0;      ///< as shown to the user; void faces have tags of their own
+    FaceId face;        ///< of the volume's model
+    NamedEntity entity; ///< as messages name it
+    int tag = 0;        ///< as shown to the user; void faces have tags of their own
     bool made_void = false;
     std::size_t quads = 0; ///< of the skin
     /// Maximum of both directions: quads to face, and face to its own quads [model length]. For a face
@@ -86,8 +88,8 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
 
 /// Describe the face that exceeds the allowed distance most: its name, the place, the distance found and
 /// allowed, and for straight sides on a bend the size, or the number of layers, that reduces their sag to the
-/// allowed distance. Empty if no face exceeds it.
-std::string misfit_in_words(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
+/// allowed distance. Nothing if no face exceeds it.
+std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
 /// Coarse chords pass the distance check on faces that turn by a right angle under one side; the total volume
 /// shows them.

@@ -42,11 +42,13 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
     given.columns = surface::given_columns(volume, links, layers, given.notes);
     for (const surface::GivenColumns& columns : given.columns) {
         if (columns.quads && layers > 0 && layers != columns.rows) {
-            throw NotSweepable("sweep.given_rows",
-                               "the walls came with " + std::to_string(columns.rows) +
-                                   " rows of quads between source and target, and " + std::to_string(layers) +
-                                   " layers were asked for; leave out 'layers', or load with "
-                                   "keep_mesh = false");
+            throw NotSweepable(
+                Message("sweep.given_rows",
+                        "the walls came with {} rows of quads between source and target, and {} layers were "
+                        "asked for",
+                        needed(columns.rows), found(layers))
+                    .remedy("leave out 'layers'{}",
+                            options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
         }
     }
     if (asked.empty() || options.layers.heights.empty()) {
@@ -90,10 +92,10 @@ void report_given(const OpenVolume& volume, Swept& swept, bool wedges)
         }
         const bool whole = has_cells_to_keep(face, wedges && volume.role[f] != Role::wall);
         const std::set<Index> nodes = nodes_to_keep(model, face, whole);
-        const auto found = std::ranges::count_if(
+        const auto coincide = std::ranges::count_if(
             nodes, [&](Index point) { return std::ranges::binary_search(skin, model.at(point), before); });
-        swept.report.push_back("given: " + name_of(model, FaceId(f)) + ": " + std::to_string(found) + " of " +
-                               std::to_string(nodes.size()) + (whole ? "" : " rim") + " nodes coincide");
+        swept.report.push_back(formatted("given: {}: {} of {}{} nodes coincide", entity_of(model, FaceId(f)),
+                                         coincide, nodes.size(), whole ? "" : " rim"));
     }
 }
 

@@ -107,9 +107,8 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
     const geometry::SparseFactor factor(laplacian, context);
     if (!factor.good()) {
-        throw NotSweepable("sweep.laplacian",
-                           "the source mesh's Laplacian could not be factored: check the source "
-                           "quads for nodes used twice in one quad");
+        throw NotSweepable(Message("sweep.laplacian", "the source mesh's Laplacian could not be factored")
+                               .remedy("check the source quads for nodes used twice in one quad"));
     }
     lower_ = factor.lower();
     diagonal_ = factor.diagonal();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
-#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <algorithm>
@@ -30,8 +29,8 @@ std::vector<double> layer_heights(const LayerSpec& spec)
 {
     check(spec);
     if (spec.heights.empty() && spec.count < 1) {
-        throw InvalidInput("sweep.layers", "heights of layers need a count of at least 1, found " +
-                                               std::to_string(spec.count));
+        throw InvalidInput("sweep.layers", "heights of layers need a count of at least {}, found {}",
+                           needed(1), found(spec.count));
     }
     if (!spec.heights.empty()) {
         std::vector<double> result{0.0};
@@ -50,9 +49,10 @@ std::vector<double> layer_heights(const LayerSpec& spec)
     const bool rising = std::ranges::adjacent_find(
                             result, [](double low, double high) { return !(low < high); }) == result.end();
     if (!rising) {
-        throw InvalidInput("sweep.bias", "sweep: a bias of " + in_full(spec.bias) + " over " +
-                                             std::to_string(spec.count) +
-                                             " layers leaves layers without height: choose one nearer 1");
+        throw InvalidInput(Message("sweep.bias",
+                                   "sweep: a bias of {} over {} layers leaves layers without height",
+                                   found(spec.bias), spec.count)
+                               .remedy("choose one nearer 1"));
     }
     return result;
 }

@@ -101,9 +101,11 @@ private:
             if (role == Role::wall) continue;
             int& own = end_table_[role == Role::source ? 0 : 1];
             if (own >= 0 && own != table)
-                throw NotSweepable("surface.layers_meet",
-                                   "the boundary layers of " + name_of(model_, face) +
-                                       " and of another face of its end are unlike; give both one table");
+                throw NotSweepable(
+                    Message("surface.layers_meet",
+                            "the boundary layers of {} and of another face of its end are unlike",
+                            entity_of(model_, face))
+                        .remedy("give both one table"));
             own = table;
         }
     }
@@ -262,26 +264,27 @@ private:
 
     void report(int table, std::vector<std::string>& lines) const
     {
-        const Reached found = reached(table);
-        if (!found.face.valid() && found.asked == 0) return;
+        const Reached there = reached(table);
+        if (!there.face.valid() && there.asked == 0) return;
         std::vector<FaceId> faces;
         for (const auto& [face, own] : tables_.of)
             if (own == table) faces.push_back(face);
         const std::vector<double>& heights = heights_of(table);
-        if (found.off > kThicknessOff) {
+        if (there.off > kThicknessOff) {
             throw NotSweepable(
-                "sweep.layers_thickness",
-                "the boundary layers of " + name_of(model_, found.face) + " come out " +
-                    in_short(found.off_found) + " thick instead of " + in_short(found.off_asked) + " near " +
-                    place_in_short(found.where) +
-                    ": there is no room to move their nodes, or these were given; ask for fewer or thinner "
-                    "rows, or for a smaller size");
+                Message(
+                    "sweep.layers_thickness",
+                    "the boundary layers of {} come out {:.2g} thick instead of {:.2g} near {}: there is no "
+                    "room to move their nodes, or these were given",
+                    entity_of(model_, there.face), found(there.off_found), needed(there.off_asked),
+                    place_in_short(there.where))
+                    .remedy("ask for fewer or thinner rows, or for a smaller size"));
         }
-        lines.push_back("boundary layers of " + names_of(model_, faces) + ": " +
-                        std::to_string(heights.size()) + (heights.size() == 1 ? " row" : " rows") +
-                        ", the first " + in_short(found.least) + " to " + in_short(found.most) + " thick (" +
-                        in_short(found.asked) + " asked), each within " + in_short(100 * found.off) +
-                        " % of its thickness, " + in_short(heights.back()) + " in all");
+        lines.push_back(
+            formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "
+                      "each within {:.2g} % of its thickness, {:.2g} in all",
+                      entities_of(model_, faces), heights.size(), heights.size() == 1 ? "row" : "rows",
+                      there.least, there.most, there.asked, 100 * there.off, heights.back()));
     }
 
     // --- moving rows along walls --------------------------------------------------------------------

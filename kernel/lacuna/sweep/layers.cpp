@@ -10,7 +10,6 @@
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/sweep/detail/rim.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <array>
@@ -46,9 +45,9 @@ std::vector<double> mean_heights(const RimColumns& columns)
 void check_ends(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns)
 {
     if (target.size() != source.nodes.size()) {
-        throw InvalidInput("sweep.target", "the target needs a position for each of the " +
-                                               std::to_string(source.nodes.size()) + " source nodes, found " +
-                                               std::to_string(target.size()));
+        throw InvalidInput("sweep.target",
+                           "the target needs a position for each of the {} source nodes, found {}",
+                           needed(source.nodes.size()), found(target.size()));
     }
     check_columns(source, columns, target);
 }
@@ -57,9 +56,9 @@ std::vector<double> heights_of(const RimColumns& columns, const PlacementOptions
 {
     if (options.heights.empty()) return mean_heights(columns);
     if (options.heights.size() != index(columns.layers) + 1) {
-        throw InvalidInput("sweep.layer_heights", "columns of " + std::to_string(columns.layers) +
-                                                      " layers need one height more than layers, found " +
-                                                      std::to_string(options.heights.size()));
+        throw InvalidInput("sweep.layer_heights",
+                           "columns of {} layers need one height more than layers, found {}", columns.layers,
+                           found(options.heights.size()));
     }
     return options.heights;
 }
@@ -212,12 +211,11 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
 std::string LayerPlacer::report() const
 {
     if (placement_ == Placement::straight) return "layers: straight lines between source and target";
-    const std::string residual = in_short(size_ > 0 ? residual_ / size_ : 0);
-    if (placement_ == Placement::affine) {
-        return "layers: affine motion of the rims, exact to " + residual + " of their size";
-    }
-    return "layers: affine fit from both ends, rim residual of " + residual + " of its size " +
-           (spread_ ? "spread harmonically" : "left at the rim");
+    const double residual = size_ > 0 ? residual_ / size_ : 0;
+    if (placement_ == Placement::affine)
+        return formatted("layers: affine motion of the rims, exact to {:.2g} of their size", residual);
+    return formatted("layers: affine fit from both ends, rim residual of {:.2g} of its size {}", residual,
+                     spread_ ? "spread harmonically" : "left at the rim");
 }
 
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,

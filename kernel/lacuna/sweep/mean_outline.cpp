@@ -78,9 +78,9 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
     }
 }
 
-[[noreturn]] void refuse(const std::string& why)
+Message refusal(std::string_view why)
 {
-    throw NotSweepable("sweep.mean_outline", "the source cannot be laid out between both outlines: " + why);
+    return {"sweep.mean_outline", "the source cannot be laid out between both outlines: {}", why};
 }
 
 } // namespace
@@ -90,7 +90,8 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
                                  const quads::PlanarQuadMesher& mesher, const RunContext& context)
 {
     const std::vector<FaceId> faces = volume.faces(Role::source);
-    if (faces.size() != 1 || volume.faces(Role::target).size() != 1) refuse("an end has several faces");
+    if (faces.size() != 1 || volume.faces(Role::target).size() != 1)
+        throw NotSweepable(refusal("an end has several faces"));
     // The rim's nodes alone, numbered as the columns are.
     FlatRims rims = flat_rims(source.quads, columns);
     quads::PlanarRegion region;
@@ -112,7 +113,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     try {
         quads::check(region);
     } catch (const InvalidInput& error) {
-        refuse(error.what());
+        throw NotSweepable(refusal(error.what()).attempt(error.message()));
     }
     const quads::PlanarQuads filling = mesher(region, context);
 
@@ -132,8 +133,8 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     flat.nodes = std::move(morphed.nodes);
     flat.face.assign(flat.quads.size(), static_cast<Index>(faces.front().index()));
     source.quads = std::move(flat);
-    source.notes = {name_of(volume.model, faces.front()) + ": paved between the outlines of both ends, " +
-                    std::to_string(source.quads.quads.size()) + " quads"};
+    source.notes = {formatted("{}: paved between the outlines of both ends, {} quads",
+                              entity_of(volume.model, faces.front()), source.quads.quads.size())};
     return source;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/morph.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <optional>
@@ -197,8 +197,8 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         if (move > kOnSurface * size) {
             projected.worst = worst_quad(source.quads, projected.nodes, context);
             found = std::move(projected);
-            result.report += ", projected by up to " + in_short(size > 0 ? move / size : 0) +
-                             " of its radius";
+            result.report += formatted(", projected by up to {:.2g} of its radius",
+                                       size > 0 ? move / size : 0);
         }
         const double before = found.worst;
         const double good_enough = model - kSameQuality;
@@ -220,12 +220,12 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
             found = smoothed(source, columns, start, spreader, free_nodes, project, good_enough,
                              std::move(found), context);
         }
-        if (found.worst > before) result.report += ", smoothed from a worst quad of " + in_short(before);
+        if (found.worst > before)
+            result.report += formatted(", smoothed from a worst quad of {:.2g}", before);
     }
     result.worst = found.worst;
     result.nodes = std::move(found.nodes);
-    result.report += "; worst quad " + in_short(result.worst) + " (source " + in_short(result.worst_source) +
-                     ")";
+    result.report += formatted("; worst quad {:.2g} (source {:.2g})", result.worst, result.worst_source);
     log_line(context, result.report);
     return result;
 }

@@ -6,7 +6,6 @@
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/shared_quads.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,9 +113,9 @@ Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& co
         result.worst = std::min(result.worst, piece.worst);
         result.worst_source = std::min(result.worst_source, piece.worst_source);
     }
-    result.report = std::to_string(quads.size()) + " faces, " + std::to_string(imprint.images.size()) +
-                    " edges between them imprinted on the source; worst quad " + in_short(result.worst) +
-                    " (source " + in_short(result.worst_source) + ")";
+    result.report = formatted("{} faces, {} edges between them imprinted on the source; worst quad {:.2g} "
+                              "(source {:.2g})",
+                              quads.size(), imprint.images.size(), result.worst, result.worst_source);
     return result;
 }
 

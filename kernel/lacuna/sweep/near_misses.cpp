@@ -106,17 +106,17 @@ public:
             miss.reach_in = overlap.depth > overlap.gap;
             miss.width = std::max(overlap.depth, overlap.gap);
             miss.area = overlap.a.within;
-            say(miss);
+            describe(miss);
             const bool hinged = overlap.least <= pair_.tolerance && !is_curved(faces) &&
                                 have_common_edge(one_.volume->model, faces.first, other_.volume->model,
                                                  faces.second, pair_.tolerance);
             if (hinged)
-                throw InvalidInput("assembly.crack",
-                                   miss.message + ". They have an edge in common, so the two meshes would "
-                                                  "open along it as a crack");
+                throw InvalidInput(message_of(miss, "assembly.crack",
+                                              ". They have an edge in common, so the two meshes would open "
+                                              "along it as a crack"));
             if (miss.reach_in && overlap.depth > limit_of(faces))
-                throw InvalidInput("assembly.overlap",
-                                   miss.message + "; volumes of an assembly may touch, not overlap");
+                throw InvalidInput(
+                    message_of(miss, "assembly.overlap", ". Volumes of an assembly may touch, not overlap"));
             near_.insert(faces);
             found.push_back(std::move(miss));
         }
@@ -151,12 +151,13 @@ private:
     {
         if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
         const double width = std::max(overlap.gap, overlap.depth);
-        throw InvalidInput("assembly.crack",
-                           name_in(one_, faces.first) + " and " + name_in(other_, faces.second) +
-                               " are one face for part of what they have over each other and up to " +
-                               in_short(width) + " apart for the rest, at " +
-                               place_in_short(overlap.box.center()) +
-                               ", so the two meshes would open there as a crack; " + hint(faces, width));
+        throw InvalidInput(
+            Message("assembly.crack",
+                    "{} of {} and {} of {} are one face for part of what they have over each other and up to "
+                    "{:.2g} apart for the rest, at {}, so the two meshes would open there as a crack",
+                    entity_in(one_, faces.first), one_.region, entity_in(other_, faces.second), other_.region,
+                    found(width), place_in_short(overlap.box.center()))
+                .remedy("give both models tolerance = {:.2g}", needed(joining(faces, width))));
     }
 
     [[nodiscard]] double joining(const Faces& faces, double width) const
@@ -169,29 +170,32 @@ private:
         return joining_tolerance(a, std::max(whole ? width : kLaid * width,
                                              corners_apart(a, faces.first, b, faces.second, width)));
     }
-    [[nodiscard]] std::string hint(const Faces& faces, double width) const
-    {
-        return "give both models tolerance = " + in_short(joining(faces, width));
-    }
 
-    void say(NearMiss& miss) const
+    void describe(NearMiss& miss) const
     {
         const Faces faces{miss.face_a, miss.face_b};
         miss.tag_a = one_.volume->model[miss.face_a].tag;
         miss.tag_b = other_.volume->model[miss.face_b].tag;
         miss.tolerance = joining(faces, miss.width);
-        std::string who = name_in(one_, miss.face_a) + " and " + name_in(other_, miss.face_b);
-        std::string over = " over an area of " + in_short(miss.area);
-        if (miss.edge) {
-            const bool of_a = miss.edge_of == miss.a;
-            miss.edge_tag = (of_a ? one_ : other_).volume->model[*miss.edge].tag;
-            who = name_in(of_a ? one_ : other_, *miss.edge) + " and " +
-                  (of_a ? name_in(other_, miss.face_b) : name_in(one_, miss.face_a));
-            over = " over a length of " + in_short(miss.length);
-        }
-        miss.message = who + (miss.reach_in ? " reach into each other by up to " : " come within ") +
-                       in_short(miss.width) + over + " and share no nodes there; the tolerance is " +
-                       in_short(pair_.tolerance) + ". To join them " + hint(faces, miss.width);
+        if (miss.edge) miss.edge_tag = (miss.edge_of == miss.a ? one_ : other_).volume->model[*miss.edge].tag;
+        miss.message = message_of(miss, "assembly.near_miss", "");
+    }
+
+    /// @param more  follows the text.
+    [[nodiscard]] Message message_of(const NearMiss& miss, const char* code, const char* more) const
+    {
+        const bool of_b = miss.edge && miss.edge_of == miss.b;
+        const AssemblyMember &first = of_b ? other_ : one_, &second = of_b ? one_ : other_;
+        return Message(code,
+                       "{} of {} and {} of {} {} {:.2g} over {} of {:.2g} and share no nodes there; the "
+                       "tolerance is "
+                       "{:.2g}{}",
+                       miss.edge ? entity_in(first, *miss.edge) : entity_in(first, miss.face_a), first.region,
+                       entity_in(second, of_b ? miss.face_a : miss.face_b), second.region,
+                       miss.reach_in ? "reach into each other by up to" : "come within", found(miss.width),
+                       miss.edge ? "a length" : "an area", miss.edge ? miss.length : miss.area,
+                       pair_.tolerance, more)
+            .remedy("to join them give both models tolerance = {:.2g}", needed(miss.tolerance));
     }
 
     void find_edges(std::size_t own, const AssemblyMember& of, std::size_t there, const AssemblyMember& at,
@@ -252,7 +256,7 @@ private:
             miss.least = least;
             miss.width = most;
             miss.length = within;
-            say(miss);
+            describe(miss);
             found.push_back(std::move(miss));
         }
     }

@@ -4,7 +4,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/wall_columns.h>
-#include <lacuna/sweep/detail/words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +96,9 @@ int bend_layers(const Columns& columns, const SweepOptions& options)
 std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
 {
     if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {
-        throw InvalidInput("sweep.too_many", "about " + in_short(columns.sides) +
-                                                 " layers would be needed at the size; give 'layers'");
+        throw InvalidInput(Message("sweep.too_many", "about {:.2g} layers would be needed at the size",
+                                   needed(columns.sides))
+                               .remedy("give 'layers'"));
     }
     spec.count = std::max(least, static_cast<int>(std::lround(columns.sides)));
     return layer_heights(spec);
@@ -160,21 +160,25 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
 {
     LayerSpec spec = options.layers;
     if (!spec.heights.empty()) {
-        throw InvalidInput("sweep.layers",
-                           "sweep: option 'layers' gives heights, and boundary layers of an end give others; "
-                           "leave out one of them");
+        throw InvalidInput(
+            Message("sweep.layers",
+                    "sweep: option 'layers' gives heights, and boundary layers of an end give others")
+                .remedy("leave out one of them"));
     }
     if (spec.count == 0) {
-        throw NotSweepable("sweep.layers",
-                           "quads that walls came with give the heights of layers, and boundary layers of an "
-                           "end give others; leave the end out of 'boundary_layers', or load with "
-                           "keep_mesh = false");
+        throw NotSweepable(
+            Message("sweep.layers",
+                    "quads that walls came with give the heights of layers, and boundary layers "
+                    "of an end give others")
+                .remedy("leave the end out of 'boundary_layers'{}",
+                        options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
     }
     if (spec.count <= taken) {
-        throw InvalidInput("sweep.layers", "sweep: option 'layers' asks for " + std::to_string(spec.count) +
-                                               ", and boundary layers of the ends take " +
-                                               std::to_string(taken) + " of them; ask for " +
-                                               std::to_string(taken + 1) + " or more, or leave it out");
+        throw InvalidInput(
+            Message("sweep.layers",
+                    "sweep: option 'layers' asks for {}, and boundary layers of the ends take {} of them",
+                    found(spec.count), taken)
+                .remedy("ask for {} or more, or leave it out", needed(taken + 1)));
     }
     spec.count -= taken;
     std::vector<double> heights = layer_heights(spec);
@@ -211,10 +215,12 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
     }
     const double below = low.empty() ? 0 : low.back(), above = high.empty() ? 0 : high.back();
     if (!(below + above < columns.length)) {
-        throw NotSweepable("sweep.layers_room",
-                           "the boundary layers of the ends are " + in_short(below + above) +
-                               " high in all, and source and target " + in_short(columns.length) +
-                               " apart; ask for fewer or thinner ones");
+        throw NotSweepable(
+            Message(
+                "sweep.layers_room",
+                "the boundary layers of the ends are {:.2g} high in all, and source and target {:.2g} apart",
+                needed(below + above), found(columns.length))
+                .remedy("ask for fewer or thinner ones"));
     }
     const double from = below / columns.length, to = 1 - above / columns.length;
     const int taken = static_cast<int>(low.size() + high.size());

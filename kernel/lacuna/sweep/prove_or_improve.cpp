@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 
@@ -61,27 +61,30 @@ EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
 std::string in_words(const StuckCorner& stuck, const mesh::HexMesh& mesh, const Model& model)
 {
     const auto at = [&](Index node) { return mesh.nodes[index(node)]; };
-    std::string where = "at " + place_in_short(at(stuck.node)) + " two sides of a cell";
+    std::string where = formatted("at {} two sides of a cell", place_in_short(at(stuck.node)));
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
         if ((model.at(model.vertices[v].point) - at(stuck.node)).norm() > model.tolerance) continue;
         const EdgeId a = edge_towards(model, VertexId(v), at(stuck.to[0])),
                      b = edge_towards(model, VertexId(v), at(stuck.to[1]));
         if (!a.valid() || !b.valid() || a == b) continue;
-        where = "at " + name_of(model, VertexId(v)) + " " + name_of(model, a) + " and " + name_of(model, b);
+        where = formatted("at {} {} and {}", entity_of(model, VertexId(v)), entity_of(model, a),
+                          entity_of(model, b));
         break;
     }
-    return where + " lie in one line, and the cell that has both at one corner has no volume wherever its "
-                   "other nodes are; name other faces as source and target, or cut the volume there";
+    return formatted(
+        "{} lie in one line, and the cell that has both at one corner has no volume wherever its "
+        "other nodes are; name other faces as source and target, or cut the volume there",
+        where);
 }
 
 std::string in_words(const Improved& improved)
 {
-    const auto value = [](double jacobian) { return with_decimals(jacobian, 3); };
-    return std::string(improved.untangled ? "untangled: " : "improved: ") + std::to_string(improved.cells) +
-           " cells, " + std::to_string(improved.moved) + " nodes, least scaled Jacobian " +
-           value(improved.before) + " before, " + value(improved.after) + " after, mean " +
-           value(improved.mean_before) + " and " + value(improved.mean_after) +
-           (improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
+    return formatted(
+        "{}: {} cells, {} nodes, least scaled Jacobian {:.3f} before, {:.3f} after, mean {:.3f} and "
+        "{:.3f}{}",
+        improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
+        improved.after, improved.mean_before, improved.mean_after,
+        improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
 }
 
 } // namespace

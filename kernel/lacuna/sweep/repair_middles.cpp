@@ -154,20 +154,24 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         side = (b - a).norm();
         worst = 8 + e;
     }
-    const std::string cells = std::to_string(count) + (count == 1 ? " cell is" : " cells are") +
-                              " not valid at order 2: the Jacobian is not positive everywhere in cell " +
-                              std::to_string(cell + 1) + " (layer " +
-                              std::to_string(cell / mesh.quads.size() + 1) + " of " +
-                              std::to_string(mesh.layers) + "). ";
+    constexpr const char* kCode = "sweep.second_order";
+    const Argument cells = count == 1 ? "cell is" : "cells are";
+    const NamedEntity own{"cell", static_cast<long long>(cell) + 1};
+    const std::size_t layer = cell / mesh.quads.size() + 1;
     if (!worst)
-        throw NotSweepable("sweep.second_order",
-                           cells + "Its skin is straight; a smaller size may do, or order 1");
-    std::string face = "the skin";
+        throw NotSweepable(
+            Message(
+                kCode,
+                "{} {} not valid at order 2: the Jacobian is not positive everywhere in {} (layer {} of {}). "
+                "Its skin is straight",
+                count, cells, own, layer, mesh.layers)
+                .remedy("a smaller size may do, or order 1"));
+    Argument face = "the skin";
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
         const auto found = std::find(quad.node.begin() + 4, quad.node.begin() + 8, nodes.node[*worst]);
         if (found == quad.node.begin() + 8) continue;
-        face = topology::name_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
+        face = entity_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
     // A bend over its side goes with the side's length; what is named is a tenth below.
@@ -178,20 +182,23 @@ double valid_share(const std::array<Vec3, 27>& nodes)
     std::array<Vec3, 8> corners;
     for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[index(hex[c])];
     const double straight = quality::scaled_jacobian(corners);
-    std::string advice = "By its bend a size of " + in_short(share * side) + " would do";
-    if (*worst >= kFirstUpright) {
-        const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;
-        advice = "By its bend " + std::to_string(layers) + " layers would do instead of " +
-                 std::to_string(mesh.layers);
-    }
+    Message refusal(
+        kCode,
+        "{} {} not valid at order 2: the Jacobian is not positive everywhere in {} (layer {} of {}). "
+        "The middle node of a side on {} belongs at {}, {:.2g} off a side of {:.2g}",
+        count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
+        found(most), side);
     // What the bend asks for was found to help where the straight cell is a good one.
     constexpr double kGood = 0.3;
     if (straight < kGood)
-        advice = "The cell is poor with straight sides already: its scaled Jacobian is " + in_short(straight);
-    throw NotSweepable("sweep.second_order", cells + "The middle node of a side on " + face + " belongs at " +
-                                                 place_in_short(mesh.node(index(nodes.node[*worst]))) + ", " +
-                                                 in_short(most) + " off a side of " + in_short(side) + ". " +
-                                                 advice);
+        throw NotSweepable(std::move(refusal).remedy(
+            "the cell is poor with straight sides already: its scaled Jacobian is {:.2g}", found(straight)));
+    if (*worst < kFirstUpright)
+        throw NotSweepable(
+            std::move(refusal).remedy("by its bend a size of {:.2g} would do", needed(share * side)));
+    const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;
+    throw NotSweepable(std::move(refusal).remedy("by its bend {} layers would do instead of {}",
+                                                 needed(layers), found(mesh.layers)));
 }
 
 } // namespace

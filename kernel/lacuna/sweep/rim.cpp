@@ -14,7 +14,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) { throw InvalidInput("sweep.columns", message); }
+constexpr const char* kColumns = "sweep.columns"; // code of the errors of this file
+
+NamedEntity source_node(Index node) { return {"source node", node}; }
 
 /// Column over each source node; -1 for none.
 std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns& columns)
@@ -23,12 +25,12 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns
     for (std::size_t k = 0; k < columns.rim.size(); ++k) {
         const Index node = columns.rim[k];
         if (node < 0 || index(node) >= source.nodes.size()) {
-            refuse("column " + std::to_string(k) + " stands on source node " + std::to_string(node) +
-                   ", but the source has nodes 0 to " + std::to_string(source.nodes.size()) + " - 1");
+            throw InvalidInput(kColumns, "column {} stands on {}, but the source has nodes 0 to {} - 1", k,
+                               source_node(node), source.nodes.size());
         }
         if (column[index(node)] >= 0) {
-            refuse("two columns stand on source node " + std::to_string(node) +
-                   ": give each rim node one column");
+            throw InvalidInput(Message(kColumns, "two columns stand on {}", source_node(node))
+                                   .remedy("give each rim node one column"));
         }
         column[index(node)] = static_cast<Index>(k);
     }
@@ -46,9 +48,10 @@ void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes
         const Vec3& node = nodes[index(columns.rim[k])];
         const double gap = (row[k] - node).norm();
         if (gap <= kProjection * reach) continue;
-        refuse("the column over source node " + std::to_string(columns.rim[k]) + " ends " +
-               std::to_string(gap) + " away from its node on the " + end +
-               ": columns must start and end on the rims");
+        throw InvalidInput(kColumns,
+                           "the column over {} ends {:.6f} away from its node on the {}: columns must start "
+                           "and end on the rims",
+                           source_node(columns.rim[k]), found(gap), end);
     }
 }
 
@@ -57,19 +60,20 @@ void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes
 void check_columns(const mesh::QuadMesh& source, const RimColumns& columns, std::span<const Vec3> target)
 {
     if (columns.layers < 1) {
-        refuse("a sweep needs at least 1 layer, found " + std::to_string(columns.layers));
+        throw InvalidInput(kColumns, "a sweep needs at least {} layer, found {}", needed(1),
+                           found(columns.layers));
     }
     const std::size_t expected = (static_cast<std::size_t>(columns.layers) + 1) * columns.rim.size();
     if (columns.points.size() != expected) {
-        refuse("columns of " + std::to_string(columns.layers) + " layers over " +
-               std::to_string(columns.rim.size()) + " rim nodes need " + std::to_string(expected) +
-               " points, found " + std::to_string(columns.points.size()));
+        throw InvalidInput(kColumns, "columns of {} layers over {} rim nodes need {} points, found {}",
+                           columns.layers, columns.rim.size(), needed(expected),
+                           found(columns.points.size()));
     }
     for (std::size_t i = 0; i < columns.points.size(); ++i) {
         if (columns.points[i].allFinite()) continue;
-        refuse("the column over source node " + std::to_string(columns.rim[i % columns.rim.size()]) +
-               " has a coordinate that is not a finite number in layer " +
-               std::to_string(i / columns.rim.size()));
+        throw InvalidInput(kColumns,
+                           "the column over {} has a coordinate that is not a finite number in layer {}",
+                           source_node(columns.rim[i % columns.rim.size()]), i / columns.rim.size());
     }
     column_of_node(source, columns);
     if (columns.rim.empty()) return;
@@ -84,8 +88,10 @@ std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& c
     const auto add = [&](Index from, Index to) {
         for (const Index node : {from, to}) {
             if (column[index(node)] >= 0) continue;
-            refuse("source node " + std::to_string(node) +
-                   " is on the boundary of the source mesh but has no column: every rim node needs one");
+            throw InvalidInput(
+                kColumns,
+                "{} is on the boundary of the source mesh but has no column: every rim node needs one",
+                source_node(node));
         }
         sides.push_back({column[index(from)], column[index(to)]});
     };

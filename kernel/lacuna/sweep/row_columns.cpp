@@ -55,11 +55,11 @@ RowSide rows_over(const SweptParts& parts, const surface::LayerTables& tables, c
     for (std::size_t r = 0; r < rows; ++r) {
         const Quad quad = side < 0 ? Quad{} : sides.quads[index(side) / 4];
         if (side < 0 || mesh::is_triangle(quad)) {
-            throw NotSweepable("sweep.layers_rows",
-                               "the quads of the source make " + std::to_string(r) + " rows along " +
-                                   name_of(parts.volume.model, parts.wall_at(b, 0, i)) +
-                                   ", and its boundary layers have " + std::to_string(rows) +
-                                   "; quads = \"paved\" meshes it anew");
+            throw NotSweepable(
+                Message("sweep.layers_rows",
+                        "the quads of the source make {} rows along {}, and its boundary layers have {}",
+                        found(r), entity_of(parts.volume.model, parts.wall_at(b, 0, i)), needed(rows))
+                    .remedy("quads = \"paved\" meshes it anew"));
         }
         const std::size_t k = index(side) % 4;
         const bool along = quad[k] == from;

@@ -16,10 +16,10 @@ void check_amount(const mesh::HexMesh& mesh)
     const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
     const std::size_t all = (2 * index(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
-    throw InvalidInput(
-        "sweep.too_many",
-        "a mesh of order 2 would take " + std::to_string(all) +
-            " numbers of nodes, more than there are; ask for a larger 'size' or fewer 'layers'");
+    throw InvalidInput(Message("sweep.too_many",
+                               "a mesh of order 2 would take {} numbers of nodes, more than there are",
+                               found(all))
+                           .remedy("ask for a larger 'size' or fewer 'layers'"));
 }
 
 /// The quality of a mesh whose nodes are left to be made, and they; none where cells are not valid so.
@@ -70,14 +70,12 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
         }
     }
     if (!result.layers) repaired = hold_middles(volume, mesh, faces, skin.middles, result, context);
-    result.report = std::string("order 2: ") + (mesh.middles.full ? "hex27" : "hex20") + ", " +
-                    std::to_string(mesh::middle_count(mesh)) + " middle nodes; of those on the skin " +
-                    std::to_string(skin.counts.exact) + " on exact curves and surfaces, " +
-                    std::to_string(skin.counts.facets) + " on facets, " + std::to_string(skin.counts.given) +
-                    " given";
+    result.report = formatted("order 2: {}, {} middle nodes; of those on the skin {} on exact curves and "
+                              "surfaces, {} on facets, {} given",
+                              mesh.middles.full ? "hex27" : "hex20", mesh::middle_count(mesh),
+                              skin.counts.exact, skin.counts.facets, skin.counts.given);
     if (repaired > 0)
-        result.report += "; the inner ones of " + std::to_string(repaired) +
-                         " cells moved to make them valid";
+        result.report += formatted("; the inner ones of {} cells moved to make them valid", repaired);
     return result;
 }
 

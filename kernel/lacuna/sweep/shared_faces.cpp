@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -103,10 +102,11 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
 /// What two faces of two members have in common.
 struct InCommon {
     bool any = false, whole = false;
-    double limit = 0;  ///< how far the facets may be off each other
-    std::string words; ///< of a part; where there is nothing, why both volumes overlap
-    double apart = 0;  ///< of what is taken for one: how far the arcs of the rims are off each other
-    double sag = 0;    ///< and how far their chords may be off those
+    double limit = 0; ///< how far the facets may be off each other
+    /// Of a part; where there is nothing, why both volumes overlap.
+    std::optional<Message> refusal;
+    double apart = 0; ///< of what is taken for one: how far the arcs of the rims are off each other
+    double sag = 0;   ///< and how far their chords may be off those
 };
 
 /// One face in two members, the rims of which may be apart. @return  whether they are one all the same
@@ -128,12 +128,14 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
     }
     if (off.distance > window) return false;
     const double apart = corners_apart(one.model(), one.face, other.model(), other.face, off.distance);
-    throw InvalidInput("assembly.rims_apart",
-                       name_in(a, one.face) + " and " + name_in(b, other.face) +
-                           " are one face, but their rims are " + in_short(off.distance) + " apart at " +
-                           place_in_short(off.place) + ", more than the tolerance, " + in_short(tolerance) +
-                           "; give both models tolerance = " +
-                           in_short(joining_tolerance(one.model(), std::max(apart, off.distance))));
+    throw InvalidInput(
+        Message("assembly.rims_apart",
+                "{} of {} and {} of {} are one face, but their rims are {:.2g} apart at {}, more than the "
+                "tolerance, {:.2g}",
+                entity_in(a, one.face), a.region, entity_in(b, other.face), b.region, found(off.distance),
+                place_in_short(off.place), tolerance)
+            .remedy("give both models tolerance = {:.2g}",
+                    needed(joining_tolerance(one.model(), std::max(apart, off.distance)))));
 }
 
 /// @param overlap  null: nothing of one is near the other
@@ -148,6 +150,8 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     if (!same && overlap == nullptr) return {};
     InCommon common;
     common.limit = limit;
+    const NamedEntity entity_a = entity_in(a, one.face), entity_b = entity_in(b, other.face);
+    double percent_a = 0, percent_b = 0;
     if (!same) {
         const double whole = face_area(one.model(), one.face),
                      whole_other = face_area(other.model(), other.face);
@@ -163,18 +167,30 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that bend away from each other along a common rim are near each other there, and no more.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
-        const auto percent = [](double share) { return with_digits(100 * std::min(share, 1.0), 3) + " %"; };
-        common.words = percent(there) + " of " + name_in(a, one.face) + " lies on " + name_in(b, other.face) +
-                       ", and " + percent(back) + " of that on it";
+        percent_a = 100 * std::min(there, 1.0);
+        percent_b = 100 * std::min(back, 1.0);
+        common.refusal = Message(
+                             "assembly.part_of_face",
+                             "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that on it: a face must "
+                             "be shared as a whole",
+                             found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
+                             .remedy("split it along the other's rim");
     }
     if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on) {
-        const bool part = !common.words.empty() &&
+        const bool part = common.refusal &&
                           std::max(overlap->a.on / face_area(one.model(), one.face),
                                    overlap->b.on / face_area(other.model(), other.face)) < kMostly;
-        common.words = (part ? common.words
-                             : name_in(a, one.face) + " and " + name_in(b, other.face) + " are one face") +
-                       ", and both volumes lie on the same side of it: volumes of an assembly may touch, not "
-                       "overlap";
+        constexpr const char* kCode = "assembly.overlap";
+        common.refusal =
+            part ? Message(kCode,
+                           "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that on it, and both "
+                           "volumes lie on the same side of it: volumes of an assembly may touch, not "
+                           "overlap",
+                           found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
+                 : Message(kCode,
+                           "{} of {} and {} of {} are one face, and both volumes lie on the same side "
+                           "of it: volumes of an assembly may touch, not overlap",
+                           entity_a, a.region, entity_b, b.region);
         return common;
     }
     common.any = true;
@@ -192,11 +208,14 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     miss.least = miss.width = common.apart;
     miss.area = area;
     miss.tolerance = tolerance;
-    miss.message = name_in(a, faces.face_a) + " and " + name_in(b, faces.face_b) +
-                   " are taken for one face, and their rims are " + in_short(common.apart) +
-                   " apart, more than the tolerance, " + in_short(tolerance) +
-                   "; their chords may be off the curve by " + in_short(common.sag) +
-                   ", so coarser facets hide a gap or an overlap as wide as that. Finer ones tell";
+    miss.message =
+        Message("assembly.near_miss",
+                "{} of {} and {} of {} are taken for one face, and their rims are {:.2g} apart, more than "
+                "the tolerance, {:.2g}. Their chords may be off the curve by {:.2g}, so coarser facets "
+                "hide a gap or an overlap as wide as that",
+                entity_in(a, faces.face_a), a.region, entity_in(b, faces.face_b), b.region,
+                found(common.apart), tolerance, common.sag)
+            .remedy("finer ones tell");
     return miss;
 }
 
@@ -233,9 +252,9 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
         }
         if (tree.closest(p, by * by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
-        throw InvalidInput("assembly.overlap", a.region + " reaches into " + b.region + " at " +
-                                                   place_in_short(p) +
-                                                   ": volumes of an assembly may touch, not overlap");
+        throw InvalidInput("assembly.overlap",
+                           "{} reaches into {} at {}: volumes of an assembly may touch, not overlap",
+                           a.region, b.region, place_in_short(p));
     }
 }
 
@@ -281,7 +300,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
         }
     }
     FacesInCommon found;
-    std::string same_side;
+    std::optional<Message> same_side;
     std::vector<NearPair> pairs;
     std::vector<NearMiss> hidden;
     for (std::size_t a = 0; a < members.size(); ++a) {
@@ -304,7 +323,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                                                 overlap == pair.overlaps.end() ? nullptr : &overlap->second,
                                                 pair.tolerance, pair.window);
                     if (!common.any) {
-                        if (same_side.empty()) same_side = std::move(common.words);
+                        if (!same_side) same_side = std::move(common.refusal);
                         continue;
                     }
                     const SharedFace faces{a, b, one.face, other.face};
@@ -314,7 +333,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                     if (common.whole)
                         found.whole.push_back(faces);
                     else
-                        found.partly.push_back({faces, common.limit, std::move(common.words)});
+                        found.partly.push_back({faces, common.limit, std::move(*common.refusal)});
                 }
             }
             pairs.push_back(std::move(pair));
@@ -322,16 +341,13 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
     }
     found.near = near_misses(members, sag, pairs, found, context);
     found.near.insert(found.near.end(), hidden.begin(), hidden.end());
-    if (!same_side.empty()) throw InvalidInput("assembly.overlap", same_side);
+    if (same_side) throw InvalidInput(*same_side);
     return found;
 }
 
 void refuse_partly_shared(const FacesInCommon& found)
 {
-    if (found.partly.empty()) return;
-    throw InvalidInput("assembly.part_of_face",
-                       found.partly.front().words +
-                           ": a face must be shared as a whole; split it along the other's rim");
+    if (!found.partly.empty()) throw InvalidInput(found.partly.front().refusal);
 }
 
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context)

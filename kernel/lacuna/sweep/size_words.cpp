@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/size_words.h>
 
-#include <lacuna/sweep/detail/words.h>
+#include <lacuna/core/message.h>
 
 #include <cmath>
 #include <limits>
@@ -13,19 +13,20 @@ using namespace topology;
 namespace {
 
 /// The face on the other side of an edge.
-std::string beyond(const Model& model, EdgeId edge, FaceId face)
+NamedEntity beyond(const Model& model, EdgeId edge, FaceId face)
 {
     for (const FaceUse& use : edge_uses(model)[edge.index()])
-        if (use.face != face) return name_of(model, use.face);
-    return name_of(model, edge);
+        if (use.face != face) return entity_of(model, use.face);
+    return entity_of(model, edge);
 }
 
 /// What a narrow place asks for.
 std::string width_in_words(const Model& model, const surface::SizeCause& cause)
 {
-    const std::string a = beyond(model, *cause.edge, cause.face), b = beyond(model, *cause.other, cause.face);
-    return in_short(cause.size) + " where " + name_of(model, cause.face) + " is " + in_short(cause.width) +
-           (a == b ? " wide within " + a : " wide between " + a + " and " + b);
+    const NamedEntity a = beyond(model, *cause.edge, cause.face), b = beyond(model, *cause.other, cause.face);
+    const std::string sides = a == b ? formatted("within {}", a) : formatted("between {} and {}", a, b);
+    return formatted("{:.2g} where {} is {:.2g} wide {}", cause.size, entity_of(model, cause.face),
+                     cause.width, sides);
 }
 
 /// The rim edge whose bends make its sides the shortest.
@@ -42,7 +43,7 @@ std::string bends_in_words(const Model& model, const surface::Seeds& seeds)
         }
     }
     if (!std::isfinite(least)) return {};
-    return in_short(least) + " on " + name_of(model, shortest) + ", by its curvature";
+    return formatted("{:.2g} on {}, by its curvature", least, entity_of(model, shortest));
 }
 
 } // namespace
@@ -55,31 +56,32 @@ std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolu
     const surface::ShapeSize& shape = sizes.shape;
     if (shape.width) finer.push_back(width_in_words(volume.model, *shape.width));
     if (shape.curvature)
-        finer.push_back(in_short(shape.curvature->size) + " by the curvature of " +
-                        name_of(volume.model, shape.curvature->face));
+        finer.push_back(formatted("{:.2g} by the curvature of {}", shape.curvature->size,
+                                  entity_of(volume.model, shape.curvature->face)));
     if (const std::string bends = bends_in_words(split.model, seeds); !bends.empty()) finer.push_back(bends);
 
     std::vector<std::string> lines;
     const bool kept = seeds.kept.size() == split.faces(Role::source).size();
     if (!kept && (sizes.by_default || !finer.empty())) {
-        std::string line = sizes.by_default ? "size: " + in_short(sizes.by_default->length) +
-                                                  " [model length] by default, " + sizes.by_default->why
+        std::string line = sizes.by_default ? formatted("size: {:.2g} [model length] by default, {}",
+                                                        sizes.by_default->length, sizes.by_default->why)
                                             : "size: as asked";
         for (std::size_t i = 0; i < finer.size(); ++i)
             line += (i == 0 ? "; less where the shape needs it: " : "; ") + finer[i];
         if (sizes.too_narrow)
-            line += "; for " + std::to_string(kDefaultGap) +
-                    " quads across, which 'gap' asks for and would be too many in all, it would be " +
-                    width_in_words(volume.model, *sizes.too_narrow);
+            line += formatted(
+                "; for {} quads across, which 'gap' asks for and would be too many in all, it would "
+                "be {}",
+                kDefaultGap, width_in_words(volume.model, *sizes.too_narrow));
         lines.push_back(line);
     }
     if (options.layers.count == 0 && options.layers.heights.empty()) {
-        lines.push_back("layer count: " + std::to_string(layers.count) + " by default, " +
-                        (layers.by_rows    ? "the rows of quads that walls came with"
-                         : layers.by_bends ? "for the bends of the walls, as curvature says"
-                         : !options.size && layers.count == kDefaultGap
-                             ? "about as high as the size, and three at least"
-                             : "about as high as the size"));
+        lines.push_back(formatted("layer count: {} by default, {}", layers.count,
+                                  layers.by_rows    ? "the rows of quads that walls came with"
+                                  : layers.by_bends ? "for the bends of the walls, as curvature says"
+                                  : !options.size && layers.count == kDefaultGap
+                                      ? "about as high as the size, and three at least"
+                                      : "about as high as the size"));
     }
     return lines;
 }

@@ -2,7 +2,6 @@
 #include <lacuna/sweep/detail/source_quads.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/quads/shared/odd_region.h>
 #include <lacuna/quads/shared/pave.h>
 #include <lacuna/quads/shared/submap.h>
@@ -94,10 +93,12 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
     double layers = std::max(options.layers.count, static_cast<int>(options.layers.heights.size()));
     const double asked = std::max(1., layers);
     if (!(quads * asked < kMost && asked < kMost / 16))
-        throw InvalidInput("sweep.too_many", "about " + in_short(quads) + " quads on the source and " +
-                                                 with_decimals(asked, 0) +
-                                                 " layers are more hexahedra than can be numbered; "
-                                                 "ask for a larger 'size' or fewer 'layers'");
+        throw InvalidInput(
+            Message(
+                "sweep.too_many",
+                "about {:.2g} quads on the source and {:.0f} layers are more hexahedra than can be numbered",
+                found(quads), found(asked))
+                .remedy("ask for a larger 'size' or fewer 'layers'"));
     if (layers > 0 && options.size) return {quads * layers, 0};
     if (layers == 0) { // walls are as wide as the rims of both ends in the mean
         double width = 0;
@@ -125,15 +126,17 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
     if (options.quads == Quads::mapped) {
         return [](const quads::PlanarRegion& region, const RunContext& context) {
             if (auto grid = quads::submap(region, context)) return std::move(*grid);
-            const std::string why = "a source face of right angles is to be mapped, and the grid its " +
-                                    std::to_string(region.points.size()) +
-                                    " boundary nodes enclose folds or overlaps";
+            Message refusal(
+                "surface.not_submapped",
+                "a source face of right angles is to be mapped, and the grid its {} boundary nodes "
+                "enclose folds or overlaps",
+                found(region.points.size()));
             try {
                 quads::pave(region, {}, context);
             } catch (const NotSweepable&) {
-                throw NotSweepable("surface.not_submapped", why);
+                throw NotSweepable(std::move(refusal));
             }
-            throw NotSweepable("surface.not_submapped", why + "; quads = \"auto\" paves it");
+            throw NotSweepable(std::move(refusal).remedy("quads = \"auto\" paves it"));
         };
     }
     // A grid has as many quads across a neck as its rim leaves over.
@@ -157,9 +160,9 @@ surface::SizeField checked_size(const surface::SizeField& field, const std::stri
     return [field, option](const Vec3& p) {
         const double h = field(p);
         if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size", "sweep: option '" + option +
-                                                 "' must be a positive number everywhere; at " +
-                                                 place_in_short(p) + " it is " + in_full(h));
+            throw InvalidInput("sweep.size",
+                               "sweep: option '{}' must be a positive number everywhere; at {} it is {}",
+                               option, place_in_short(p), found(h));
         }
         return h;
     };
@@ -177,7 +180,7 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
     } else {
         size.by_default = surface::default_size(volume);
         const double part = links.plan.part;
-        if (part < 1) size.by_default->why += ", of that " + in_short(part) + " for the bends of the ends";
+        if (part < 1) size.by_default->why += formatted(", of that {:.2g} for the bends of the ends", part);
         size.asked = even_size(size.by_default->length *= part);
     }
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
@@ -206,15 +209,17 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
 void check_cells(const ExpectedCells& expected, const RunContext& context)
 {
     const double all = expected.all;
-    const std::string cells = all < 1e7    ? with_decimals(all, 0)
-                              : all < 1e12 ? with_decimals(all / 1e6, 0) + " million"
-                                           : in_short(all);
-    log_line(context, "estimate: about " + cells + " cells");
+    const std::string cells = all < 1e7    ? formatted("{:.0f}", all)
+                              : all < 1e12 ? formatted("{:.0f} million", all / 1e6)
+                                           : formatted("{:.2g}", all);
+    log_line(context, formatted("estimate: about {} cells", cells));
     if (expected.unasked > kMostUnasked)
-        throw InvalidInput("sweep.many_cells",
-                           "about " + cells +
-                               " cells are to be expected; more than 50 million are made only where both "
-                               "'size' and 'layers' are given: ask for a larger 'size', or give both");
+        throw InvalidInput(
+            Message("sweep.many_cells",
+                    "about {} cells are to be expected; more than {:.0f} million are made only where "
+                    "both 'size' and 'layers' are given",
+                    found(cells), needed(kMostUnasked / 1e6))
+                .remedy("ask for a larger 'size', or give both"));
 }
 
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)

@@ -16,7 +16,6 @@
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
-#include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/shared/layer_plan.h>
 
 #include <algorithm>
@@ -58,7 +57,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
         if (together.proof.finding) {
-            log_line(context, "loops turned as one body: " + together.proof.finding->message);
+            log_line(context, formatted("loops turned as one body: {}", together.proof.finding->message));
         } else if (alone.proof.finding ||
                    together.swept.min_scaled_jacobian > alone.swept.min_scaled_jacobian) {
             together.swept.report.insert(
@@ -69,7 +68,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
-        log_line(context, std::string("loops turned as one body: ") + error.what());
+        log_line(context, error.message().about("loops turned as one body").text());
     }
     return alone;
 }
@@ -107,15 +106,14 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
     swept.report.push_back(std::move(elevated.report));
     const quality::Quality& quality = elevated.quality;
     swept.min_scaled_jacobian = quality.min_scaled_jacobian;
-    swept.report.push_back("cells of order 2: all certified, scaled Jacobian " +
-                           std::to_string(quality.min_scaled_jacobian) + " at least, " +
-                           std::to_string(quality.mean_scaled_jacobian) + " on average");
+    swept.report.push_back(
+        formatted("cells of order 2: all certified, scaled Jacobian {:.6f} at least, {:.6f} on average",
+                  quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
     swept.quality = quality;
     if (quality.min_scaled_jacobian < options.min_scaled_jacobian) {
-        throw NotSweepable("quality.below_limit", "at order 2 the smallest scaled Jacobian is " +
-                                                      in_full(quality.min_scaled_jacobian) +
-                                                      ", below the limit of " +
-                                                      in_full(options.min_scaled_jacobian));
+        throw NotSweepable("quality.below_limit",
+                           "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
+                           found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian));
     }
     const FinerSkin fine = finer_skin(swept.skin());
     swept.fidelity = compare(shape, fine.mesh, result.faces, kept, quality.volume,
@@ -174,9 +172,9 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, Know
         try {
             Swept next = sweep_compared(volume, rest, links, context);
             if (rest.curvature != options.curvature)
-                next.report.push_back(
-                    "order 2: " + std::to_string(rest.curvature) + " sides for a full turn instead of " +
-                    std::to_string(options.curvature) + ", by which cells were poor or not valid");
+                next.report.push_back(formatted(
+                    "order 2: {} sides for a full turn instead of {}, by which cells were poor or not valid",
+                    rest.curvature, options.curvature));
             if (!best || next.min_scaled_jacobian > best->min_scaled_jacobian) best = std::move(next);
             if (best->min_scaled_jacobian >= kPoor) break;
         } catch (const NotSweepable& error) {
@@ -197,12 +195,11 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     if (!layers) return options;
     LayerSpec& spec = options.layers;
     if (spec.count > 0 || !spec.heights.empty()) {
-        throw NotSweepable("surface.sides_asked",
-                           "intervals: " + layers->name + " asks for " + std::to_string(layers->count) +
-                               " layers, and option 'layers' for " +
-                               std::to_string(std::max<std::size_t>(spec.heights.size(),
-                                                                    static_cast<std::size_t>(spec.count))) +
-                               "; leave out one of them");
+        const auto count = std::max(spec.heights.size(), static_cast<std::size_t>(spec.count));
+        throw NotSweepable(Message("surface.sides_asked",
+                                   "intervals: {} asks for {} layers, and option 'layers' for {}",
+                                   layers->name, found(layers->count), found(count))
+                               .remedy("leave out one of them"));
     }
     spec.count = layers->count;
     // An edge runs from the end that is swept from, the sweep itself from the source the person named.
@@ -217,9 +214,9 @@ Swept sweep_true(const OpenVolume& volume, const SweepOptions& options, KnownLin
                  const RunContext& context)
 {
     Swept swept = sweep_as_asked(volume, options, links, context);
-    const std::string found = misfit_in_words(swept.fidelity, swept.mesh.layers,
-                                              {options.max_deviation, options.beside.between, options.size});
-    if (!found.empty()) throw NotSweepable("sweep.deviation", found);
+    const std::optional<Message> misfit = sweep::misfit(
+        swept.fidelity, swept.mesh.layers, {options.max_deviation, options.beside.between, options.size});
+    if (misfit) throw NotSweepable(*misfit);
     // Of order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
     return swept;
@@ -232,8 +229,8 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
     report_progress(context, "size");
     check(asked, context);
     if (!closure::is_watertight(volume)) {
-        throw NotSweepable("sweep.not_closed",
-                           "the volume is not sealed; close it first with volume:close()");
+        throw NotSweepable(Message("sweep.not_closed", "the volume is not sealed")
+                               .remedy("close it first with volume:close()"));
     }
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
     const surface::SizeField size = options.size ? checked_size(options.size, "size")
@@ -244,7 +241,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_true(volume, options, links, context);
-    std::string why;
+    std::optional<Message> why;
     try {
         SweepOptions moved = options;
         moved.layers = {};
@@ -253,11 +250,12 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         swept.report.push_back(drawn->report);
         return swept;
     } catch (const NotSweepable& error) {
-        why = error.what();
+        why = error.message();
     }
-    log_line(context, "layers nearer to each other in the bends: " + why);
+    log_line(context, why->about("layers nearer to each other in the bends").text());
     Swept swept = sweep_true(volume, options, links, context);
-    swept.report.push_back("layers: even ones; nearer to each other in the bends they fail: " + why);
+    swept.report.push_back(
+        why->about("layers: even ones; nearer to each other in the bends they fail").text());
     return swept;
 }
 
@@ -275,12 +273,12 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
         SweepOptions with_wedges = asked;
         with_wedges.wedges = true;
         Swept swept = sweep_once(volume, with_wedges, links, context);
-        swept.report.push_back("fallback: meshed with wedges, because " + std::string(why->what()));
+        swept.report.push_back(formatted("fallback: meshed with wedges, because {}", why->message().text()));
         return swept;
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) { // what went wrong with hexahedra alone says more
-        log_line(context, std::string("with wedges: ") + error.what());
+        log_line(context, error.message().about("with wedges").text());
     }
     throw NotSweepable(*why);
 }
@@ -298,19 +296,22 @@ std::string volume_in_words(const Swept& swept)
     double length = 0;
     for (const Segment& side : swept.mesh.rim)
         length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
-    return "note: the mesh has " + in_short(100 * std::abs(lost)) + " % " + (lost > 0 ? "less" : "more") +
-           " volume than what was sealed; by the sag of straight sides size = " +
-           in_short(part * length / static_cast<double>(swept.mesh.rim.size())) +
-           " and layers = " + std::to_string(static_cast<int>(std::ceil(swept.mesh.layers / part))) +
-           " keep it within 1 %";
+    return formatted(
+        "the mesh has {:.2g} % {} volume than what was sealed; by the sag of straight sides size = "
+        "{:.2g} and layers = {} keep it within 1 %",
+        100 * std::abs(lost), lost > 0 ? "less" : "more",
+        part * length / static_cast<double>(swept.mesh.rim.size()),
+        static_cast<int>(std::ceil(swept.mesh.layers / part)));
 }
 
 /// What a size that nobody asked for has led to.
 std::string poor_in_words(double least)
 {
-    return "quality: the least scaled Jacobian is " + in_short(least) +
-           " with the size by default; look whether the shape has corners as sharp as that there, ask for "
-           "another 'size', or have such meshes refused by 'min_scaled_jacobian'";
+    return formatted(
+        "quality: the least scaled Jacobian is {:.2g} with the size by default; look whether the "
+        "shape has corners as sharp as that there, ask for another 'size', or have such meshes refused "
+        "by 'min_scaled_jacobian'",
+        least);
 }
 
 } // namespace
@@ -320,14 +321,17 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     share_deadline(options.improving);
     Swept swept = sweep_or_with_wedges(volume, options, context);
-    const auto say = [&](const std::string& line) {
-        swept.defaults.push_back(line);
-        swept.report.push_back(line);
-    };
-    if (!asked.size && swept.min_scaled_jacobian < kPoor) say(poor_in_words(swept.min_scaled_jacobian));
-    if (std::abs(volume_lost(swept.fidelity)) > kNoted) say(volume_in_words(swept));
-    if (!asked.beside.settle)
-        for (const std::string& line : swept.defaults) log_line(context, line);
+    if (!asked.size && swept.min_scaled_jacobian < kPoor) {
+        swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
+        swept.report.push_back(swept.defaults.back());
+    }
+    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
+        swept.notes.push_back(volume_in_words(swept));
+        swept.report.push_back("note: " + swept.notes.back());
+    }
+    if (asked.beside.settle) return swept;
+    for (const std::string& line : swept.defaults) log_line(context, line);
+    for (const std::string& note : swept.notes) log_line(context, "note: " + note);
     return swept;
 }
 

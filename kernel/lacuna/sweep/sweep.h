@@ -80,6 +80,8 @@ struct Beside {
     std::set<FaceId> between{};
     /// Faces whose quads a neighbour made: they are kept in any style.
     std::set<FaceId> handed{};
+    /// Whether the volume came with a mesh of its own, as far as is known: it could be loaded without.
+    bool own_mesh = true;
 };
 
 /// Action for a volume that cannot be meshed with hexahedra only.
@@ -150,6 +152,8 @@ struct Swept {
     /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
     /// They are logged as well, once, for an assembly by the caller that sweeps the whole.
     std::vector<std::string> defaults;
+    std::vector<std::string> notes;    ///< on a changed volume, logged likewise but after "note: "
+    std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
 };

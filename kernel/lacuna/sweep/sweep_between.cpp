@@ -233,11 +233,12 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
     for (const FaceId face : volume.faces(Role::source)) {
         if (!volume.model[face].keeps_nodes || !has_cells_to_keep(volume.model[face], options.wedges))
             continue;
-        throw NotSweepable("sweep.layers_given",
-                           name_of(volume.model, face) +
-                               " came with quads, which stay, and walls at its rim are to have boundary "
-                               "layers; quads = \"paved\" meshes it anew, as does loading with keep_mesh = "
-                               "false");
+        Message refusal("sweep.layers_given",
+                        "{} came with quads, which stay, and walls at its rim are to have boundary layers",
+                        entity_of(volume.model, face));
+        if (!options.beside.own_mesh) throw NotSweepable(std::move(refusal));
+        throw NotSweepable(std::move(refusal).remedy(
+            "quads = \"paved\" meshes it anew, as does loading with keep_mesh = false"));
     }
 }
 
@@ -287,7 +288,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                  surface::find_intervals(split, links, options.intervals).sides,
                                  options.beside.handed};
     refuse_kept_source(split, demands.rows, options);
-    for (std::string& note : given.notes) result.report.push_back("given: " + note);
+    for (const std::string& note : given.notes) result.not_kept.push_back("given: " + note);
+    result.report = result.not_kept;
     report_progress(context, "quads of the source");
     check_cancelled(context);
     const surface::Seeds seeds = surface::seed_source(
@@ -327,7 +329,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
     EndFaces ends = end_faces(volume, source, imprint);
     if (given_target) ends.target = given_target->face;
-    if (!why.empty()) result.report.push_back("target: the quads it came with are not kept: " + why);
+    if (!why.empty()) {
+        result.not_kept.push_back("target: the quads it came with are not kept: " + why);
+        result.report.push_back(result.not_kept.back());
+    }
     Morphed morphed;
     if (given_target) {
         morphed.nodes = given_target->nodes;
@@ -380,8 +385,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     for (const FaceId wall : volume.faces(Role::wall)) {
         if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
             continue;
-        result.report.push_back("walls: " + name_of(volume.model, wall) +
-                                " is smaller than the quads there and has none, nor a group");
+        result.report.push_back(
+            formatted("walls: {} is smaller than the quads there and has none, nor a group",
+                      entity_of(volume.model, wall)));
     }
     report_progress(context, "proof of every cell");
     check_cancelled(context);
@@ -400,13 +406,12 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                                   std::move(measured), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
-    const std::string wedges = quality.wedges > 0
-                                   ? " hexahedra and " + std::to_string(quality.wedges) + " wedges"
-                                   : "";
-    result.report.push_back("cells: " + std::to_string(quality.hexes) + wedges +
-                            ", all certified, scaled Jacobian " +
-                            std::to_string(quality.min_scaled_jacobian) + " at least, " +
-                            std::to_string(quality.mean_scaled_jacobian) + " on average");
+    const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)
+                                                  : "";
+    result.report.push_back(
+        formatted("cells: {}{}, all certified, scaled Jacobian {:.6f} at least, {:.6f} on "
+                  "average",
+                  quality.hexes, wedges, quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
     report_given(volume, result, options.wedges);
     result.quality = quality;
     return {std::move(result), std::move(proof), faces, seeds.kept};

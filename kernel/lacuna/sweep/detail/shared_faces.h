@@ -4,7 +4,6 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <span>
-#include <string>
 #include <vector>
 
 /// Faces shared by members of an assembly. Internal to this folder.
@@ -13,8 +12,8 @@ namespace lacuna::sweep {
 /// A pair of faces of which one covers part of the other.
 struct PartlyShared {
     SharedFace faces;
-    double limit = 0;  ///< maximum distance of the facets [model length]
-    std::string words; ///< the covered share of each, as text
+    double limit = 0; ///< maximum distance of the facets [model length]
+    Message refusal;  ///< names the covered share of each
 };
 
 /// Faces shared by members, completely or in part.
@@ -36,9 +35,9 @@ double facet_sag(const topology::Model& model, const topology::Face& face);
 
 /// A face or an edge of a member as messages name it.
 template <class Id>
-std::string name_in(const AssemblyMember& member, Id id)
+NamedEntity entity_in(const AssemblyMember& member, Id id)
 {
-    return name_of(member.volume->model, id) + " of " + member.region;
+    return entity_of(member.volume->model, id);
 }
 
 } // namespace lacuna::sweep
