@@ -55,7 +55,7 @@ quality::Proof layered_proof(const mesh::HexMesh& whole, double limit = 0)
     REQUIRE(found.finding.has_value() == held.finding.has_value());
     if (found.finding && held.finding) {
         CHECK(found.finding->fault == held.finding->fault);
-        CHECK(found.finding->message == held.finding->message);
+        CHECK(found.finding->message.text() == held.finding->message.text());
     }
     CHECK(found.quality.hexes == held.quality.hexes);
     CHECK(found.quality.min_scaled_jacobian == held.quality.min_scaled_jacobian);

@@ -225,10 +225,17 @@ TEST_CASE("a refusal names the worst cells, their layer and their place")
     mesh.nodes[16 + 5].z() += 0.7; // inner node of the second level
     const quality::Proof proof = quality::prove(mesh);
     REQUIRE(proof.finding);
-    const std::string& message = proof.finding->message;
-    CHECK(message.find("layer 2 of 3") != std::string::npos);
-    CHECK(message.find("scaled Jacobian -") != std::string::npos);
-    CHECK(message.find(" at ") != std::string::npos);
+    const Message& message = proof.finding->message;
+    CHECK(message.code() == "quality.inverted");
+    CHECK(message.text().find("(layer 2 of 3, at ") != std::string::npos);
+    CHECK(message.found() == std::vector<MessageValue>{static_cast<long long>(proof.quality.inverted)});
+    for (const NamedEntity& cell : message.entities()) {
+        CHECK(cell.kind == "cell");
+        CHECK((cell.tag - 1) / 9 == 1);
+    }
+    const auto inverted = [](const quality::WorstCell& cell) { return cell.scaled_jacobian <= 0; };
+    CHECK(static_cast<std::ptrdiff_t>(message.entities().size()) ==
+          std::ranges::count_if(proof.quality.worst, inverted));
 }
 
 TEST_CASE("a refusal names as many cells as there are columns with bad ones, ten at most")
@@ -245,12 +252,12 @@ TEST_CASE("a refusal names as many cells as there are columns with bad ones, ten
         const quality::Proof proof = quality::prove(mesh);
         REQUIRE(proof.finding);
         std::set<std::size_t> columns;
-        std::size_t lines = 0;
-        const std::string& message = proof.finding->message;
-        for (std::size_t at = 0; (at = message.find("\n  cell ", at)) != std::string::npos; ++lines)
-            columns.insert((std::stoul(message.substr(at += 8)) - 1) % mesh.quads.size());
-        CHECK(lines == std::min<std::size_t>(10, 4 * index(moved)));
-        CHECK(columns.size() == lines);
+        const Message& message = proof.finding->message;
+        for (const NamedEntity& cell : message.entities())
+            columns.insert(static_cast<std::size_t>(cell.tag - 1) % mesh.quads.size());
+        CHECK(columns.size() == std::min<std::size_t>(10, 4 * index(moved)));
+        CHECK(message.entities().size() == columns.size());
+        CHECK(message.text().size() <= 300);
     }
 }
 
@@ -268,7 +275,8 @@ TEST_CASE("a finding becomes an error of the same code and words where it is req
         FAIL("a finding was let pass");
     } catch (const NotSweepable& error) {
         CHECK(error.code() == "quality.inverted");
-        CHECK(error.what() == proof.finding->message);
+        CHECK(error.what() == proof.finding->message.text());
+        CHECK(error.message().entities() == proof.finding->message.entities());
     }
     CHECK_FALSE(quality::can_be_improved(quality::Fault::not_conformal));
     CHECK(quality::fault_code(quality::Fault::empty) == "quality.empty");

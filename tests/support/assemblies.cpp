@@ -102,7 +102,7 @@ void check_assembly(const sweep::SweptAssembly& whole, double volume, double sha
     // Volumes that meet along an edge or in a point alone make a skin that is no manifold there.
     if (proof.finding && proof.finding->fault != quality::Fault::pinched &&
         proof.finding->fault != quality::Fault::open_skin)
-        FAIL_CHECK(proof.finding->message);
+        FAIL_CHECK(proof.finding->message.text());
     CHECK(std::abs(sum - volume) <= share * volume);
 }
 

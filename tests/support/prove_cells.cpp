@@ -51,33 +51,38 @@ CellSide make_side(const Quad& quad, Index owner)
     return side;
 }
 
+std::string name_of(std::span<const Vec3> nodes, Index node)
+{
+    const NodeName name = node_name(nodes, node, 0);
+    return formatted("{} ({})", name.node, name.place);
+}
+
 std::string side_name(std::span<const Vec3> nodes, const CellSide& side)
 {
-    return "the side of cell " + std::to_string(side.owner + 1) + " between " +
-           node_name(nodes, side.nodes[0], 0) + " and " + node_name(nodes, side.nodes[2], 0);
+    return formatted("the side of cell {} between {} and {}", side.owner + 1, name_of(nodes, side.nodes[0]),
+                     name_of(nodes, side.nodes[2]));
 }
 
 Found check_corners(std::span<const Vec3> nodes, std::span<const Hex> hexes, std::span<const Quad> skin)
 {
-    if (hexes.empty()) return Finding{Fault::empty, "the mesh has no cells"};
+    if (hexes.empty()) return Finding(Fault::empty, "the mesh has no cells");
     std::vector<char> used(nodes.size(), 0);
     const auto known = [&](Index node) { return node >= 0 && static_cast<std::size_t>(node) < nodes.size(); };
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         for (const Index node : hexes[h]) {
             if (!known(node))
-                return Finding{Fault::unknown_node, "cell " + std::to_string(h + 1) + " has node number " +
-                                                        std::to_string(std::int64_t(node) + 1) + " of " +
-                                                        std::to_string(nodes.size())};
+                return Finding(Fault::unknown_node, "cell {} has node number {} of {}", h + 1,
+                               std::int64_t(node) + 1, nodes.size());
             used[static_cast<std::size_t>(node)] = 1;
         }
     }
     for (const Quad& quad : skin)
         if (!std::all_of(quad.begin(), quad.end(), known))
-            return Finding{Fault::unknown_node, "a quad of the given skin has a node number out of range"};
+            return Finding(Fault::unknown_node, "a quad of the given skin has a node number out of range");
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (unused != used.end())
-        return Finding{Fault::unused_node, node_name(nodes, static_cast<Index>(unused - used.begin()), 0) +
-                                               " belongs to no cell"};
+        return Finding(Fault::unused_node, "{} belongs to no cell",
+                       name_of(nodes, static_cast<Index>(unused - used.begin())));
     return std::nullopt;
 }
 
@@ -132,25 +137,23 @@ Found check_side(std::span<const Vec3> nodes, std::span<const CellSide> users, b
     const auto& key = any.key;
     const auto end = any.triangle ? key.end() - 1 : key.end();
     if (std::adjacent_find(key.begin(), end) != end)
-        return Finding{Fault::collapsed_side, side_name(nodes, any) + " has the same node twice"};
+        return Finding(Fault::collapsed_side, "{} has the same node twice", side_name(nodes, any));
     if (cells.size() > 2)
-        return Finding{Fault::not_conformal,
-                       side_name(nodes, any) + " is shared by " + std::to_string(cells.size()) + " cells"};
+        return Finding(Fault::not_conformal, "{} is shared by {} cells", side_name(nodes, any), cells.size());
     if (cells.size() == 2) {
         const Quad& a = cells[0].nodes;
         const Quad& b = cells[1].nodes;
         const bool alike = any.triangle ? a[1] == b[2] && a[2] == b[1]
                                         : a[1] == b[3] && a[2] == b[2] && a[3] == b[1];
         if (!alike)
-            return Finding{Fault::not_conformal, side_name(nodes, any) + " does not match the side of cell " +
-                                                     std::to_string(cells[0].owner + 1)};
+            return Finding(Fault::not_conformal, "{} does not match the side of cell {}",
+                           side_name(nodes, any), cells[0].owner + 1);
     }
     const std::size_t expected = cells.size() == 1 ? 1 : 0;
     if (skin_given && given != expected)
-        return Finding{Fault::skin_differs,
-                       "the quad between " + node_name(nodes, any.nodes[0], 0) + " and " +
-                           node_name(nodes, any.nodes[2], 0) + " is listed " + std::to_string(given) +
-                           " times in the given skin; expected " + std::to_string(expected)};
+        return Finding(Fault::skin_differs,
+                       "the quad between {} and {} is listed {} times in the given skin; expected {}",
+                       name_of(nodes, any.nodes[0]), name_of(nodes, any.nodes[2]), given, expected);
     return std::nullopt;
 }
 
@@ -178,9 +181,9 @@ Found check_skin_edges(std::span<const Vec3> nodes, const std::vector<Quad>& ski
         std::size_t j = i;
         while (j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high) ++j;
         if (j - i != 2 || uses[i].rising == uses[i + 1].rising)
-            return Finding{Fault::open_skin, "the edge of the skin from " + node_name(nodes, uses[i].low, 0) +
-                                                 " to " + node_name(nodes, uses[i].high, 0) + " is used by " +
-                                                 std::to_string(j - i) + " quads; expected two"};
+            return Finding(Fault::open_skin,
+                           "the edge of the skin from {} to {} is used by {} quads; expected two",
+                           name_of(nodes, uses[i].low), name_of(nodes, uses[i].high), j - i);
         i = j;
     }
     return std::nullopt;

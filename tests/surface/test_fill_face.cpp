@@ -257,10 +257,12 @@ TEST_CASE("a curved face in two parts is refused by its name and with what to do
             fill(disc, 0.3);
             FAIL("filled");
         } catch (const InvalidInput& error) {
-            const std::string words = error.what();
             CHECK(error.code() == "surface.not_flat");
-            CHECK(words.find("face 1") != std::string::npos);
-            CHECK(words.find(made ? "add the missing face" : "split it") != std::string::npos);
+            const Message& message = error.message();
+            CHECK(message.entities() == std::vector<NamedEntity>{{made ? "void face" : "face", 1}});
+            CHECK(message.remedy().starts_with(made ? "add the missing face" : "split it"));
+            REQUIRE(message.attempts().size() == 1);
+            CHECK(message.attempts().front().code() == "geometry.not_flattenable");
         }
     }
 }

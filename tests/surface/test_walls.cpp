@@ -234,7 +234,8 @@ TEST_CASE("more rings than layers are refused, and the layers that would do are 
         FAIL_CHECK("three rings on one layer");
     } catch (const NotSweepable& error) {
         CHECK(error.code() == "surface.too_few_layers");
-        CHECK(std::string(error.what()).find("layers = 4") != std::string::npos);
+        CHECK(error.message().found() == std::vector<MessageValue>{2LL});
+        CHECK(error.message().needed() == std::vector<MessageValue>{4LL});
     }
     check_walls(volume, meshed(volume, levels(4), 2), 4, 1e-9);
 }

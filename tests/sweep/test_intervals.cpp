@@ -208,7 +208,7 @@ TEST_CASE("intervals that contradict each other are refused, both named with the
 
     std::vector<Interval> odd;
     for (std::size_t i = 0; i < 4; ++i) odd.push_back(on_edge(volume.model[low[i].edge].tag, i == 0 ? 5 : 4));
-    CHECK(refused(with(odd), {"odd", "5", "4"}) == "surface.sides_asked");
+    CHECK(refused(with(odd), {"odd", "17 sides"}) == "surface.sides_asked");
     SweepOptions mapped = with({on_edge(a, 4), on_edge(volume.model[low[2].edge].tag, 6)});
     mapped.quads = sweep::Quads::mapped;
     CHECK(refused(mapped, {"4 (", "6 ("}) == "surface.kept_side");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/face_pattern.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -222,9 +223,8 @@ public:
 private:
     [[nodiscard]] std::string words() const
     {
-        if (pattern_.about == 0)
-            return soft_ > 0 ? "grid with " + std::to_string(soft_) + " turns" : "submapped";
-        return soft_ > 0 ? "rings with " + std::to_string(soft_) + " turns" : "rings";
+        if (soft_ == 0) return pattern_.about == 0 ? "submapped" : "rings";
+        return formatted("{} with {} turns", pattern_.about == 0 ? "grid" : "rings", soft_);
     }
 
     bool head(std::size_t l, const LoopFrame& frame, int turns)
@@ -502,7 +502,7 @@ private:
                                                           const TemplateCut& cut) const
     {
         const TemplateMesh filled = fill_template(loop, corners, cut);
-        PlanarQuads mesh{region_.points, {}, "grids at " + std::to_string(corners.size()) + " corners"};
+        PlanarQuads mesh{region_.points, {}, formatted("grids at {} corners", corners.size())};
         add_filling(mesh.points, mesh.quads, region_.loops[0], filled.inner, filled.quads);
         return smoothed(std::move(mesh), region_, sizes_.usual, context_);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/shared/measure_plane.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/plane_stars.h>
@@ -51,8 +52,6 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     return count;
 }
 
-std::string side_text(Index a, Index b) { return std::to_string(a) + "-" + std::to_string(b); }
-
 /// Corners that are points, four different ones in each quad.
 std::string find_bad_corner(const PlanarQuads& mesh)
 {
@@ -60,11 +59,9 @@ std::string find_bad_corner(const PlanarQuads& mesh)
         const Quad& quad = mesh.quads[q];
         for (std::size_t k = 0; k < 4; ++k) {
             if (quad[k] < 0 || index(quad[k]) >= mesh.points.size())
-                return "quad " + std::to_string(q) + " has corner " + std::to_string(quad[k]) +
-                       ", which is no point";
+                return formatted("quad {} has corner {}, which is no point", q, quad[k]);
             for (std::size_t j = 0; j < k; ++j) {
-                if (quad[j] == quad[k])
-                    return "quad " + std::to_string(q) + " has corner " + std::to_string(quad[k]) + " twice";
+                if (quad[j] == quad[k]) return formatted("quad {} has corner {} twice", q, quad[k]);
             }
         }
     }
@@ -81,7 +78,7 @@ std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, s
         const Quad& quad = mesh.quads[side / 4];
         const Index a = quad[side % 4], b = quad[(side + 1) % 4];
         if (opposite[side] == mesh::kBadSide)
-            return "side " + side_text(a, b) + " is used by more than two quads or twice in one direction";
+            return formatted("side {}-{} is used by more than two quads or twice in one direction", a, b);
         if (opposite[side] == mesh::kRimSide) rim.emplace_back(a, b);
     }
     edges = (opposite.size() + rim.size()) / 2;
@@ -91,9 +88,9 @@ std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, s
     if (rim == wanted) return {};
     std::vector<std::pair<Index, Index>> odd;
     std::set_difference(wanted.begin(), wanted.end(), rim.begin(), rim.end(), std::back_inserter(odd));
-    if (!odd.empty()) return "boundary side " + side_text(odd[0].first, odd[0].second) + " has no quad";
+    if (!odd.empty()) return formatted("boundary side {}-{} has no quad", odd[0].first, odd[0].second);
     std::set_difference(rim.begin(), rim.end(), wanted.begin(), wanted.end(), std::back_inserter(odd));
-    return "side " + side_text(odd[0].first, odd[0].second) + " has one quad but is not on the boundary";
+    return formatted("side {}-{} has one quad but is not on the boundary", odd[0].first, odd[0].second);
 }
 
 } // namespace
@@ -235,17 +232,19 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
 
     const std::vector<Index> valence = valences(mesh.quads, mesh.points.size());
     const auto unused = std::ranges::find(valence, 0);
-    if (unused != valence.end()) return "point " + std::to_string(unused - valence.begin()) + " has no quad";
+    if (unused != valence.end()) return formatted("point {} has no quad", unused - valence.begin());
     // Euler: a disc with holes, in one piece and nowhere pinched.
     const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
     if (euler != 2 - static_cast<long>(region.loops.size()))
-        return "points - sides + quads are " + std::to_string(euler) +
-               ", not 2 less the number of loops: the mesh comes apart or is pinched";
+        return formatted(
+            "points - sides + quads are {}, not 2 less the number of loops: the mesh comes apart "
+            "or is pinched",
+            euler);
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const double jacobian = scaled_jacobian(mesh.points, mesh.quads[q]);
         if (!(jacobian > 0))
-            return "quad " + std::to_string(q) + " has a corner that is not positive (scaled Jacobian " +
-                   std::to_string(jacobian) + ")";
+            return formatted("quad {} has a corner that is not positive (scaled Jacobian {:.6f})", q,
+                             jacobian);
     }
     return {};
 }

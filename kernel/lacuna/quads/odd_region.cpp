@@ -375,16 +375,17 @@ PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> side
 
 void tell_triangles(PlanarQuads& mesh, std::size_t count)
 {
-    mesh.how += (mesh.how.empty() ? "" : ", ") +
-                (count == 1 ? std::string("one triangle") : std::to_string(count) + " triangles");
+    if (!mesh.how.empty()) mesh.how += ", ";
+    mesh.how += count == 1 ? "one triangle" : formatted("{} triangles", count);
 }
 
 [[noreturn]] void refuse_rows(std::size_t sides)
 {
-    throw NotSweepable("surface.odd_region", "a region with " + std::to_string(sides) +
-                                                 " boundary sides was to be filled with quads and few "
-                                                 "triangles, and no row of quads leads inward from its "
-                                                 "longest sides");
+    throw NotSweepable(
+        "surface.odd_region",
+        "a region with {} boundary sides was to be filled with quads and few triangles, and no "
+        "row of quads leads inward from its longest sides",
+        sides);
 }
 
 std::size_t sides_of(const PlanarRegion& region)

@@ -31,8 +31,7 @@ Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, c
         const int now = lay_rows(partial, loops, wanted, region.row_height, RowKind::exact);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (had[l] && !wanted[l])
-                missing += ", no room for row " + std::to_string(r + 1) + " along loop " +
-                           std::to_string(l + 1);
+                missing += formatted(", no room for row {} along loop {}", r + 1, l + 1);
         }
         if (now == 0) break;
         laid += now;
@@ -43,8 +42,8 @@ Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, c
     auto [filling, report] = pave(core, inside, context);
     PlanarQuads mesh{std::move(partial.points), std::move(partial.quads), filling.how};
     add_filling(mesh, own, filling);
-    mesh.how += " inside " + std::to_string(laid) +
-                (laid == 1 ? " row of its own height" : " rows of their own height") + missing;
+    mesh.how += formatted(" inside {} {} height{}", laid, laid == 1 ? "row of its own" : "rows of their own",
+                          missing);
     drop_loose_points(mesh, region.points.size());
     return {std::move(mesh), std::move(report)};
 }
@@ -59,28 +58,31 @@ void check(const PlanarRegion& region)
     std::vector<bool> seen(region.points.size(), false);
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const auto& loop = region.loops[l];
-        const std::string name = "loop " + std::to_string(l + 1) + " of a region to be filled";
+        const NamedEntity name{"loop", static_cast<long long>(l) + 1};
         if (loop.size() < 3) {
-            throw InvalidInput("surface.pave_loops",
-                               name + " has " + std::to_string(loop.size()) + " nodes; give it 3 or more");
+            throw InvalidInput(Message("surface.pave_loops", "{} of a region to be filled has {} nodes", name,
+                                       found(loop.size()))
+                                   .remedy("give it {} or more", needed(3)));
         }
         sides += loop.size();
         for (const Index p : loop) {
             if (p < 0 || index(p) >= seen.size())
-                throw InvalidInput("surface.pave_loops", name + " names node " + std::to_string(p + 1) +
-                                                             " of " + std::to_string(seen.size()));
+                throw InvalidInput("surface.pave_loops", "{} of a region to be filled names {} of {}", name,
+                                   NamedEntity{"node", static_cast<long long>(p) + 1}, needed(seen.size()));
             if (seen[index(p)])
-                throw InvalidInput("surface.pave_loops", name + " comes to node " + std::to_string(p + 1) +
-                                                             " a second time; loops may not touch");
+                throw InvalidInput("surface.pave_loops",
+                                   "{} of a region to be filled comes to {} a second time; loops may not "
+                                   "touch",
+                                   name, NamedEntity{"node", static_cast<long long>(p) + 1});
             seen[index(p)] = true;
         }
     }
     if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
         const auto node = index(region.loops[crossing->loop_a][crossing->segment_a]);
-        throw InvalidInput("surface.pave_loops", "loops " + std::to_string(crossing->loop_a + 1) + " and " +
-                                                     std::to_string(crossing->loop_b + 1) +
-                                                     " of a region to be filled cross or touch near " +
-                                                     position_text(region.points[node]));
+        const auto loop = [](std::size_t l) { return NamedEntity{"loop", static_cast<long long>(l) + 1}; };
+        throw InvalidInput("surface.pave_loops", "{} and {} of a region to be filled cross or touch near {}",
+                           loop(crossing->loop_a), loop(crossing->loop_b),
+                           position_text(region.points[node]));
     }
     const std::vector<Vec2> outline = region_within(region.points, {region.loops[0]}).region.points;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
@@ -89,20 +91,20 @@ void check(const PlanarRegion& region)
         if ((twice_area(region.points, loop) > 0) == outer &&
             (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
             continue;
-        throw InvalidInput(
-            "surface.pave_loops",
-            outer ? "the outer loop of a region to be filled runs clockwise; the first loop goes round the "
-                    "others, with the "
-                    "region on its left"
-                  : "loop " + std::to_string(l + 1) +
-                        " of a region to be filled is no hole in loop 1: holes lie inside it and run "
-                        "clockwise");
+        if (outer)
+            throw InvalidInput("surface.pave_loops",
+                               "the outer loop of a region to be filled runs clockwise; the first loop goes "
+                               "round the others, with the region on its left");
+        throw InvalidInput("surface.pave_loops",
+                           "{} of a region to be filled is no hole in {}: holes lie inside it and run "
+                           "clockwise",
+                           NamedEntity{"loop", static_cast<long long>(l) + 1}, NamedEntity{"loop", 1});
     }
     if (sides % 2 != 0) {
-        throw InvalidInput(
-            "surface.pave_parity",
-            "a region with " + std::to_string(sides) +
-                " boundary sides cannot be filled with quads alone; give one of its edges one side more");
+        throw InvalidInput(Message("surface.pave_parity",
+                                   "a region with {} boundary sides cannot be filled with quads alone",
+                                   found(sides))
+                               .remedy("give one of its edges one side more"));
     }
 }
 
@@ -110,26 +112,25 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
 {
     check(region);
     if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
-        throw InvalidInput("surface.pave_rows", std::to_string(options.exact_rows) +
-                                                    " rows of their own height are asked for, of a region " +
-                                                    (region.row_height ? "with" : "without") +
-                                                    " a row height; give a height and 0 rows or more");
+        throw InvalidInput(Message("surface.pave_rows",
+                                   "{} rows of their own height are asked for, of a region {} a row height",
+                                   found(options.exact_rows), region.row_height ? "with" : "without")
+                               .remedy("give a height and 0 rows or more"));
     }
     if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
     AttemptChooser chooser(region, options, context);
     chooser.run();
     Attempt best = chooser.take_best();
     if (best.worst <= 0) {
-        throw NotSweepable("surface.pave", "no valid quads were found for a region of " +
-                                               std::to_string(region.points.size()) +
-                                               " boundary nodes: near " + position_text(best.where) +
-                                               " they fold");
+        throw NotSweepable("surface.pave",
+                           "no valid quads were found for a region of {} boundary nodes: near {} they fold",
+                           region.points.size(), position_text(best.where));
     }
     // Between sides that all but touch, or in spikes, there are none but flat ones.
     if (best.worst <= chooser.flat()) {
-        log_line(context, "the flattest quad, near " + position_text(best.where) +
-                              ", has a scaled Jacobian of " + std::to_string(best.worst) +
-                              ": the boundary's sides are long for the gap there");
+        log_line(context, formatted("the flattest quad, near {}, has a scaled Jacobian of {:.6f}: the "
+                                    "boundary's sides are long for the gap there",
+                                    position_text(best.where), best.worst));
     }
     if (static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {
         const std::vector<Symmetry> symmetries = mesh_symmetries(best.mesh, region);
@@ -139,7 +140,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     }
     best.mesh.how = best.report.used;
     if (best.report.refilled > 0)
-        best.mesh.how += ", " + std::to_string(best.report.refilled) + " places by split triangles";
+        best.mesh.how += formatted(", {} places by split triangles", best.report.refilled);
     return {std::move(best.mesh), std::move(best.report)};
 }
 

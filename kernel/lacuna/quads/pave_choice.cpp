@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_choice.h>
 
-#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/message.h>
 #include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
@@ -182,10 +182,7 @@ double score_of(const PlaneQuality& quality)
            quality.row_share() / 2 - 2 * irregular;
 }
 
-std::string position_text(const Vec2& p)
-{
-    return "(" + with_digits(p.x(), 6) + ", " + with_digits(p.y(), 6) + ")";
-}
+std::string position_text(const Vec2& p) { return formatted("({:.6g}, {:.6g})", p.x(), p.y()); }
 
 std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 
@@ -412,7 +409,7 @@ Attempt AttemptChooser::fill_part(const MirrorPart& part) const
     Attempt attempt = chooser.take_best();
     if (attempt.worst <= 0) return {};
     attempt.mesh = unfold(part, attempt.mesh, region_);
-    attempt.report.used += ", " + std::to_string(part.images.size()) + " alike";
+    attempt.report.used += formatted(", {} alike", part.images.size());
     judge(attempt);
     return attempt;
 }

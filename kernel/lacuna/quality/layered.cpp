@@ -233,7 +233,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-std::string name_of_node(const LayeredMesh& layered, Index node, const RunContext& context)
+NodeName name_of_node(const LayeredMesh& layered, Index node, const RunContext& context)
 {
     const Index row = layered.mesh.nodes_per_layer;
     std::vector<Vec3> nodes(index(row));

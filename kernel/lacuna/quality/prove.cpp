@@ -21,38 +21,41 @@
 namespace lacuna::quality {
 namespace {
 
-std::string person(std::size_t number) { return std::to_string(number + 1); }
+/// Numbers for people start at 1.
+template <class Number>
+NamedEntity entity(const char* kind, Number number)
+{
+    return {kind, static_cast<long long>(number) + 1};
+}
 
 Found check_sizes(const mesh::HexMesh& mesh, std::size_t nodes)
 {
     if (mesh.layers < 1 || mesh.quads.empty() || mesh.nodes_per_layer < 3)
-        return Finding{Fault::empty, "the mesh has no cells: " + std::to_string(mesh.quads.size()) +
-                                         " source quads and " + std::to_string(mesh.layers) + " layers"};
+        return Finding(Fault::empty, "the mesh has no cells: {} source quads and {} layers",
+                       found(mesh.quads.size()), found(mesh.layers));
     const auto layers = static_cast<std::size_t>(mesh.layers);
     struct Size {
         const char* what;
-        std::size_t found, expected;
+        std::size_t size, expected;
     };
-    for (const auto& [what, found, expected] :
+    for (const auto& [what, size, expected] :
          {Size{"nodes", mesh.nodes.size(), nodes},
           Size{"patches of source quads", mesh.source_patch.size(), mesh.quads.size()},
           Size{"patches of target quads", mesh.target_patch.size(), mesh.quads.size()},
           Size{"patches of wall quads", mesh.wall_patch.size(), layers * mesh.rim.size()}}) {
-        if (found != expected)
-            return Finding{Fault::wrong_size, std::string("the mesh holds ") + std::to_string(found) + " " +
-                                                  what + "; expected " + std::to_string(expected)};
+        if (size != expected)
+            return Finding(Fault::wrong_size, "the mesh holds {} {}; expected {}", found(size), what,
+                           needed(expected));
     }
     const std::size_t first_triangle = mesh.quads.size() - mesh.triangle_count();
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         if (q < first_triangle && mesh::is_triangle(mesh.quads[q]))
-            return Finding{Fault::wrong_size,
-                           "source quad " + person(q) +
-                               " is a triangle and precedes quads; triangles must come last"};
+            return Finding(Fault::wrong_size, "{} is a triangle and precedes quads; triangles must come last",
+                           entity("source quad", q));
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                return Finding{Fault::unknown_node, "source quad " + person(q) + " has node number " +
-                                                        std::to_string(node + 1) + " of " +
-                                                        std::to_string(mesh.nodes_per_layer)};
+                return Finding(Fault::unknown_node, "{} has node number {} of {}", entity("source quad", q),
+                               found(static_cast<long long>(node) + 1), needed(mesh.nodes_per_layer));
         }
     }
     return std::nullopt;
@@ -63,28 +66,23 @@ Found check_patches(const mesh::HexMesh& mesh)
     std::unordered_set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches) {
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            return Finding{Fault::patch_tag, "tag " + std::to_string(patch.tag) +
-                                                 " of a skin patch is not positive or not unique"};
+            return Finding(Fault::patch_tag, "tag {} of a skin patch is not positive or not unique",
+                           found(patch.tag));
     }
     const auto count = static_cast<Index>(mesh.patches.size());
-    for (const auto& [where, patches] :
-         {std::pair("source", &mesh.source_patch), std::pair("target", &mesh.target_patch),
-          std::pair("wall", &mesh.wall_patch)}) {
+    for (const auto& [kind, patches] :
+         {std::pair("source quad", &mesh.source_patch), std::pair("target quad", &mesh.target_patch),
+          std::pair("wall quad", &mesh.wall_patch)}) {
         const auto wrong = std::find_if(patches->begin(), patches->end(),
                                         [&](Index p) { return p < 0 || p >= count; });
         if (wrong != patches->end())
-            return Finding{Fault::no_patch, std::string(where) + " quad " +
-                                                person(static_cast<std::size_t>(wrong - patches->begin())) +
-                                                " has no patch of the skin; set its patch number"};
+            return Finding(Fault::no_patch, "{} has no patch of the skin; set its patch number",
+                           entity(kind, wrong - patches->begin()));
     }
     return std::nullopt;
 }
 
-std::string source_node(const mesh::HexMesh& mesh, Index node)
-{
-    return "source node " + std::to_string(node + 1) + " (at " +
-           place(mesh.nodes[static_cast<std::size_t>(node)]) + ")";
-}
+std::string place_of(const mesh::HexMesh& mesh, Index node) { return place(mesh.nodes[index(node)]); }
 
 Found check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
@@ -93,11 +91,11 @@ Found check_sides(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         const Index from = quad[side % 4];
         const Index to = quad[(side + 1) % 4];
         if (opposite[side] == mesh::kNoSide || (from != to && opposite[side] != mesh::kBadSide)) continue;
-        return Finding{Fault::not_conformal,
-                       "the side of source quad " + person(side / 4) + " from " + source_node(mesh, from) +
-                           " to " + source_node(mesh, to) +
-                           (from == to ? " has the same node at both ends"
-                                       : " is used by more than two quads, or twice in the same direction")};
+        return Finding(Fault::not_conformal, "the side of {} from {} (at {}) to {} (at {}) {}",
+                       entity("source quad", side / 4), entity("source node", from), place_of(mesh, from),
+                       entity("source node", to), place_of(mesh, to),
+                       from == to ? "has the same node at both ends"
+                                  : "is used by more than two quads, or twice in the same direction");
     }
     return std::nullopt;
 }
@@ -128,8 +126,8 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
     }
     for (std::size_t node = 0; node < nodes; ++node) {
         if (valence[node] == 0)
-            return Finding{Fault::unused_node,
-                           source_node(mesh, static_cast<Index>(node)) + " belongs to no quad; remove it"};
+            return Finding(Fault::unused_node, "{} (at {}) belongs to no quad; remove it",
+                           entity("source node", node), place(mesh.nodes[node]));
         // Go around the node: the side of a quad that ends at the node is the side of
         // the next quad that starts there.
         Index turned = 1;
@@ -140,8 +138,9 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
             if (side < 0 || side == first[node]) break;
         }
         if (turned != valence[node])
-            return Finding{Fault::pinched, "the quads around " + source_node(mesh, static_cast<Index>(node)) +
-                                               " are connected at this node only; duplicate the node"};
+            return Finding(Fault::pinched,
+                           "the quads around {} (at {}) are connected at this node only; duplicate the node",
+                           entity("source node", node), place(mesh.nodes[node]));
     }
     return std::nullopt;
 }
@@ -151,46 +150,47 @@ Found check_rim(const mesh::HexMesh& mesh, std::vector<Index> follows)
     for (const Segment& side : mesh.rim) {
         const bool known = side[0] >= 0 && side[0] < mesh.nodes_per_layer;
         if (!known || follows[static_cast<std::size_t>(side[0])] != side[1] || side[1] < 0)
-            return Finding{Fault::open_skin,
-                           "the rim side from node " + std::to_string(side[0] + 1) + " to " +
-                               std::to_string(side[1] + 1) +
-                               " is not a boundary side of the source quads, or is listed twice"};
+            return Finding(Fault::open_skin,
+                           "the rim side from {} to {} is not a boundary side of the source quads, or is "
+                           "listed twice",
+                           entity("source node", side[0]), entity("source node", side[1]));
         follows[static_cast<std::size_t>(side[0])] = -1;
     }
     const auto missed = std::find_if(follows.begin(), follows.end(), [](Index to) { return to >= 0; });
-    if (missed != follows.end())
-        return Finding{Fault::open_skin, "the boundary side of the source quads from " +
-                                             source_node(mesh, static_cast<Index>(missed - follows.begin())) +
-                                             " to " + source_node(mesh, *missed) +
-                                             " is not listed in the rim"};
-    return std::nullopt;
+    if (missed == follows.end()) return std::nullopt;
+    const auto from = static_cast<Index>(missed - follows.begin());
+    return Finding(Fault::open_skin,
+                   "the boundary side of the source quads from {} (at {}) to {} (at {}) is not listed in the "
+                   "rim",
+                   entity("source node", from), place_of(mesh, from), entity("source node", *missed),
+                   place_of(mesh, *missed));
 }
 
 } // namespace
 
-std::string node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels)
+NodeName node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels)
 {
-    std::string text = "node " + std::to_string(node + 1) + " (";
-    if (nodes_per_layer > 0)
-        text += "level " + std::to_string(node / nodes_per_layer + 1) + " of " + std::to_string(levels) +
-                ", ";
-    return text + "at " + place(at) + ")";
+    const NamedEntity named = entity("node", node);
+    if (nodes_per_layer <= 0) return {named, "at " + place(at)};
+    return {named, formatted("level {} of {}, at {}", node / nodes_per_layer + 1, levels, place(at))};
 }
 
-std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer)
+NodeName node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer)
 {
     const std::size_t levels = nodes_per_layer > 0 ? nodes.size() / index(nodes_per_layer) : 0;
     return node_name(nodes[index(node)], node, nodes_per_layer, levels);
 }
 
-Finding not_finite(const std::string& node)
+Finding not_finite(const NodeName& node)
 {
-    return {Fault::not_finite, node + " has coordinates that are not finite"};
+    return {Fault::not_finite, "{} ({}) has coordinates that are not finite", node.node, node.place};
 }
 
-Finding coincident_nodes(const std::string& a, const std::string& b)
+Finding coincident_nodes(const NodeName& a, const NodeName& b)
 {
-    return {Fault::coincident_nodes, a + " and " + b + " coincide (within 1e-9 of the diagonal of the mesh)"};
+    return Finding(Fault::coincident_nodes,
+                   "{} ({}) and {} ({}) coincide (within 1e-9 of the diagonal of the mesh)", a.node, a.place,
+                   b.node, b.place);
 }
 
 Index first_not_finite(std::span<const Vec3> nodes)
@@ -213,27 +213,32 @@ Found check_nodes(std::span<const Vec3> nodes, Index nodes_per_layer, const RunC
 Found check_quality(const Quality& quality, double min_scaled_jacobian, int layers)
 {
     const auto worst = [&](double below) {
-        std::string text;
+        std::vector<NamedEntity> cells;
         for (const WorstCell& cell : quality.worst)
-            if (!(cell.scaled_jacobian >= below)) text += "\n  " + describe(cell, layers);
-        return text;
+            if (!(cell.scaled_jacobian >= below)) cells.push_back(entity("cell", cell.cell));
+        return cells;
     };
-    const std::string cells = " of " + std::to_string(quality.hexes + quality.wedges) + " cells ";
+    const std::size_t cells = quality.hexes + quality.wedges;
+    const WorstCell first = quality.worst.empty() ? WorstCell{} : quality.worst.front();
+    const std::string where = place_in_mesh(first, layers);
     if (quality.inverted > 0)
-        return Finding{Fault::inverted,
-                       std::to_string(quality.inverted) + cells +
-                           "are inverted. The worst:" + worst(std::numeric_limits<double>::denorm_min())};
+        return Finding(Fault::inverted,
+                       "{} of {} cells are inverted. The worst are {}, the first ({}) with scaled Jacobian "
+                       "{:.6g}",
+                       found(quality.inverted), cells, worst(std::numeric_limits<double>::denorm_min()),
+                       where, first.scaled_jacobian);
     if (quality.uncertified > 0)
-        return Finding{Fault::not_certified,
-                       std::to_string(quality.uncertified) + cells +
-                           "have a Jacobian that is positive at their corners but not everywhere. "
-                           "The worst cells of the mesh:" +
-                           worst(std::numeric_limits<double>::infinity())};
+        return Finding(Fault::not_certified,
+                       "{} of {} cells have a Jacobian that is positive at their corners but not everywhere. "
+                       "The worst cells of the mesh are {}, the first ({}) with scaled Jacobian {:.6g}",
+                       found(quality.uncertified), cells, worst(std::numeric_limits<double>::infinity()),
+                       where, first.scaled_jacobian);
     if (quality.min_scaled_jacobian < min_scaled_jacobian)
-        return Finding{Fault::below_limit, "the smallest scaled Jacobian is " +
-                                               number(quality.min_scaled_jacobian) + ", below the limit of " +
-                                               number(min_scaled_jacobian) +
-                                               ". The worst:" + worst(min_scaled_jacobian)};
+        return Finding(Fault::below_limit,
+                       "the smallest scaled Jacobian is {:.6g}, below the limit of {:.6g}. The worst are {}, "
+                       "the first ({})",
+                       found(quality.min_scaled_jacobian), needed(min_scaled_jacobian),
+                       worst(min_scaled_jacobian), where);
     return std::nullopt;
 }
 
@@ -256,7 +261,7 @@ bool can_be_improved(Fault fault)
 
 void require(const Proof& proof)
 {
-    if (proof.finding) throw NotSweepable(fault_code(proof.finding->fault), proof.finding->message);
+    if (proof.finding) throw NotSweepable(proof.finding->message);
 }
 
 Found check_arrays(const mesh::HexMesh& mesh, std::size_t nodes)

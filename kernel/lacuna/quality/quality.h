@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 
@@ -103,7 +104,14 @@ bool can_be_improved(Fault fault);
 /// A fault found in a mesh.
 struct Finding {
     Fault fault;
-    std::string message; ///< for a person: the nodes or cells, their layer and position, and what to try
+    Message message; ///< its nodes or cells, with layer and position; of the fault's code
+
+    /// @param text  as of `Message`
+    template <class... Arguments>
+    Finding(Fault of, Format<sizeof...(Arguments)> text, const Arguments&... arguments)
+        : fault(of), message(fault_code(of), text, arguments...)
+    {
+    }
 };
 
 /// Result of a proof.
@@ -117,7 +125,7 @@ struct Proof {
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
 /// Throw the finding of a proof, if there is one.
-/// @throw NotSweepable  with the fault's code and the finding's message.
+/// @throw NotSweepable  with the finding's message.
 void require(const Proof& proof);
 
 } // namespace lacuna::quality

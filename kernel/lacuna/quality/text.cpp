@@ -16,7 +16,7 @@ std::string pad_left(const std::string& text, std::size_t width)
 
 } // namespace
 
-std::string number(double value) { return with_digits(value, 6); }
+std::string number(double value) { return formatted("{:.6g}", value); }
 
 std::string fixed(double value, int digits, std::size_t width)
 {
@@ -25,15 +25,13 @@ std::string fixed(double value, int digits, std::size_t width)
 
 std::string place(const Vec3& point)
 {
-    return number(point.x()) + " " + number(point.y()) + " " + number(point.z());
+    return formatted("{:.6g} {:.6g} {:.6g}", point.x(), point.y(), point.z());
 }
 
-std::string describe(const WorstCell& cell, int layers)
+std::string place_in_mesh(const WorstCell& cell, int layers)
 {
-    std::string text = "cell " + std::to_string(cell.cell + 1) + " (";
-    if (cell.layer >= 0)
-        text += "layer " + std::to_string(cell.layer + 1) + " of " + std::to_string(layers) + ", ";
-    return text + "at " + place(cell.centre) + ") has scaled Jacobian " + number(cell.scaled_jacobian);
+    const std::string at = place(cell.centre);
+    return cell.layer < 0 ? "at " + at : formatted("layer {} of {}, at {}", cell.layer + 1, layers, at);
 }
 
 std::string to_table(const Quality& quality)

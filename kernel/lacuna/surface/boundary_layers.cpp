@@ -2,8 +2,6 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -18,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-std::string void_name(const Face& face) { return "void:" + std::to_string(face.tag); }
+std::string void_name(const Face& face) { return formatted("void:{}", face.tag); }
 
 bool is_tagged(const Face& face, int tag) { return face.origin == Origin::given && face.tag == tag; }
 
@@ -59,10 +57,11 @@ public:
             if (volume_.role[wall.index()] != Role::wall || reached.contains(wall) ||
                 std::ranges::all_of(walls, has_table))
                 continue;
-            throw NotSweepable("surface.layers_unreached",
-                               name_of(model_, wall) +
-                                   " has boundary layers but touches neither source nor target; add the "
-                                   "wall below or above it, or all walls: walls = \"walls\"");
+            throw NotSweepable(
+                Message("surface.layers_unreached",
+                        "{} has boundary layers but touches neither source nor target",
+                        entity_of(model_, wall))
+                    .remedy("add the wall below or above it, or all walls: walls = \"walls\""));
         }
         for (const FaceId face : volume_.faces(Role::source)) find_ends(face);
         return std::move(rows_);
@@ -100,11 +99,11 @@ private:
         const bool at_end = behind ? on.reversed : !on.reversed;
         const auto [found, fresh] = rows_.ends.try_emplace({on.edge, at_end}, end);
         if (fresh || found->second.table == end.table) return;
-        throw NotSweepable("surface.layers_meet",
-                           "boundary layers of " + name_of(model_, found->second.wall) + " and of " +
-                               name_of(model_, end.wall) + " differ and both end on " +
-                               name_of(model_, on.edge) + " at " + name_of(model_, end.corner) +
-                               "; give both walls the same table");
+        throw NotSweepable(Message("surface.layers_meet",
+                                   "boundary layers of {} and of {} differ and both end on {} at {}",
+                                   entity_of(model_, found->second.wall), entity_of(model_, end.wall),
+                                   entity_of(model_, on.edge), entity_of(model_, end.corner))
+                               .remedy("give both walls the same table"));
     }
 
     [[nodiscard]] Vec3 normal_at(FaceId face, Index point) const
@@ -130,25 +129,26 @@ constexpr int kMostRows = 1000; // heuristic: the cost of fitting rows to each o
 /// @throw InvalidInput "sweep.too_many"
 void check_room(const Model& model, const BoundaryLayer& layer)
 {
-    const auto refuse = [&](const std::string& why) {
-        throw NotSweepable("surface.layers_room", "sweep: option 'boundary_layers' asks for " +
-                                                      std::to_string(layer.count) + " rows from " +
-                                                      with_digits(layer.first, 3) + " with growth " +
-                                                      with_digits(layer.growth, 3) + "; " + why);
-    };
     if (layer.count > kMostRows) {
-        throw InvalidInput("sweep.too_many", "sweep: option 'boundary_layers' asks for " +
-                                                 std::to_string(layer.count) + " rows; " +
-                                                 std::to_string(kMostRows) + " at most");
+        throw InvalidInput("sweep.too_many", "sweep: option 'boundary_layers' asks for {} rows; {} at most",
+                           found(layer.count), needed(kMostRows));
     }
     const double height = row_heights(layer).back();
     if (!(height <= model.diagonal))
-        refuse("they are " + with_digits(height, 3) + " high, and the volume is " +
-               with_digits(model.diagonal, 3) + " across; use fewer or thinner rows");
+        throw NotSweepable(Message("surface.layers_room",
+                                   "sweep: option 'boundary_layers' asks for {} rows from {:.3g} with growth "
+                                   "{:.3g}; they are {:.3g} high, and the volume is {:.3g} across",
+                                   layer.count, layer.first, layer.growth, found(height),
+                                   needed(model.diagonal))
+                               .remedy("use fewer or thinner rows"));
     const double thinnest = std::min(layer.first, layer.first * std::pow(layer.growth, layer.count - 1));
     if (!(thinnest > model.tolerance))
-        refuse("the thinnest is " + with_digits(thinnest, 3) + ", within the model's tolerance of " +
-               with_digits(model.tolerance, 3) + "; use fewer or thicker rows");
+        throw NotSweepable(Message("surface.layers_room",
+                                   "sweep: option 'boundary_layers' asks for {} rows from {:.3g} with growth "
+                                   "{:.3g}; the thinnest is {:.3g}, within the model's tolerance of {:.3g}",
+                                   layer.count, layer.first, layer.growth, found(thinnest),
+                                   needed(model.tolerance))
+                               .remedy("use fewer or thicker rows"));
 }
 
 } // namespace
@@ -184,7 +184,7 @@ std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names
 {
     const std::vector<FaceId> all = all_faces(volume.model);
     std::set<FaceId> found;
-    const auto add = [&](const std::string& what, const auto& is_it) {
+    const auto add = [&](const Argument& what, const auto& is_it) {
         bool any = false;
         for (const FaceId face : all) {
             if (!is_it(face)) continue;
@@ -192,18 +192,16 @@ std::vector<FaceId> faces_named(const OpenVolume& volume, const FaceNames& names
             any = true;
         }
         if (any) return;
-        const std::string known = full_list(all, [&](FaceId id) {
-            const Face& face = volume.model[id];
-            return face.origin == Origin::made_void ? void_name(face) : name_of(volume.model, id);
-        });
-        throw InvalidInput("surface.no_such_face",
-                           "sweep: option '" + option + "' names " + what + ", and the volume has " + known);
+        throw InvalidInput(Message("surface.no_such_face",
+                                   "sweep: option '{}' names {}, which the volume does not have", option,
+                                   what)
+                               .remedy("volume:tree() lists its faces; void face 2 is \"void:2\""));
     };
     for (const int tag : names.tags) {
-        add("face " + std::to_string(tag), [&](FaceId f) { return is_tagged(volume.model[f], tag); });
+        add(NamedEntity{"face", tag}, [&](FaceId f) { return is_tagged(volume.model[f], tag); });
     }
     for (const std::string& name : names.names)
-        add("\"" + name + "\"", [&](FaceId f) { return is_named(volume, f, name); });
+        add(formatted("\"{}\"", name), [&](FaceId f) { return is_named(volume, f, name); });
     return {found.begin(), found.end()};
 }
 
@@ -213,8 +211,8 @@ LayerTables layer_tables(const OpenVolume& volume, std::span<const BoundaryLayer
     for (const BoundaryLayer& layer : layers) {
         for (const FaceId face : faces_named(volume, layer.walls, "boundary_layers")) {
             if (tables.of.try_emplace(face, static_cast<int>(tables.heights.size())).second) continue;
-            throw InvalidInput("surface.two_layers", "sweep: option 'boundary_layers' gives " +
-                                                         name_of(volume.model, face) + " two tables");
+            throw InvalidInput("surface.two_layers", "sweep: option 'boundary_layers' gives {} two tables",
+                               entity_of(volume.model, face));
         }
         check_room(volume.model, layer);
         tables.heights.push_back(row_heights(layer));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/default_size.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
@@ -50,8 +51,8 @@ DefaultSize default_size(const OpenVolume& volume)
             ++edges;
         }
     }
-    std::string why = std::string("the mean side of the ") + (given == edges ? "given mesh" : "facets") +
-                      " on the source's rims";
+    std::string why = formatted("the mean side of the {} on the source's rims",
+                                given == edges ? "given mesh" : "facets");
     if (finer == edges)
         why = "a twentieth of the diagonal of the source rims' box (their facets are finer)";
     else if (finer > 0)

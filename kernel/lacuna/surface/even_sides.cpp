@@ -80,15 +80,16 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
             }
         }
         if (longest == nullptr) continue;
-        const std::string found = "the rim of " + name_of(task.model, face) + " came with " +
-                                  std::to_string(sides_of(task.model, seeds, face)) + " sides, an odd number";
+        const std::string found = formatted("the rim of {} came with {} sides, an odd number",
+                                            entity_of(task.model, face), sides_of(task.model, seeds, face));
         if (task.wedges) {
             seeds.notes.push_back(found + ": one cell of the face is a triangle");
             triangles.insert(face);
             continue;
         }
-        seeds.notes.push_back(found + ", which quads cannot fill: a side on " + name_of(task.model, at) +
-                              " and the wall column above it are split in two; wedges = true keeps them");
+        seeds.notes.push_back(formatted("{}, which quads cannot fill: a side on {} and the wall column above "
+                                        "it are split in two; wedges = true keeps them",
+                                        found, entity_of(task.model, at)));
         longest->kept.push_back((longest->from + longest->to) / 2);
         longest->count = 2;
     }
@@ -101,22 +102,22 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
     for (const FaceId face : task.faces) {
         if (!is_free(grids, seeds, face) || !odd(task.model, seeds, face) || triangles.contains(face))
             continue;
-        std::string counts;
+        std::vector<NamedEntity> asked;
         for (const EdgeId edge : edges_of(task.model, face)) {
-            const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
-            if (std::ranges::none_of(pieces, [](const SeedPiece& p) { return p.asked; })) continue;
-            counts += (counts.empty() ? "" : ", ") + name_of(task.model, edge) + " " +
-                      std::to_string(seeds.count(edge));
+            const auto is_asked = [](const SeedPiece& piece) { return piece.asked; };
+            if (std::ranges::any_of(seeds.pieces.at(edge), is_asked))
+                asked.push_back(entity_of(task.model, edge));
         }
-        if (!counts.empty()) {
-            refuse_sides("the loops of " + name_of(task.model, face) +
-                         " have an odd total of sides, which quads cannot fill, and no edge can take "
-                         "another side; requested: " +
-                         counts + ". Change one of these counts by one");
-        }
-        throw NotSweepable("surface.odd_loop",
-                           "the loops of " + name_of(task.model, face) +
-                               " have an odd total of sides, and no edge of the face can take another side");
+        if (asked.empty())
+            throw NotSweepable("surface.odd_loop",
+                               "the loops of {} have an odd total of sides, and no edge of the face can take "
+                               "another side",
+                               entity_of(task.model, face));
+        throw NotSweepable(Message("surface.sides_asked",
+                                   "intervals: the loops of {} have an odd total of {} sides, which quads "
+                                   "cannot fill, and no edge can take another side",
+                                   entity_of(task.model, face), found(sides_of(task.model, seeds, face)))
+                               .remedy("change by one the sides of {}", asked));
     }
 }
 

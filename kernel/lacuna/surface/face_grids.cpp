@@ -2,13 +2,12 @@
 #include <lacuna/surface/detail/face_grids.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <string>
 
 namespace lacuna::surface {
 
@@ -56,10 +55,11 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
                                                    : grid_sides(task.model, face);
     if (task.style == QuadStyle::mapped && opposite.empty()) {
         throw NotSweepable(
-            "surface.not_four_sided",
-            name_of(task.model, face) +
-                " cannot be mapped: it needs one loop with four corners (inner angles below 135°), or "
-                "loops with right angles only; use quads = \"auto\"");
+            Message("surface.not_four_sided",
+                    "{} cannot be mapped: it needs one loop with four corners (inner angles below 135°), or "
+                    "loops with right angles only",
+                    entity_of(task.model, face))
+                .remedy("use quads = \"auto\""));
     }
     if (opposite.empty() || (task.style == QuadStyle::automatic &&
                              !(alike(task.model, opposite) && counts_alike(seeds, opposite))))
@@ -81,20 +81,17 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
     }
 }
 
-/// Words such as "5 (edge 1) and 7 (edge 3)" for sides whose counts differ.
-std::string unlike_counts(const Model& model, const Seeds& seeds, const std::vector<SidePair>& pairs)
+[[noreturn]] void refuse_counts(const Model& model, const Seeds& seeds, FaceId face,
+                                const std::vector<SidePair>& pairs)
 {
-    std::string words;
-    for (const SidePair& sides : pairs) {
-        if (total(seeds, sides[0]) == total(seeds, sides[1])) continue;
-        for (std::size_t k = 0; k < 2; ++k) {
-            words += words.empty() ? "" : " and ";
-            words += std::to_string(total(seeds, sides[k])) + " (" +
-                     full_list(sides[k], [&](EdgeId edge) { return name_of(model, edge); }) + ")";
-        }
-        break;
-    }
-    return words;
+    const auto& [a, b] = *std::ranges::max_element(pairs, {}, [&](const SidePair& sides) {
+        return std::abs(total(seeds, sides[0]) - total(seeds, sides[1]));
+    });
+    throw NotSweepable(Message("surface.kept_side",
+                               "{} cannot be mapped: opposite sides have fixed counts of {} ({}) and {} ({})",
+                               entity_of(model, face), found(total(seeds, a)), entities_of(model, a),
+                               found(total(seeds, b)), entities_of(model, b))
+                           .remedy("use quads = \"auto\", or give both sides the same count"));
 }
 
 } // namespace
@@ -135,14 +132,8 @@ void balance(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
                 raised = true;
             }
             changed = changed || raised;
-            if (stuck && task.style == QuadStyle::mapped) {
-                throw NotSweepable("surface.kept_side",
-                                   name_of(task.model, it->first) +
-                                       " cannot be mapped: opposite sides have fixed counts of " +
-                                       unlike_counts(task.model, seeds, it->second) +
-                                       "; use quads = \"auto\", or give both sides the same "
-                                       "count");
-            }
+            if (stuck && task.style == QuadStyle::mapped)
+                refuse_counts(task.model, seeds, it->first, it->second);
             if (stuck || (raised && round > most)) {
                 seeds.corners.erase(it->first);
                 seeds.submapped.erase(it->first);

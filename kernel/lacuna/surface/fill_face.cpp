@@ -68,13 +68,14 @@ private:
 /// most.
 constexpr double kSettled = 1e-3;
 
-std::string no_flat_words(const Model& model, FaceId face, const std::string& why)
+Message not_flat(const Model& model, FaceId face, const char* why)
 {
     const bool open = model[face].origin == Origin::made_void;
-    return name_of(model, face) + " cannot be flattened for paving: " + why +
-           (open ? "; add the missing face there, or choose source and target so that the sweep has another "
-                   "direction"
-                 : "; split it into simpler faces");
+    return Message("surface.not_flat", "{} cannot be flattened for paving: its facets {}",
+                   entity_of(model, face), why)
+        .remedy("{}", open ? "add the missing face there, or choose source and target so that the sweep has "
+                             "another direction"
+                           : "split it into simpler faces");
 }
 
 /// The facets of a face, flattened.
@@ -82,7 +83,8 @@ geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets&
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
 } catch (const InvalidInput& error) { // it knows facets but not the face
-    throw InvalidInput("surface.not_flat", no_flat_words(model, face, error.what()));
+    throw InvalidInput(
+        not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
 }
 
 /// A curved face and its flat image.
@@ -95,8 +97,7 @@ public:
             fine_ = fine_facets(model, face, size, {.rounds = 0});
             flat_ = laid_flat(model, face, fine_);
         }
-        if (flat_.folded)
-            throw NotSweepable("surface.not_flat", no_flat_words(model, face, "its facets fold"));
+        if (flat_.folded) throw NotSweepable(not_flat(model, face, "fold"));
         locator_ = geometry::PlanarLocator(flat_);
         measure_stretch();
     }

@@ -25,14 +25,13 @@ using namespace topology;
 
 namespace {
 
-[[noreturn]] void refuse_rows(const std::string& wall, int rows, const std::string& other, int other_rows)
+[[noreturn]] void refuse_rows(const NamedEntity& wall, int rows, const NamedEntity& other, int other_rows)
 {
-    throw NotSweepable("surface.wall_rows",
-                       wall + " came with " + std::to_string(rows) +
-                           " rows of quads between source and target, and " + other + " with " +
-                           std::to_string(other_rows) +
-                           "; all walls of a sweep need the same number of rows: remesh one, or load with "
-                           "keep_mesh = false");
+    throw NotSweepable(Message("surface.wall_rows",
+                               "{} came with {} rows of quads between source and target, and {} with {}",
+                               wall, found(rows), other, found(other_rows))
+                           .remedy("all walls of a sweep need the same number of rows: remesh one, or load "
+                                   "with keep_mesh = false"));
 }
 
 /// The quads of a linking surface's walls, traversed from rim to rim.
@@ -189,8 +188,12 @@ private:
         std::vector<Index>& there = ring[i].points;
         const std::size_t both = std::min(there.size(), points.size());
         if (!std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(both), there.begin())) {
-            refuse_not_rows(walls(), ": at the node at " + place_with_digits(model_.at(points.front()), 6) +
-                                         " two columns diverge");
+            std::set<FaceId> walls;
+            for (const WallQuad& quad : quads_) walls.insert(quad.wall);
+            throw NotSweepable("surface.wall_not_rows",
+                               "the quads that {} came with are not in rows: at the node at {} two columns "
+                               "diverge",
+                               entities_of(model_, walls), place_with_digits(model_.at(points.front()), 6));
         }
         if (points.size() > there.size()) there = points;
     }
@@ -205,17 +208,19 @@ private:
             const FaceId wall = strip.faces.front();
             const std::size_t first = rows_of.try_emplace(wall, rows).first->second;
             if (first == rows) continue;
-            refuse_not_rows(name_of(model_, wall),
-                            ": " + std::to_string(first) +
-                                " of them lead from the source's rim to the target's in one column, but " +
-                                std::to_string(rows) + " in the column that starts with the quad at " +
-                                place_of(quads_[strip.quads.front()]) +
-                                "; mesh the wall in rows, or load with keep_mesh = false");
+            throw NotSweepable(
+                Message("surface.wall_not_rows",
+                        "the quads that {} came with are not in rows: {} of them lead from the "
+                        "source's rim to the target's in one column, but {} in the column that "
+                        "starts with the quad at {}",
+                        entity_of(model_, wall), found(first), found(rows),
+                        place_of(quads_[strip.quads.front()]))
+                    .remedy("mesh the wall in rows, or load with keep_mesh = false"));
         }
         for (const auto& [wall, rows] : rows_of) {
             const auto& [first_wall, first_rows] = *rows_of.begin();
             if (rows == first_rows) continue;
-            refuse_rows(name_of(model_, first_wall), static_cast<int>(first_rows), name_of(model_, wall),
+            refuse_rows(entity_of(model_, first_wall), static_cast<int>(first_rows), entity_of(model_, wall),
                         static_cast<int>(rows));
         }
         rows_ = strips.empty() ? 0 : static_cast<int>(strips.front().faces.size());
@@ -241,22 +246,11 @@ private:
 
     [[noreturn]] void refuse_no_rows(const WallQuad& quad) const
     {
-        refuse_not_rows(name_of(model_, quad.wall),
-                        " from source to target: the first quad outside all rows is at " + place_of(quad) +
-                            "; mesh the wall in rows, or load with keep_mesh = false");
-    }
-
-    [[noreturn]] static void refuse_not_rows(const std::string& walls, const std::string& why)
-    {
-        throw NotSweepable("surface.wall_not_rows",
-                           "the quads that " + walls + " came with are not in rows" + why);
-    }
-
-    [[nodiscard]] std::string walls() const
-    {
-        std::set<FaceId> faces;
-        for (const WallQuad& quad : quads_) faces.insert(quad.wall);
-        return names_of(model_, faces);
+        throw NotSweepable(Message("surface.wall_not_rows",
+                                   "the quads that {} came with are not in rows from source to target: the "
+                                   "first quad outside all rows is at {}",
+                                   entity_of(model_, quad.wall), place_of(quad))
+                               .remedy("mesh the wall in rows, or load with keep_mesh = false"));
     }
 
     [[nodiscard]] std::string place_of(const WallQuad& quad) const
@@ -441,17 +435,17 @@ void check_stub(const Model& model, const StubColumn& column, std::size_t layers
 {
     const std::size_t rows = column.rows(), least = column.is_open ? rows + 1 : rows;
     if (column.is_open ? least <= layers : least == layers) return;
-    std::string text;
+    std::vector<NamedEntity> walls;
     for (const GivenStub* stub : {column.low, column.high}) {
-        if (stub == nullptr) continue;
-        text += (text.empty() ? "" : " and ") + name_of(model, stub->wall) + " with " +
-                std::to_string(stub->points.size() - 1);
+        if (stub != nullptr) walls.push_back(entity_of(model, stub->wall));
     }
-    throw NotSweepable("surface.stub_rows",
-                       "walls came with rows of quads that end between source and target, " + text +
-                           ", but there are " + std::to_string(layers) +
-                           " layers; use layers = " + std::to_string(least) +
-                           (column.is_open ? " or more" : "") + ", or load with keep_mesh = false");
+    throw NotSweepable(
+        Message("surface.stub_rows",
+                "walls came with {} rows of quads that end between source and target ({}), but "
+                "there are {} layers",
+                rows, walls, found(layers))
+            .remedy("use layers = {}{}, or load with keep_mesh = false", needed(least),
+                    column.is_open ? " or more" : ""));
 }
 
 } // namespace
@@ -466,20 +460,19 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
         if (own.rows == 0) continue;
         if (first == nullptr) first = &own;
         if (first->rows == own.rows) continue;
-        refuse_rows(name_of(volume.model, first_wall(*first)), first->rows,
-                    name_of(volume.model, first_wall(own)), own.rows);
+        refuse_rows(entity_of(volume.model, first_wall(*first)), first->rows,
+                    entity_of(volume.model, first_wall(own)), own.rows);
     }
     for (const GivenColumns& own : columns) {
         for (const GivenStub& stub : own.stubs) {
             if (first == nullptr || stub.faces.size() < static_cast<std::size_t>(first->rows)) continue;
             throw NotSweepable(
-                "surface.wall_rows",
-                name_of(volume.model, stub.faces.front()) + " came with " +
-                    std::to_string(stub.faces.size()) +
-                    " rows of quads that end before the opposite end, and " +
-                    name_of(volume.model, first_wall(*first)) + " with " + std::to_string(first->rows) +
-                    " from source to target, which leaves no row for the gap; remesh one of them, "
-                    "or load with keep_mesh = false");
+                Message("surface.wall_rows",
+                        "{} came with {} rows of quads that end before the opposite end, and {} with {} from "
+                        "source to target, which leaves no row for the gap",
+                        entity_of(volume.model, stub.faces.front()), found(stub.faces.size()),
+                        entity_of(volume.model, first_wall(*first)), found(first->rows))
+                    .remedy("remesh one of them, or load with keep_mesh = false"));
         }
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
@@ -492,9 +485,10 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
             if (own == rows && (layers == 0 || layers == rows)) {
                 add_column(volume.model, line, columns[b], rows);
             } else {
-                notes.push_back(name_of(volume.model, line.line.uses.front().edge) + " came with " +
-                                std::to_string(own) + " sides from source to target, but there are " +
-                                std::to_string(layers > 0 ? layers : rows) + " layers: only the ends stay");
+                notes.push_back(formatted("{} came with {} sides from source to target, but there are {} "
+                                          "layers: only the ends stay",
+                                          entity_of(volume.model, line.line.uses.front().edge), own,
+                                          layers > 0 ? layers : rows));
             }
         }
     }

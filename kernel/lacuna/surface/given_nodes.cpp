@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/given_nodes.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 #include <lacuna/topology/shared/give_mesh.h>
@@ -69,9 +70,9 @@ public:
             link_.segments.push_back(segment);
         }
         if (lost_ > 0) {
-            notes.push_back(std::to_string(lost_) + " given nodes of the target's rim, starting at " +
-                            name_of(model_, lost_edge_) +
-                            ", are not kept: the source's rim has a different number of nodes");
+            notes.push_back(formatted("{} given nodes of the target's rim, starting at {}, are not kept: the "
+                                      "source's rim has a different number of nodes",
+                                      lost_, entity_of(model_, lost_edge_)));
         }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/given_target.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
@@ -68,10 +69,10 @@ struct EndQuads {
 std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string& why, bool wedges)
 {
     EndQuads target;
-    std::string without;
+    FaceId without;
     for (const FaceId id : volume.faces(end)) {
         const Face& face = volume.model[id];
-        if (!face.keeps_nodes || !has_cells_to_keep(face, wedges)) without = name_of(volume.model, id);
+        if (!face.keeps_nodes || !has_cells_to_keep(face, wedges)) without = id;
         target.quads.insert(target.quads.end(), face.given_quads.begin(), face.given_quads.end());
         if (wedges && face.keeps_nodes) {
             for (const Triangle& t : loose_triangles(face)) target.quads.push_back({t[0], t[1], t[2], t[2]});
@@ -79,8 +80,8 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
         target.face.resize(target.quads.size(), id);
     }
     if (target.quads.empty()) return std::nullopt;
-    if (without.empty()) return target;
-    why = without + " has cells other than quads";
+    if (!without.valid()) return target;
+    why = formatted("{} has cells other than quads", entity_of(volume.model, without));
     return std::nullopt;
 }
 
@@ -150,7 +151,7 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
     if (!target) return std::nullopt;
     const std::vector<Quad>& quads = source.quads.quads;
     if (quads.size() != target->quads.size()) {
-        why = "the source has " + std::to_string(quads.size()) + " quads";
+        why = formatted("the source has {} quads", quads.size());
         return std::nullopt;
     }
     std::vector<Index> image(source.quads.nodes.size(), -1);

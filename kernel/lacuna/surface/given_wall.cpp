@@ -75,11 +75,11 @@ private:
 
     [[noreturn]] void refuse_stub(const GivenStub& stub) const
     {
-        const std::string rim = stub.from_target ? "target" : "source";
-        throw NotSweepable("surface.wall_rows",
-                           name_of(model_, stub.wall) + " came with quads on the " + rim +
-                               "'s rim, but the opposite rim has different nodes between the same corners; "
-                               "mesh both rims alike, or load one with keep_mesh = false");
+        throw NotSweepable(Message("surface.wall_rows",
+                                   "{} came with quads on the {}'s rim, but the opposite rim has different "
+                                   "nodes between the same corners",
+                                   entity_of(model_, stub.wall), stub.from_target ? "target" : "source")
+                               .remedy("mesh both rims alike, or load one with keep_mesh = false"));
     }
 
     void take_ways(const std::vector<GivenWay>& ways, bool from_target)

@@ -6,7 +6,6 @@
 #include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/closed_edges.h>
@@ -102,10 +101,12 @@ private:
             const double swept = std::abs(image.to - image.from) * edge_length(model, image.target);
             const double shrunk = swept / edge_length(model, edge);
             if (shrunk <= kMostShrunk) continue;
-            refuse_imprint(model, image.target,
-                           "there it would be " + with_digits(shrunk, 2) +
-                               " times smaller, because that end is deep inside its rim; choose other faces "
-                               "as source and target");
+            throw NotSweepable(
+                Message("surface.not_imprinted",
+                        "{} lies inside one end and cannot be imprinted on the other: there it "
+                        "would be {:.2g} times smaller, because that end is deep inside its rim",
+                        entity_of(model, image.target), found(shrunk))
+                    .remedy("choose other faces as source and target"));
         }
     }
 
@@ -114,10 +115,11 @@ private:
     {
         for (const FaceId face : result_.volume->faces(Role::source)) {
             if (model()[face].given_quads.empty()) continue;
-            refuse_imprint(
-                model(), inner_.front(),
-                name_of(model(), face) +
-                    " came with quads; load with keep_mesh = false, or choose one face as the target");
+            throw NotSweepable(Message("surface.not_imprinted",
+                                       "{} lies inside one end and cannot be imprinted on the other: {} came "
+                                       "with quads",
+                                       entity_of(model(), inner_.front()), entity_of(model(), face))
+                                   .remedy("load with keep_mesh = false, or choose one face as the target"));
         }
     }
 
@@ -461,9 +463,13 @@ private:
             made = geometry::triangulate(places, loops, options);
         } catch (const InvalidInput& error) {
             const Border& border = borders_[region.loops.front().front().chain];
-            refuse_imprint(model(), border.image ? border.image->target : inner_.front(),
-                           "the part it cuts off on " + name_of(base_.model, of) + " has no valid outline (" +
-                               error.what() + ")");
+            const EdgeId edge = border.image ? border.image->target : inner_.front();
+            throw NotSweepable(
+                Message("surface.not_imprinted",
+                        "{} lies inside one end and cannot be imprinted on the other: the part "
+                        "it cuts off on {} has no valid outline",
+                        entity_of(model(), edge), entity_of(base_.model, of))
+                    .attempt(error.message()));
         }
         for (std::size_t p = places.size(); p < made.points.size(); ++p)
             points.push_back(add_point(of, made.points[p]));
@@ -511,11 +517,11 @@ private:
 
 } // namespace
 
-void refuse_imprint(const Model& model, EdgeId edge, const std::string& why)
+void refuse_imprint(const Model& model, EdgeId edge, const char* why)
 {
     throw NotSweepable("surface.not_imprinted",
-                       name_of(model, edge) +
-                           " lies inside one end and cannot be imprinted on the other: " + why);
+                       "{} lies inside one end and cannot be imprinted on the other: {}",
+                       entity_of(model, edge), why);
 }
 
 std::vector<EdgeId> inner_edges(const OpenVolume& volume, Role role)

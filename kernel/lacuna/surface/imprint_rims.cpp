@@ -55,7 +55,12 @@ EdgeSplit split_at(Model& model, EdgeId edge, double fraction, EdgeId because)
     try {
         return split_edge(model, edge, fraction);
     } catch (const InvalidInput& error) {
-        refuse_imprint(model, because, error.what());
+        throw NotSweepable(
+            Message("surface.not_imprinted",
+                    "{} lies inside one end and cannot be imprinted on the other: {} cannot be "
+                    "split there",
+                    entity_of(model, because), entity_of(model, edge))
+                .attempt(error.message()));
     }
 }
 

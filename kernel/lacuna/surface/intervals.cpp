@@ -2,7 +2,6 @@
 #include <lacuna/surface/shared/intervals.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -13,11 +12,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& what)
-{
-    throw InvalidInput("surface.no_such_edge", "sweep: option 'intervals' " + what);
-}
 
 class IntervalFinder {
 public:
@@ -53,8 +47,10 @@ private:
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             if (model_.edges[e].tag == tag && !uses_[e].empty()) return EdgeId(e);
         }
-        refuse("names edge " + std::to_string(tag) +
-               ", which the volume does not have; volume:tree() lists its edges");
+        throw InvalidInput(Message("surface.no_such_edge",
+                                   "sweep: option 'intervals' names {}, which the volume does not have",
+                                   NamedEntity{"edge", tag})
+                               .remedy("volume:tree() lists its edges"));
     }
 
     void between(const Interval& interval)
@@ -66,7 +62,9 @@ private:
                 const bool up = is(line.line.source, 0) && is(line.line.target, 1);
                 const bool down = is(line.line.source, 1) && is(line.line.target, 0);
                 if (!up && !down) continue;
-                ask_layers(interval.count, up ? interval.bias : 1 / interval.bias, words(interval));
+                std::vector<NamedEntity> edges;
+                for (const EdgeUse& use : line.line.uses) edges.push_back(entity_of(model_, use.edge));
+                ask_layers(interval.count, up ? interval.bias : 1 / interval.bias, edges);
                 return;
             }
         }
@@ -80,23 +78,23 @@ private:
             reversed = !along;
         }
         if (found.size() == 1) return on_edge(found.front(), interval, reversed);
-        refuse("names the edge between vertices " + std::to_string(tag[0]) + " and " +
-               std::to_string(tag[1]) + ", but " +
-               (found.empty() ? "no edge joins them" : names_of(model_, found) + " do; name one by its tag") +
-               "; volume:tree() lists edges with their vertices");
-    }
-
-    [[nodiscard]] std::string words(const Interval& interval) const
-    {
-        if (interval.of == Interval::Of::vertices)
-            return "the edge between vertices " + std::to_string(interval.vertices[0]) + " and " +
-                   std::to_string(interval.vertices[1]);
-        return "edge " + std::to_string(interval.edge);
+        const NamedEntity a{"vertex", tag[0]}, b{"vertex", tag[1]};
+        if (found.empty())
+            throw InvalidInput(
+                Message("surface.no_such_edge",
+                        "sweep: option 'intervals' names the edge between {} and {}, but no edge joins them",
+                        a, b)
+                    .remedy("volume:tree() lists edges with their vertices"));
+        throw InvalidInput(Message("surface.no_such_edge",
+                                   "sweep: option 'intervals' names the edge between {} and {}, but {} do", a,
+                                   b, entities_of(model_, found))
+                               .remedy("name one by its tag"));
     }
 
     void on_edge(EdgeId edge, const Interval& interval, bool reversed)
     {
-        SidesAsked asked{{}, interval.count, reversed ? 1 / interval.bias : interval.bias, words(interval)};
+        SidesAsked asked{
+            {}, interval.count, reversed ? 1 / interval.bias : interval.bias, entity_of(model_, edge)};
         for (const FaceUse& use : uses_[edge.index()]) {
             if (volume_.role[use.face.index()] != Role::source) continue;
             asked.parts.push_back({edge, 0, 1, false});
@@ -109,17 +107,22 @@ private:
                 const auto use = std::ranges::find_if(uses, [&](const EdgeUse& u) { return u.edge == edge; });
                 if (use == uses.end()) continue;
                 if (uses.size() > 1)
-                    refuse("names " + name_of(model_, edge) +
-                           ", one of several edges between source and target there; give layer heights "
-                           "instead: layers = { … }");
+                    throw InvalidInput(
+                        Message("surface.no_such_edge",
+                                "sweep: option 'intervals' names {}, one of several edges between source and "
+                                "target there",
+                                entity_of(model_, edge))
+                            .remedy("give layer heights instead: layers = {{ … }}"));
                 ask_layers(interval.count, use->reversed ? 1 / asked.bias : asked.bias, asked.name);
                 return;
             }
         }
         if (!on_target(edge, asked)) {
-            refuse("names " + name_of(model_, edge) +
-                   ", which lies inside the target or a wall; name an edge of the source, of the target's "
-                   "rim, or one from source to target");
+            throw InvalidInput(
+                Message("surface.no_such_edge",
+                        "sweep: option 'intervals' names {}, which lies inside the target or a wall",
+                        entity_of(model_, edge))
+                    .remedy("name an edge of the source, of the target's rim, or one from source to target"));
         }
         demands_.sides.push_back(std::move(asked));
     }
@@ -168,12 +171,13 @@ private:
     {
         const std::vector<FaceId> named = faces_named(volume_, interval.walls, "intervals");
         const std::set<FaceId> walls(named.begin(), named.end());
-        SidesAsked asked{
-            {}, interval.count, 1, full_list(named, [&](FaceId wall) { return name_of(model_, wall); })};
+        SidesAsked asked{{}, interval.count, 1, entities_of(model_, named)};
         for (const FaceId wall : named) {
             if (volume_.role[wall.index()] != Role::wall)
-                refuse("names " + name_of(model_, wall) +
-                       ", which is not a wall; for source and target name their edges");
+                throw InvalidInput(Message("surface.no_such_edge",
+                                           "sweep: option 'intervals' names {}, which is not a wall",
+                                           entity_of(model_, wall))
+                                       .remedy("for source and target name their edges"));
         }
         for (const LinkingSurface& link : links_) {
             add_segments(link, asked, [&](const RimSegment& segment) {
@@ -183,20 +187,23 @@ private:
             });
         }
         if (asked.parts.empty())
-            refuse("names " + asked.name +
-                   ", which touches neither source nor target; name the wall below or above it");
+            throw InvalidInput(
+                Message("surface.no_such_edge",
+                        "sweep: option 'intervals' names {}, which touches neither source nor target",
+                        asked.name)
+                    .remedy("name the wall below or above it"));
         demands_.sides.push_back(std::move(asked));
     }
 
-    void ask_layers(int count, double bias, const std::string& name, bool of_sweep = false)
+    void ask_layers(int count, double bias, const Argument& name, bool of_sweep = false)
     {
-        if (demands_.layers && (demands_.layers->count != count || demands_.layers->bias != bias)) {
+        const auto& before = demands_.layers;
+        if (before && (before->count != count || before->bias != bias)) {
             throw NotSweepable("surface.sides_asked",
-                               "intervals: " + demands_.layers->name + " asks for " +
-                                   std::to_string(demands_.layers->count) + " layers and " + name + " for " +
-                                   std::to_string(count) +
-                                   (count == demands_.layers->count ? " with another bias" : "") +
-                                   "; all columns need the same layers");
+                               "intervals: {} asks for {} layers and {} for {}{}; all columns need the same "
+                               "layers",
+                               before->name, found(before->count), name, found(count),
+                               count == before->count ? " with another bias" : "");
         }
         demands_.layers = {count, bias, name, of_sweep};
     }

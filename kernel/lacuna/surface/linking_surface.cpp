@@ -64,8 +64,7 @@ RimOf rims_of(const OpenVolume& volume, Role role)
 }
 
 /// The only rim that a connected part of the walls touches.
-std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of,
-                     const std::string& end)
+std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of, const char* end)
 {
     std::set<std::size_t> touched;
     for (const FaceId face : part) {
@@ -75,11 +74,10 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
         }
     }
     if (touched.size() == 1) return *touched.begin();
-    const std::string found = touched.empty() ? " do not touch the "
-                                              : " touch " + std::to_string(touched.size()) + " loops of the ";
     throw NotSweepable("surface.belt_loops",
-                       "the walls " + names_of(model, part) + found + end +
-                           "; a sweep needs one ring of walls between one source loop and one target loop");
+                       "the walls {} touch {} loops of the {}; a sweep needs one ring of walls between one "
+                       "source loop and one target loop",
+                       entities_of(model, part), found(touched.size()), end);
 }
 
 /// Side lines must meet both rims in the same cyclic order: keep the first and all that follow in order.
@@ -254,11 +252,14 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
     for (const FaceId face : part) {
         if (model[face].loops.size() > 1) pierced.push_back(face);
     }
-    throw NotSweepable(
-        "surface.wall_pierced",
-        "the walls " + names_of(model, part) + " do not form a simple ring between source and target" +
-            (pierced.empty() ? std::string()
-                             : ": " + names_of(model, pierced) + " have openings for other walls"));
+    if (pierced.empty())
+        throw NotSweepable("surface.wall_pierced",
+                           "the walls {} do not form a simple ring between source and target",
+                           entities_of(model, part));
+    throw NotSweepable("surface.wall_pierced",
+                       "the walls do not form a simple ring between source and target: {} have openings for "
+                       "other walls",
+                       entities_of(model, pierced));
 }
 
 } // namespace
@@ -286,8 +287,8 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     const RimOf target = rims_of(volume, Role::target);
     if (source.rims.size() != target.rims.size()) {
         throw NotSweepable("surface.loop_counts",
-                           "the source has " + std::to_string(source.rims.size()) + " loops and the target " +
-                               std::to_string(target.rims.size()) + "; a sweep needs equal numbers");
+                           "the source has {} loops and the target {}; a sweep needs equal numbers",
+                           found(source.rims.size()), found(target.rims.size()));
     }
     const std::vector<matching::SideLine> lines = matching::side_lines(volume, context);
     std::vector<std::optional<LinkingSurface>> by_rim(source.rims.size());
@@ -297,10 +298,10 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
         check_ring(model, part);
         check_cancelled(context);
         if (by_rim[s]) {
-            throw NotSweepable(
-                "surface.belt_twice",
-                "the walls " + names_of(model, part) + " and " + names_of(model, by_rim[s]->walls) +
-                    " touch the same source loop but not each other; the walls of a loop must be connected");
+            throw NotSweepable("surface.belt_twice",
+                               "the walls ({}) and ({}) touch the same source loop but not each other; the "
+                               "walls of a loop must be connected",
+                               entities_of(model, part), entities_of(model, by_rim[s]->walls));
         }
         by_rim[s] = make_link(volume, std::move(part), source.rims[s], target.rims[t], lines, pairs, context);
         if (!is_idle_seam(volume, *by_rim[s], context)) continue;
@@ -309,9 +310,10 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {
         if (!by_rim[s]) {
-            throw NotSweepable("surface.no_belt", "source loop " + std::to_string(s + 1) + ", with " +
-                                                      name_of(model, source.rims[s].uses.front().edge) +
-                                                      ", has no walls; close the volume first");
+            throw NotSweepable(Message("surface.no_belt", "{}, with {}, has no walls",
+                                       NamedEntity{"source loop", static_cast<long long>(s) + 1},
+                                       entity_of(model, source.rims[s].uses.front().edge))
+                                   .remedy("close the volume first"));
         }
         result.push_back(std::move(*by_rim[s]));
     }

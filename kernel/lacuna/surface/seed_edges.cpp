@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/seed_edges.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -74,15 +73,14 @@ void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
     const Face& f = task.model[face];
     const std::size_t quads = f.given_quads.size(), triangles = f.triangles.size() - 2 * quads;
     if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
-    const std::string found = name_of(task.model, face) + " came with " + std::to_string(quads) +
-                              " quads and " + std::to_string(triangles) +
-                              " triangles, which cannot be swept to hexahedra";
-    if (task.style == QuadStyle::automatic) {
-        throw NotSweepable("surface.given_triangles",
-                           found + "; use wedges = true to keep them all, quads = \"paved\" to remesh "
-                                   "the face inside its rim, or load with keep_mesh = false");
-    }
-    seeds.notes.push_back(found + ": it is remeshed inside its rim");
+    const Message mixed("surface.given_triangles",
+                        "{} came with {} quads and {} triangles, which cannot be swept to hexahedra",
+                        entity_of(task.model, face), quads, found(triangles));
+    if (task.style == QuadStyle::automatic)
+        throw NotSweepable(Message(mixed).remedy("use wedges = true to keep them all, quads = \"paved\" to "
+                                                 "remesh the face inside its rim, or load with keep_mesh = "
+                                                 "false"));
+    seeds.notes.push_back(formatted("{}: it is remeshed inside its rim", mixed.text()));
 }
 
 /// Whether a face's given quads are kept.
@@ -91,13 +89,15 @@ bool keeps(const SeedTask& task, FaceId face, const std::set<FaceId>& kept)
     const Face& f = task.model[face];
     const bool whole = has_cells_to_keep(f, task.wedges);
     if (task.style == QuadStyle::kept && !whole) {
+        const std::size_t quads = f.given_quads.size();
         throw NotSweepable(
-            "surface.not_kept",
-            name_of(task.model, face) + " has " + std::to_string(f.given_quads.size()) +
-                " quads of its own and " +
-                std::to_string(f.triangles.size() - std::min(f.triangles.size(), 2 * f.given_quads.size())) +
-                " triangles; quads = \"keep\" needs quads only: use wedges = true to keep triangles too, "
-                "or quads = \"auto\" to remesh");
+            Message("surface.not_kept",
+                    "{} has {} quads of its own and {} triangles; quads = \"keep\" needs quads "
+                    "only",
+                    entity_of(task.model, face), quads,
+                    found(f.triangles.size() - std::min(f.triangles.size(), 2 * quads)))
+                .remedy("use wedges = true to keep triangles too, or quads = \"auto\" to "
+                        "remesh"));
     }
     return whole &&
            (task.style == QuadStyle::kept || task.style == QuadStyle::automatic || kept.contains(face));
@@ -120,10 +120,12 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
         }
         // A piece that is a single side already has no node inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
-            throw NotSweepable("surface.kept_rim", name_of(model, edge) + " of " + name_of(model, face) +
-                                                       ", which keeps its quads, has no node opposite a "
-                                                       "corner of the other end; mesh both ends "
-                                                       "alike, or load with keep_mesh = false");
+            throw NotSweepable(
+                Message("surface.kept_rim",
+                        "{} of {}, which keeps its quads, has no node opposite a corner of the "
+                        "other end",
+                        entity_of(model, edge), entity_of(model, face))
+                    .remedy("mesh both ends alike, or load with keep_mesh = false"));
         }
         piece.fixed = true;
         piece.wanted.clear();
@@ -169,10 +171,10 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     if (most < least * (1 + kSameSize)) piece.wanted.clear();
     if (sides > std::numeric_limits<Index>::max() / 8) {
 
-        throw NotSweepable("surface.too_many_sides", name_of(task.model, edge) + " would have " +
-                                                         with_digits(sides, 3) +
-                                                         " sides at this size, more than node numbers allow; "
-                                                         "give a larger size");
+        throw NotSweepable(Message("surface.too_many_sides",
+                                   "{} would have {:.3g} sides at this size, more than node numbers allow",
+                                   entity_of(task.model, edge), found(sides))
+                               .remedy("give a larger size"));
     }
     const auto bends = static_cast<int>(std::ceil(by_turn - kPartOfSide));
     piece.count = std::max({1, static_cast<int>(std::lround(sides)), bends});

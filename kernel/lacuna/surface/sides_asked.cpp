@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/sides_asked.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/surface/detail/seed_pieces.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
@@ -10,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 
 namespace lacuna::surface {
 
@@ -40,14 +38,15 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     const double low = piece.low.empty() ? piece.from : piece.low.back();
     const double high = piece.high.empty() ? piece.to : piece.high.front();
     if (own.size() < heights.size() || !(low < high)) {
+        const bool alone = (at_end ? piece.low : piece.high).empty();
         throw NotSweepable(
-            "surface.layers_room",
-            "the boundary layers of " + name_of(model, end.wall) + ", " + with_digits(heights.back(), 4) +
-                " high, end on " + name_of(model, edge) + " at " + name_of(model, end.corner) +
-                ", where there is room for only " + with_digits(room_on(model, piece, edge, at_end, end), 4) +
-                ((at_end ? piece.low : piece.high).empty() ? ""
-                                                           : " beside the rows that end at its other end") +
-                "; use fewer or thinner rows");
+            Message("surface.layers_room",
+                    "the boundary layers of {}, {:.4g} high, end on {} at {}, where there is room for only "
+                    "{:.4g}{}",
+                    entity_of(model, end.wall), needed(heights.back()), entity_of(model, edge),
+                    entity_of(model, end.corner), found(room_on(model, piece, edge, at_end, end)),
+                    alone ? "" : " beside the rows that end at its other end")
+                .remedy("use fewer or thinner rows"));
     }
     const double share = (high - low) / (piece.to - piece.from);
     const double sides_between = piece.wanted.empty() ? share * piece.count
@@ -84,31 +83,52 @@ std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& ask
     return node;
 }
 
-/// The source of a piece's number of sides, for messages.
-using Askers = std::map<const SeedPiece*, std::string>;
+/// The request that set a piece's number of sides.
+using Askers = std::map<const SeedPiece*, const SidesAsked*>;
 
-/// Merge a requested number of sides into a piece, or refuse a conflict.
+/// Merge the sides requested on a piece of an edge into it, or refuse a conflict.
 void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiece& own,
-            const std::string& who, const SidesAsked& asked)
+            const SidesAsked& asked, EdgeId edge)
 {
     const auto before = askers.find(&piece);
+    if (piece.fixed && before == askers.end()) {
+        if (piece.count == own.count) return;
+        throw NotSweepable("surface.sides_asked",
+                           "intervals: {} asks for {} sides on {} ({} of them on this part), but the given "
+                           "mesh there has {}",
+                           asked.name, asked.count, entity_of(model, edge), found(own.count),
+                           needed(piece.count));
+    }
     if (piece.fixed) {
-        const std::string other = before != askers.end() ? before->second : "the given mesh there";
+        const SidesAsked& other = *before->second;
         if (piece.count != own.count)
-            refuse_sides(who + " (" + std::to_string(own.count) + " of them on this part), but " + other +
-                         " has " + std::to_string(piece.count));
-        for (std::size_t i = 0; i < own.kept.size() && before != askers.end(); ++i) {
+            throw NotSweepable("surface.sides_asked",
+                               "intervals: {} asks for {} sides on {} ({} of them on this part), but {} asks "
+                               "for {} sides ({} on this part)",
+                               asked.name, asked.count, entity_of(model, edge), found(own.count), other.name,
+                               other.count, needed(piece.count));
+        for (std::size_t i = 0; i < own.kept.size(); ++i) {
             if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model.tolerance)
-                refuse_sides(who + ", and " + other + ", with different lengths");
+                throw NotSweepable(
+                    "surface.sides_asked",
+                    "intervals: {} asks for {} sides on {}, and {} asks for {}, with different "
+                    "lengths",
+                    asked.name, asked.count, entity_of(model, edge), other.name, other.count);
         }
         return;
     }
     if (const int rows = piece.rows(); rows > 0) {
         if (own.count <= rows)
-            refuse_sides(who + ", where boundary layers end with " + std::to_string(rows) + " sides: give " +
-                         std::to_string(rows + 1) + " or more");
+            throw NotSweepable("surface.sides_asked",
+                               "intervals: {} asks for {} sides on {}, where boundary layers end with {} "
+                               "sides: give {} or more",
+                               asked.name, found(asked.count), entity_of(model, edge), rows,
+                               needed(rows + 1));
         if (asked.bias != 1)
-            refuse_sides(who + " with a bias, but boundary layers that end there set the lengths");
+            throw NotSweepable("surface.sides_asked",
+                               "intervals: {} asks for {} sides on {} with a bias, but boundary layers that "
+                               "end there set the lengths",
+                               asked.name, asked.count, entity_of(model, edge));
         piece.count = own.count;
         const std::vector<double> at = piece.fractions();
         piece.kept.assign(at.begin() + 1, at.end());
@@ -116,13 +136,12 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
     } else {
         piece = own;
     }
-    askers[&piece] = who;
+    askers[&piece] = &asked;
 }
 
 /// Fix the nodes of a requested number of sides.
 void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAsked& asked)
 {
-    const std::string who = asked.name + " asks for " + std::to_string(asked.count) + " sides";
     struct Asked {
         SeedPiece* piece;
         const SidesAsked::Part* part;
@@ -139,7 +158,9 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
         for (const std::size_t i : within) pieces.push_back({&all[i], &part});
     }
     if (static_cast<std::size_t>(asked.count) < pieces.size()) {
-        refuse_sides(who + ", but corners of both ends require at least " + std::to_string(pieces.size()));
+        throw NotSweepable("surface.sides_asked",
+                           "intervals: {} asks for {} sides, but corners of both ends require at least {}",
+                           asked.name, found(asked.count), needed(pieces.size()));
     }
     std::vector<double> ends{0}; // running lengths
     for (const auto& [piece, part] : pieces) ends.push_back(ends.back() + piece->length);
@@ -159,7 +180,7 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
             own.kept.push_back(own.from + share * (own.to - own.from));
         }
         std::ranges::sort(own.kept);
-        settle(model, askers, *piece, own, who + " on " + name_of(model, part->edge), asked);
+        settle(model, askers, *piece, own, asked, part->edge);
     }
 }
 
@@ -175,11 +196,6 @@ void set_sides(Seeds& seeds, const Model& model, std::span<const SidesAsked> sid
 {
     Askers askers;
     for (const SidesAsked& asked : sides) set_sides(seeds, model, askers, asked);
-}
-
-void refuse_sides(const std::string& what)
-{
-    throw NotSweepable("surface.sides_asked", "intervals: " + what);
 }
 
 } // namespace lacuna::surface

@@ -57,9 +57,10 @@ public:
             const std::vector<Quad>& cells = result_.quads.quads;
             const auto triangles = static_cast<std::size_t>(std::count_if(
                 cells.begin() + static_cast<std::ptrdiff_t>(before), cells.end(), mesh::is_triangle));
-            result_.notes.push_back(name_of(model_, face) + ": " + how_ + ", " +
-                                    std::to_string(cells.size() - before - triangles) + " quads" +
-                                    (triangles > 0 ? ", " + std::to_string(triangles) + " triangles" : ""));
+            std::string line = formatted("{}: {}, {} quads", entity_of(model_, face), how_,
+                                         cells.size() - before - triangles);
+            if (triangles > 0) line += formatted(", {} triangles", triangles);
+            result_.notes.push_back(std::move(line));
         }
         put_triangles_last();
         raise();
@@ -256,39 +257,44 @@ private:
                                   const quads::RowsFinding& finding) const
     {
         using Why = quads::RowsFinding::Why;
-        const std::string asked = with_digits(finding.asked, 4), found = with_digits(finding.found, 4);
         const RimNode& node = rim[static_cast<std::size_t>(finding.node)];
-        std::string wall = "a wall";
+        FaceId of;
         for (const auto& [edge, parts] : seeds_.rows.parts) {
             for (const RimRows::Part& part : parts) {
-                if (part.table == finding.table && (edge == node.edge || wall == "a wall"))
-                    wall = name_of(model_, part.wall);
+                if (part.table == finding.table && (edge == node.edge || !of.valid())) of = part.wall;
             }
         }
-        const std::string who = "the boundary layers of " + wall + " along " + name_of(model_, node.edge) +
-                                " of " + name_of(model_, face);
-        const std::string where = " near " + place_with_digits(node.point, 4);
+        const Argument wall = of.valid() ? Argument(entity_of(model_, of)) : "a wall";
+        const NamedEntity along = entity_of(model_, node.edge), in = entity_of(model_, face);
+        const std::string place = place_with_digits(node.point, 4);
         switch (finding.why) {
         case Why::no_room:
-            throw NotSweepable("surface.layers_room", who + " are " + asked + " high in all, and " + found +
-                                                          where +
-                                                          " is the room to the opposite side, including its "
-                                                          "rows; use fewer or thinner rows");
+            throw NotSweepable(Message("surface.layers_room",
+                                       "the boundary layers of {} along {} of {} are {:.4g} high in all, and "
+                                       "{:.4g} near {} is the room to the opposite side, including its rows",
+                                       wall, along, in, needed(finding.asked), found(finding.found), place)
+                                   .remedy("use fewer or thinner rows"));
         case Why::sharp_bend:
-            throw NotSweepable("surface.layers_bend", who + " fold" + where + " at the height " + asked +
-                                                          "; there is room for " + found +
-                                                          " there; use fewer or thinner rows, or a "
-                                                          "smaller size");
+            throw NotSweepable(Message("surface.layers_bend",
+                                       "the boundary layers of {} along {} of {} fold near {} at the height "
+                                       "{:.4g}; there is room for {:.4g} there",
+                                       wall, along, in, place, needed(finding.asked), found(finding.found))
+                                   .remedy("use fewer or thinner rows, or a smaller size"));
         case Why::off_height:
-            throw NotSweepable("surface.layers_ends",
-                               who + " end" + where + " on nodes at height " + found + " instead of " +
-                                   asked + "; these are given nodes, or the edge is too short for the rows");
+            throw NotSweepable(
+                "surface.layers_ends",
+                "the boundary layers of {} along {} of {} end near {} on nodes at height "
+                "{:.4g} instead of {:.4g}; these are given nodes, or the edge is too short for "
+                "the rows",
+                wall, along, in, place, found(finding.found), needed(finding.asked));
         case Why::unlike:
             break;
         }
-        throw NotSweepable("surface.layers_meet",
-                           who + " continue into those of the next wall" + where +
-                               " without a corner, but the two differ; give both walls the same table");
+        throw NotSweepable(Message("surface.layers_meet",
+                                   "the boundary layers of {} along {} of {} continue into those of the next "
+                                   "wall near {} without a corner, but the two differ",
+                                   wall, along, in, place)
+                               .remedy("give both walls the same table"));
     }
 
     /// Free: filled by the planar mesher. Seams are interior edges of the face, and poles are ordinary
@@ -296,9 +302,8 @@ private:
     void fill(FaceId face)
     {
         if (!mesher_) {
-            throw NotSweepable("surface.no_mesher",
-                               name_of(model_, face) +
-                                   " is not four-sided, and no planar mesher is available");
+            throw NotSweepable("surface.no_mesher", "{} is not four-sided, and no planar mesher is available",
+                               entity_of(model_, face));
         }
         std::vector<Index> boundary;
         std::vector<RimNode> rim;

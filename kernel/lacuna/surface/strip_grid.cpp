@@ -48,12 +48,12 @@ private:
             for (const std::size_t a : below[b]) above[a] = std::max(above[a], above[b] + 1);
         }
         if (most >= layers) {
-            throw NotSweepable("surface.too_few_layers",
-                               name_of(model, net_.levels.front().edge) +
-                                   " runs around the walls between source and target, as do edges at " +
-                                   std::to_string(most) + " heights in all; each height needs a layer, " +
-                                   "so use layers = " + std::to_string(most + 1) + " or more (" +
-                                   std::to_string(layers) + " given)");
+            throw NotSweepable(
+                Message("surface.too_few_layers",
+                        "{} runs around the walls between source and target, as do edges at {} "
+                        "heights in all; each height needs a layer, and {} are given",
+                        entity_of(model, net_.levels.front().edge), most, found(layers))
+                    .remedy("use layers = {} or more", needed(most + 1)));
         }
         for (std::size_t r = 0; r < count; ++r) {
             int nearest = 1, lowest = 1;
@@ -180,9 +180,10 @@ private:
             for (std::size_t b = 0; b < a; ++b) {
                 const WallNet::Column &p = net_.columns[a], &q = net_.columns[b];
                 if (node[a] != node[b] || p.high < q.low || q.high < p.low) continue;
-                refuse_wall_edge(model, q.line ? p.edge : q.edge,
-                                 "and " + name_of(model, q.line ? q.edge : p.edge) +
-                                     " require the same column of nodes; use a smaller size");
+                throw NotSweepable(Message("surface.wall_edge", "{} and {} require the same column of nodes",
+                                           entity_of(model, q.line ? p.edge : q.edge),
+                                           entity_of(model, q.line ? q.edge : p.edge))
+                                       .remedy("use a smaller size"));
             }
         }
         return node;
@@ -209,8 +210,8 @@ private:
             const std::size_t from = layer_of(low), to = layer_of(high);
             if (from >= to) {
                 refuse_wall_edge(model, edge.upright->edge,
-                                 "runs up the walls past edges whose layers have another order; use "
-                                 "more layers");
+                                 "runs up the walls past edges whose layers have another order",
+                                 "use more layers");
             }
             for (std::size_t k = from; k <= to; ++k) {
                 double f = (heights[k] - heights[from]) / (heights[to] - heights[from]);
@@ -328,14 +329,14 @@ private:
 
     [[noreturn]] void refuse_overlap() const
     {
-        const std::string why = "makes layers overlap; use more layers";
-        if (!net_.levels.empty()) refuse_wall_edge(model, net_.levels.front().edge, why);
-        if (!net_.columns.empty()) refuse_wall_edge(model, net_.columns.front().edge, why);
+        for (const EdgeId edge : {net_.levels.empty() ? EdgeId() : net_.levels.front().edge,
+                                  net_.columns.empty() ? EdgeId() : net_.columns.front().edge}) {
+            if (edge.valid()) refuse_wall_edge(model, edge, "makes layers overlap", "use more layers");
+        }
         const auto given = std::ranges::find(begun.given.side, 1) - begun.given.side.begin();
-        throw NotSweepable("surface.wall_rows",
-                           "the mesh that " +
-                               name_of(model, begun.mesh.face[static_cast<std::size_t>(given)]) +
-                               " came with " + why);
+        throw NotSweepable(Message("surface.wall_rows", "the mesh that {} came with makes layers overlap",
+                                   entity_of(model, begun.mesh.face[static_cast<std::size_t>(given)]))
+                               .remedy("use more layers"));
     }
 
     /// Displacement of a node from its target position in the strip.

@@ -74,7 +74,8 @@ private:
 
     void add_long_edge(const LinkingMap::Upright& upright)
     {
-        if (upright.pieces.empty()) refuse_wall_edge(model_, upright.edge, "has no part between the rims");
+        if (upright.pieces.empty())
+            refuse_wall_edge(model_, upright.edge, "has no part between the rims", "merge the two faces");
         double up = 0;
         for (const LinkingMap::Piece& piece : upright.pieces) up += piece.b.y() - piece.a.y();
         for (const LinkingMap::Piece& piece : upright.pieces) {
@@ -94,7 +95,7 @@ private:
     [[noreturn]] void refuse_direction(EdgeId edge) const
     {
         refuse_wall_edge(model_, edge,
-                         "crosses the layers: a wall edge must run along the sweep or around it; "
+                         "crosses the layers: a wall edge must run along the sweep or around it",
                          "choose other faces as source and target, cut the volume where its section "
                          "changes, or merge the two faces");
     }
@@ -133,8 +134,8 @@ private:
             if (on_source_.contains(vertex) || on_target_.contains(vertex)) {
                 // There is a column, and the level runs into the rim.
                 refuse_wall_edge(model_, corner.valid() ? corner : level.edge,
-                                 "runs around the walls and ends on a rim, where no layer can follow it; let "
-                                 "it end above or below the rim, or merge the two faces");
+                                 "runs around the walls and ends on a rim, where no layer can follow it",
+                                 "let it end above or below the rim, or merge the two faces");
             }
             level.plain = false;
             level.stops.push_back(stop_at(vertex, place));
@@ -213,7 +214,8 @@ private:
                 if (++ends[end] < 3) continue;
                 refuse_wall_edge(model_, id,
                                  "branches off other edges around the walls, and a layer can follow only "
-                                 "one of them; merge two of the faces there");
+                                 "one of them",
+                                 "merge two of the faces there");
             }
         }
         for (const LinkingMap::Piece& piece : map_.rings()[*level.ring].pieces) {
@@ -245,10 +247,12 @@ private:
         for (const WallNet::LongEdge& edge : net_.long_edges) {
             for (const std::size_t end : {edge.low, edge.high}) {
                 if (!on_line_.contains(net_.stops[end].vertex)) continue;
-                refuse_wall_edge(model_, edge.upright->edge,
-                                 "starts or ends on a side line between corners of source and target, and a "
-                                 "column of nodes can follow only one of them; let it start on "
-                                 "the rim or on an edge around the walls, or merge the two faces");
+                refuse_wall_edge(
+                    model_, edge.upright->edge,
+                    "starts or ends on a side line, and a column of nodes can follow only one of "
+                    "them",
+                    "let it start on the rim or on an edge around the walls, or merge the two "
+                    "faces");
             }
             groups.unite(edge.high, edge.low);
         }
@@ -399,13 +403,13 @@ WallNet wall_net(const Model& model, const LinkingSurface& link, const LinkingMa
     return NetMaker(model, link, map).run();
 }
 
-void refuse_wall_edge(const Model& model, EdgeId edge, const std::string& why)
+void refuse_wall_edge(const Model& model, EdgeId edge, const char* why, const char* remedy)
 {
-    std::string text;
+    std::vector<NamedEntity> faces;
     const auto uses = edge_uses(model);
-    for (const FaceUse& use : uses[edge.index()])
-        text += (text.empty() ? " between " : " and ") + name_of(model, use.face);
-    throw NotSweepable("surface.wall_edge", name_of(model, edge) + text + " " + why);
+    for (const FaceUse& use : uses[edge.index()]) faces.push_back(entity_of(model, use.face));
+    throw NotSweepable(
+        Message("surface.wall_edge", "{} of {} {}", entity_of(model, edge), faces, why).remedy("{}", remedy));
 }
 
 } // namespace lacuna::surface

@@ -169,10 +169,11 @@ private:
             const WallNet::Stop& stop = net_.stops[i];
             const Vec3& at = model_.at(model_[stop.vertex].point);
             if ((mesh_.points[grid_.stops[i]] - at).norm() <= model_.tolerance) continue;
-            refuse_wall_edge(model_, net_.columns[stop.column].edge,
-                             "turns or ends at " + name_of(model_, stop.vertex) +
-                                 ", where the given nodes of walls or ends leave no column; load "
-                                 "with keep_mesh = false, or merge the two faces");
+            throw NotSweepable(
+                Message("surface.wall_edge",
+                        "{} turns or ends at {}, where the given nodes of walls or ends leave no column",
+                        entity_of(model_, net_.columns[stop.column].edge), entity_of(model_, stop.vertex))
+                    .remedy("load with keep_mesh = false, or merge the two faces beside it"));
         }
     }
 

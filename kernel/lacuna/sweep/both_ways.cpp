@@ -39,12 +39,7 @@ struct Outcome {
 
     [[nodiscard]] bool usable() const { return result && !result->proof.finding; }
     [[nodiscard]] bool good() const { return usable() && result->swept.min_scaled_jacobian >= kPoor; }
-    [[nodiscard]] Message why() const
-    {
-        if (refusal) return *refusal;
-        const quality::Finding& finding = *result->proof.finding;
-        return Message::of_text(quality::fault_code(finding.fault), finding.message);
-    }
+    [[nodiscard]] Message why() const { return refusal ? *refusal : result->proof.finding->message; }
 };
 
 Outcome outcome_of(const OpenVolume& volume, const SweepOptions& options, const OneWay& sweep_one_way,

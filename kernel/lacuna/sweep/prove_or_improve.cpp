@@ -58,23 +58,26 @@ EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
 }
 
 /// What keeps a cell without volume, and what to try.
-std::string in_words(const StuckCorner& stuck, const mesh::HexMesh& mesh, const Model& model)
+Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::HexMesh& mesh,
+                 const Model& model)
 {
     const auto at = [&](Index node) { return mesh.nodes[index(node)]; };
-    std::string where = formatted("at {} two sides of a cell", place_in_short(at(stuck.node)));
+    Argument corner = place_in_short(at(stuck.node)), sides = "two sides of a cell";
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
         if ((model.at(model.vertices[v].point) - at(stuck.node)).norm() > model.tolerance) continue;
         const EdgeId a = edge_towards(model, VertexId(v), at(stuck.to[0])),
                      b = edge_towards(model, VertexId(v), at(stuck.to[1]));
         if (!a.valid() || !b.valid() || a == b) continue;
-        where = formatted("at {} {} and {}", entity_of(model, VertexId(v)), entity_of(model, a),
-                          entity_of(model, b));
+        corner = entity_of(model, VertexId(v));
+        sides = std::vector{entity_of(model, a), entity_of(model, b)};
         break;
     }
-    return formatted(
-        "{} lie in one line, and the cell that has both at one corner has no volume wherever its "
-        "other nodes are; name other faces as source and target, or cut the volume there",
-        where);
+    return Message(
+               code,
+               "at {}, {} lie in one line, and the cell that has both at one corner has no volume wherever "
+               "its other nodes are",
+               corner, sides)
+        .remedy("name other faces as source and target, or cut the volume there");
 }
 
 std::string in_words(const Improved& improved)
@@ -111,13 +114,18 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     const Improved improved = improve(swept.mesh, improving, sliding, context);
     report_progress(context, "proof of every cell");
     if (improved.stuck) {
-        if (proof.finding) proof.finding->message = in_words(*improved.stuck, swept.mesh, model);
+        if (proof.finding) {
+            Message& message = proof.finding->message;
+            message = in_words(message.code(), *improved.stuck, swept.mesh, model);
+        }
         return proof;
     }
     if (improved.won || improved.unfinished) swept.report.push_back(in_words(improved));
     proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
-    if (proof.finding && quality::can_be_improved(proof.finding->fault))
-        proof.finding->message += "\n" + in_words(improved);
+    if (proof.finding && quality::can_be_improved(proof.finding->fault)) {
+        Message& message = proof.finding->message;
+        std::move(message).attempt({message.code(), "{}", in_words(improved)});
+    }
     return proof;
 }
 

@@ -57,7 +57,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     try { // What went wrong first says more than what goes wrong second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
         if (together.proof.finding) {
-            log_line(context, formatted("loops turned as one body: {}", together.proof.finding->message));
+            log_line(context, together.proof.finding->message.about("loops turned as one body").text());
         } else if (alone.proof.finding ||
                    together.swept.min_scaled_jacobian > alone.swept.min_scaled_jacobian) {
             together.swept.report.insert(

@@ -27,11 +27,16 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
 /// The first node that is not finite. @pre  there is one
 Index first_not_finite(std::span<const Vec3> nodes);
 
-/// "node 12 (level 2 of 9, at x y z)"; numbers for people start at 1. `nodes_per_layer` 0: no levels.
-std::string node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer);
-std::string node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels);
-/// Findings about nodes with the given names.
-Finding not_finite(const std::string& node);
-Finding coincident_nodes(const std::string& a, const std::string& b);
+/// A node of a mesh for a message; numbers for people start at 1.
+struct NodeName {
+    NamedEntity node;
+    std::string place; ///< "level 2 of 9, at x y z"
+};
+
+/// @param nodes_per_layer  0: no levels.
+NodeName node_name(std::span<const Vec3> nodes, Index node, Index nodes_per_layer);
+NodeName node_name(const Vec3& at, Index node, Index nodes_per_layer, std::size_t levels);
+Finding not_finite(const NodeName& node);
+Finding coincident_nodes(const NodeName& a, const NodeName& b);
 
 } // namespace lacuna::quality

@@ -18,7 +18,7 @@ std::string fixed(double value, int digits, std::size_t width = 0);
 /// "1.5 0 -2"
 std::string place(const Vec3& point);
 
-/// "cell 1234 (layer 3 of 8, at 1.5 0 -2) has scaled Jacobian -0.2"; numbers for people start at 1.
-std::string describe(const WorstCell& cell, int layers);
+/// "layer 3 of 8, at 1.5 0 -2"; numbers for people start at 1.
+std::string place_in_mesh(const WorstCell& cell, int layers);
 
 } // namespace lacuna::quality

@@ -3,8 +3,6 @@
 
 #include <lacuna/core/ids.h>
 
-#include <string>
-
 /// Rules common to all steps of an imprint. Internal to this folder.
 namespace lacuna::topology {
 struct Model;
@@ -16,6 +14,6 @@ namespace lacuna::surface {
 inline constexpr double kOneEdge = 0.4;
 
 /// @throw NotSweepable "surface.not_imprinted"  names the edge.
-[[noreturn]] void refuse_imprint(const topology::Model& model, EdgeId edge, const std::string& why);
+[[noreturn]] void refuse_imprint(const topology::Model& model, EdgeId edge, const char* why);
 
 } // namespace lacuna::surface

@@ -5,7 +5,6 @@
 #include <lacuna/topology/model.h>
 
 #include <span>
-#include <string>
 
 /// Rows and numbers of sides requested on edges. Internal to this folder.
 namespace lacuna::surface {
@@ -17,8 +16,5 @@ void end_rows(Seeds& seeds, const topology::Model& model, const RimRows& rows);
 /// Fix the nodes of requested numbers of sides.
 /// @throw NotSweepable "surface.sides_asked".
 void set_sides(Seeds& seeds, const topology::Model& model, std::span<const SidesAsked> sides);
-
-/// @throw NotSweepable "surface.sides_asked", always.
-[[noreturn]] void refuse_sides(const std::string& what);
 
 } // namespace lacuna::surface

@@ -4,7 +4,6 @@
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace lacuna::surface {
@@ -67,6 +66,7 @@ int most_levels(const std::vector<std::vector<std::size_t>>& below);
 WallNet wall_net(const topology::Model& model, const LinkingSurface& link, const LinkingMap& map);
 
 /// @throw NotSweepable "surface.wall_edge"  names the edge and the walls beside it.
-[[noreturn]] void refuse_wall_edge(const topology::Model& model, EdgeId edge, const std::string& why);
+[[noreturn]] void refuse_wall_edge(const topology::Model& model, EdgeId edge, const char* why,
+                                   const char* remedy);
 
 } // namespace lacuna::surface

@@ -7,7 +7,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace lacuna::surface {
@@ -17,8 +16,8 @@ struct IntervalDemands {
     std::vector<SidesAsked> sides; ///< on the source's edges
     struct Layers {
         int count = 1;
-        double bias = 1; ///< last over first, from the source [-]
-        std::string name;
+        double bias = 1;                ///< last over first, from the source [-]
+        Argument name;                  ///< origin, for messages
         bool from_named_source = false; ///< `bias` counts from the source as named by the user
     };
     std::optional<Layers> layers;

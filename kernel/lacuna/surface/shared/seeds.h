@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
@@ -70,9 +71,9 @@ struct SidesAsked {
         bool reversed = false;   ///< the walk over the parts runs against the edge
     };
     std::vector<Part> parts;
-    int count = 1;    ///< over all parts, at least one per part
-    double bias = 1;  ///< last over first side, > 0 [-]
-    std::string name; ///< origin, for messages
+    int count = 1;   ///< over all parts, at least one per part
+    double bias = 1; ///< last over first side, > 0 [-]
+    Argument name;   ///< origin, for messages
 };
 
 /// Requests on the source's edges and faces besides a size.
