@@ -267,7 +267,7 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
              {"CORD2R,4,4,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "by itself"},
              {"CORD2R,4,0,0.,0.,0.,0.,0.,1.,\n,0.,0.,2.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "in line"},
              {flat + "GRID,3,,5.,1.,0.\n" + face, "line 4"},
-             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: CTRIA3 7: names node 9"},
+             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: element 7 of type CTRIA3 names node 9"},
              {flat + "CTRIA3,7,1,1,2\n", "found none"},
              {flat + "GRID,=,,*(1)\n" + face, "line 4"},
              {"        1.0\n", "of no card"},
