@@ -280,6 +280,27 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
     }
 }
 
+TEST_CASE("errors of a reader hold entities and values as data")
+{
+    const std::string nodes = "GRID,1\nGRID,2,,1.\nGRID,3,,0.,1.\n";
+    const auto message = [](const char* name, const std::string& bytes) {
+        try {
+            io::read_facets(name, bytes);
+        } catch (const InvalidInput& error) {
+            return error.message();
+        }
+        return Message("test.read", "it was read");
+    };
+    const Message missing = message("x.bdf", nodes + "CTRIA3,7,1,1,2,9\n");
+    CHECK(missing.code() == "io.unreadable");
+    CHECK(missing.entities() == std::vector<NamedEntity>{{"element", 7}, {"node", 9}});
+    const Message corners = message("x.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n");
+    CHECK(corners.found() == std::vector<MessageValue>{2LL});
+    const Message kind = message("x.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET FIELD\n");
+    CHECK(kind.found() == std::vector<MessageValue>{std::string("'FIELD'")});
+    CHECK(kind.remedy() == "write it as one of them");
+}
+
 TEST_CASE("INCLUDE reads files beside the deck or below it, and no others")
 {
     const test::Folder folder;
