@@ -389,9 +389,9 @@ TEST_CASE("volumes that are not sealed, unknown endings and missing folders are 
         io::write_facets(open, folder.file("a.stl"));
         FAIL("not refused");
     } catch (const InvalidInput& error) {
-        const std::string what = error.what();
-        CHECK(what.find("4 edges are free") != std::string::npos);
-        CHECK(what.find("close()") != std::string::npos);
+        CHECK(error.message().found() == std::vector<MessageValue>{4LL});
+        CHECK(std::ranges::count(error.message().entities(), std::string("edge"), &NamedEntity::kind) == 4);
+        CHECK(error.message().remedy() == "close() it first");
     }
     const auto sealed = test::prism({.sides = 5}).open();
     CHECK(test::error_code([&] { io::write_facets(sealed, folder.file("a.ply")); }) == "io.unknown_ending");

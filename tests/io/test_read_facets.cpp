@@ -267,7 +267,7 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
              {"CORD2R,4,4,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "by itself"},
              {"CORD2R,4,0,0.,0.,0.,0.,0.,1.,\n,0.,0.,2.\nGRID,1,4\nGRID,2\nGRID,3\n" + face, "in line"},
              {flat + "GRID,3,,5.,1.,0.\n" + face, "line 4"},
-             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: CTRIA3 7: names node 9"},
+             {flat + "CTRIA3,7,1,1,2,9\n", "line 4: element 7 of type CTRIA3 names node 9"},
              {flat + "CTRIA3,7,1,1,2\n", "found none"},
              {flat + "GRID,=,,*(1)\n" + face, "line 4"},
              {"        1.0\n", "of no card"},
@@ -278,6 +278,27 @@ TEST_CASE("Nastran frames, defaults and continuations are understood")
         CAPTURE(deck);
         CHECK_MESSAGE(has(failure("x.bdf", deck), words), failure("x.bdf", deck));
     }
+}
+
+TEST_CASE("errors of a reader hold entities and values as data")
+{
+    const std::string nodes = "GRID,1\nGRID,2,,1.\nGRID,3,,0.,1.\n";
+    const auto message = [](const char* name, const std::string& bytes) {
+        try {
+            io::read_facets(name, bytes);
+        } catch (const InvalidInput& error) {
+            return error.message();
+        }
+        return Message("test.read", "it was read");
+    };
+    const Message missing = message("x.bdf", nodes + "CTRIA3,7,1,1,2,9\n");
+    CHECK(missing.code() == "io.unreadable");
+    CHECK(missing.entities() == std::vector<NamedEntity>{{"element", 7}, {"node", 9}});
+    const Message corners = message("x.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n");
+    CHECK(corners.found() == std::vector<MessageValue>{2LL});
+    const Message kind = message("x.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET FIELD\n");
+    CHECK(kind.found() == std::vector<MessageValue>{std::string("'FIELD'")});
+    CHECK(kind.remedy() == "write it as one of them");
 }
 
 TEST_CASE("INCLUDE reads files beside the deck or below it, and no others")

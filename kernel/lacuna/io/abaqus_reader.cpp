@@ -112,7 +112,12 @@ private:
         }
     }
 
-    [[noreturn]] void fail(const std::string& what) const { place_.fail(what); }
+    [[noreturn]] void fail(const Message& why) const { place_.fail(why); }
+    template <class... Arguments>
+    [[noreturn]] void fail(lacuna::Format<sizeof...(Arguments)> format, const Arguments&... arguments) const
+    {
+        place_.fail(format, arguments...);
+    }
 
     void keep(std::string_view raw)
     {
@@ -138,7 +143,8 @@ private:
         finish_element();
         mode_ = Mode::none;
         if (std::ranges::find(kGenerators, keyword.name) != std::end(kGenerators))
-            fail("*" + keyword.name + " is not read; write the deck with all nodes and elements");
+            fail(Message(kUnreadable, "*{} is not read", keyword.name)
+                     .remedy("write the deck with all nodes and elements"));
         if (keyword.name == "NODE")
             begin_nodes(keyword);
         else if (keyword.name == "ELEMENT")
@@ -174,13 +180,13 @@ private:
         mesh_begun_ = true;
         const bool end = keyword.name == "ENDPART";
         if (instance_part_ != nullptr) fail("*PART within *INSTANCE");
-        if (end != in_part_) fail(end ? "*END PART without *PART" : "*PART within *PART");
+        if (end != in_part_) fail("{}", end ? "*END PART without *PART" : "*PART within *PART");
         in_part_ = !end;
         scope_ = parts_.front().get();
         if (end) return;
         const std::string name = keyword.value("NAME");
         if (name.empty()) fail("*PART: expected NAME=");
-        if (find_part(name) != nullptr) fail("*PART: a second part " + shown(name));
+        if (find_part(name) != nullptr) fail("*PART: a second part {}", shown(name));
         parts_.push_back(std::make_unique<Scope>());
         scope_ = parts_.back().get();
         scope_->name = name;
@@ -205,31 +211,33 @@ private:
         const std::string part = keyword.value("PART");
         instance_part_ = find_part(part);
         if (instance_name_.empty() || instance_part_ == nullptr)
-            fail("*INSTANCE: expected NAME= and the PART= of a part above, found " + shown(part));
+            fail("*INSTANCE: expected NAME= and the PART= of a part above, found {}", found(shown(part)));
         rows_.clear();
         mode_ = Mode::instance;
     }
 
     void begin_nodes(const Keyword& keyword)
     {
-        if (instance_part_ != nullptr) fail("*NODE within *INSTANCE is not read; put it into a part");
+        if (instance_part_ != nullptr)
+            fail(Message(kUnreadable, "*NODE within *INSTANCE is not read").remedy("put it into a part"));
         mesh_begun_ = true;
         mode_ = Mode::node;
         const std::string system = upper(keyword.value("SYSTEM"));
         if (!system.empty() && system != "R" && system != "C")
-            fail("*NODE: SYSTEM=" + system + " is not read; R and C are");
+            fail(Message(kUnreadable, "*NODE: SYSTEM={} is not read", system).remedy("give R or C"));
         cylindrical_ = system == "C";
         set_ = open_set(DeckSet::Kind::nodes, keyword.value("NSET"));
     }
 
     void begin_elements(const Keyword& keyword, const std::string& raw)
     {
-        if (instance_part_ != nullptr) fail("*ELEMENT within *INSTANCE is not read; put it into a part");
+        if (instance_part_ != nullptr)
+            fail(Message(kUnreadable, "*ELEMENT within *INSTANCE is not read").remedy("put it into a part"));
         mesh_begun_ = true;
         type_ = upper(keyword.value("TYPE"));
         const auto fits = [](unsigned char c) { return std::isalnum(c) != 0; };
         if (type_.empty() || !std::ranges::all_of(type_, fits))
-            fail("*ELEMENT: expected TYPE= and a word of letters and digits, found " + shown(type_));
+            fail("*ELEMENT: expected TYPE= and a word of letters and digits, found {}", found(shown(type_)));
         const std::string set = keyword.value("ELSET");
         set_ = open_set(DeckSet::Kind::elements, set);
         if (!shape_of(type_, shape_)) {
@@ -250,7 +258,7 @@ private:
     {
         const auto kind = keyword.name == "NSET" ? DeckSet::Kind::nodes : DeckSet::Kind::elements;
         const std::string name = keyword.value(keyword.name);
-        if (name.empty()) fail("*" + keyword.name + ": expected " + keyword.name + "=");
+        if (name.empty()) fail("*{}: expected {}=", keyword.name, keyword.name);
         mesh_begun_ = true;
         mode_ = Mode::set;
         generate_ = keyword.find("GENERATE") != nullptr;
@@ -258,7 +266,7 @@ private:
         of_instance_ = -1;
         if (!instance.empty()) {
             of_instance_ = find_instance(instance);
-            if (of_instance_ < 0) fail("*" + keyword.name + ": no instance " + shown(instance));
+            if (of_instance_ < 0) fail("*{}: no instance {}", keyword.name, shown(instance));
         }
         set_ = open_set(kind, name);
         if (const std::string* elements = keyword.find("ELSET");
@@ -323,19 +331,20 @@ private:
         const std::size_t dot = word.rfind('.');
         if (dot != std::string_view::npos && find_set(*scope_, kind, word) == nullptr) {
             instance = find_instance(word.substr(0, dot));
-            if (instance < 0) fail("no instance " + shown(word.substr(0, dot)));
+            if (instance < 0) fail("no instance {}", shown(word.substr(0, dot)));
             word.remove_prefix(dot + 1);
         }
         const DeckTag offset = instance < 0 ? 0 : into_.deck().instances[index(instance)].offset;
         if (const auto number = parse_integer<Index>(word)) {
-            if (*number < 0) fail("expected a number of a node or element, found " + shown(word));
+            if (*number < 0) fail("expected a number of a node or element, found {}", found(shown(word)));
             members.push_back(*number + offset);
             return;
         }
         Scope* scope = scope_;
         if (instance >= 0) scope = find_part(into_.deck().instances[index(instance)].part);
         const DeckSet* found = find_set(*scope, kind, word);
-        if (found == nullptr) fail("expected a number or the name of a set above, found " + shown(word));
+        if (found == nullptr)
+            fail("expected a number or the name of a set above, found {}", lacuna::found(shown(word)));
         const std::vector<DeckTag> copy = found->members; // it may be the set that is read
         spend(copy.size());
         for (const DeckTag tag : copy) members.push_back(tag + offset);
@@ -365,7 +374,7 @@ private:
     Index whole(std::string_view word) const
     {
         const auto value = parse_integer<Index>(word);
-        if (!value || *value < 0) fail("expected a whole number, found " + shown(word));
+        if (!value || *value < 0) fail("expected a whole number, found {}", found(shown(word)));
         return *value;
     }
 
@@ -373,7 +382,7 @@ private:
     {
         if (word.empty()) return 0;
         const auto value = parse_real(word, Exponents::fortran);
-        if (!value) fail("expected a finite number, found " + shown(word));
+        if (!value) fail("expected a finite number, found {}", found(shown(word)));
         return *value;
     }
 
@@ -429,8 +438,9 @@ private:
         // Nodes too many do not tell whether the next line goes on: it must be an element like this.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
-            fail("expected " + std::to_string(wanted - 1) + " nodes of " + type_ +
-                 ", or in every line as many more as in the first; found another count");
+            fail(
+                "expected {} nodes of {}, or in every line as many more as in the first; found another count",
+                needed(wanted - 1), type_);
         if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
     }
@@ -441,8 +451,7 @@ private:
         if (given_ == 0) return;
         const auto nodes = static_cast<std::size_t>(shape_info(shape_).nodes);
         if (given_ != nodes + 1)
-            element_place_.fail("expected " + std::to_string(nodes) + " nodes of " + type_ + ", found " +
-                                std::to_string(given_ - 1));
+            element_place_.fail("expected {} nodes of {}, found {}", needed(nodes), type_, found(given_ - 1));
         given_ = 0;
         scope_->builder.add_element(block_, element_[0], region_, {element_.data() + 1, nodes},
                                     element_place_.number());
@@ -475,8 +484,8 @@ private:
         const std::string_view word = next_field(line);
         const Index step = word.empty() ? 1 : whole(word);
         if (step < 1 || last < first)
-            fail("expected a range as 'first, last, step' that rises, found " + std::to_string(first) + ", " +
-                 std::to_string(last) + ", " + std::to_string(step));
+            fail("expected a range as 'first, last, step' that rises, found {}, {}, {}", found(first), last,
+                 step);
         const DeckTag offset = of_instance_ < 0 ? 0 : into_.deck().instances[index(of_instance_)].offset;
         spend(index(last - first) / index(step));
         for (std::int64_t tag = first; tag <= last; tag += step) set().members.push_back(tag + offset);
@@ -493,7 +502,7 @@ private:
         else if (side.size() == 2 && side[0] == 'S' && side[1] >= '1' && side[1] <= '6')
             number = side[1] - '0';
         else if (side != "SPOS")
-            fail("expected a side S1 to S6, SPOS or SNEG, found " + shown(side));
+            fail("expected a side S1 to S6, SPOS or SNEG, found {}", found(shown(side)));
         for (const DeckTag element : elements) set().sides.push_back({element, number});
     }
 
@@ -515,11 +524,11 @@ private:
         Deck& deck = scope.builder.deck();
         for (DeckSet& set : deck.sets) tidy(set);
         const TagPlaces nodes(deck.point_tags, [&](Index, Index second) {
-            main_.fail((scope.name.empty() ? "" : "part " + scope.name + ": ") + "a second node " +
-                       std::to_string(deck.point_tags[index(second)]));
+            main_.fail("{}a second {}", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
+                       numbered("node", deck.point_tags[index(second)]));
         });
         scope.builder.resolve(
-            nodes, [&](std::uint64_t place, const std::string& what) { files_.place_of(place).fail(what); });
+            nodes, [&](std::uint64_t place, const Message& why) { files_.place_of(place).fail(why); });
         if (scope.sections.empty()) return;
         const std::vector<DeckTag> tags = element_tags(deck);
         std::vector<Index*> regions;
@@ -585,7 +594,7 @@ private:
         deck.instances.push_back({name, scope.name, deck.points.size(), part.points.size(), offset});
         for (std::size_t p = 0; p < part.points.size(); ++p) {
             deck.points.push_back(moved ? Vec3(to * part.points[p]) : part.points[p]);
-            if (!deck.points.back().allFinite()) main_.fail("instance " + name + ": a node is too far away");
+            if (!deck.points.back().allFinite()) main_.fail("instance {}: a node is too far away", name);
             deck.point_tags.push_back(part.point_tags[p] + offset);
         }
         const auto first_region = static_cast<Index>(deck.regions.size());

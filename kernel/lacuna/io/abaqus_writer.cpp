@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/message.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_writer.h>
@@ -75,9 +76,9 @@ public:
             cards = cards_of(deck_);
         } else if (deck_.format == DeckFormat::abaqus && !deck_.texts.empty()) {
             file_.notes.push_back(
-                "the " + std::to_string(deck_.instances.size()) +
-                " instances become one mesh, sets are named instance_set, and cards are not "
-                "carried over: they name nodes by their instances");
+                formatted("the {} instances become one mesh, sets are named instance_set, and cards are not "
+                          "carried over: they name nodes by their instances",
+                          deck_.instances.size()));
         }
         add_nodes();
         choose_sets();
@@ -150,7 +151,8 @@ private:
                     return share_names(DeckFormat::abaqus, kind, of.first) && same_word(of.second, other);
                 });
             });
-            if (free != abaqus_name(name)) file_.notes.push_back("the set " + name + " is called " + free);
+            if (free != abaqus_name(name))
+                file_.notes.push_back(formatted("the set {} is called {}", name, free));
             taken.emplace_back(kind, free);
             return free;
         };

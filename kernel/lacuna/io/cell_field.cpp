@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/marks.h>
 #include <lacuna/io/detail/node_reader.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <set>
@@ -38,9 +39,8 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
     for (const Segment& segment : mesh.rim) {
         const auto at = std::lower_bound(sides.begin(), sides.end(), Side{segment, 0}, before);
         if (at == sides.end() || at->ends != segment)
-            throw InvalidInput("io.rim", "the side of the rim from node " + std::to_string(segment[0] + 1) +
-                                             " to " + std::to_string(segment[1] + 1) +
-                                             " belongs to no quad of the source");
+            throw InvalidInput("io.rim", "the side of the rim from {} to {} belongs to no quad of the source",
+                               numbered("node", segment[0] + 1), numbered("node", segment[1] + 1));
         quads.push_back(at->quad);
     }
     return quads;
@@ -55,9 +55,9 @@ void check_field_name(const std::string& name, std::set<std::string>& names)
     });
     if (name.empty() || !plain)
         throw InvalidInput("io.field_name",
-                           "the cell field '" + name + "' must have a name without blanks, quotes, < and &");
+                           "the cell field '{}' must have a name without blanks, quotes, < and &", name);
     if (name == "entity" || !names.insert(name).second)
-        throw InvalidInput("io.field_name", "two cell fields are named '" + name + "'");
+        throw InvalidInput("io.field_name", "two cell fields are named '{}'", name);
 }
 
 void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields)
@@ -65,9 +65,8 @@ void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& field
     std::set<std::string> names;
     for (const CellField& field : fields) {
         if (!field.make && field.values.size() != mesh.cell_count())
-            throw InvalidInput("io.field_size", "the cell field '" + field.name + "' has " +
-                                                    std::to_string(field.values.size()) + " values for " +
-                                                    std::to_string(mesh.cell_count()) + " cells");
+            throw InvalidInput("io.field_size", "the cell field '{}' has {} values for {} cells", field.name,
+                               found(field.values.size()), needed(mesh.cell_count()));
         check_field_name(field.name, names);
     }
 }

@@ -95,13 +95,13 @@ Cursor::Cursor(std::string path, std::string_view data) : path_(std::move(path))
     if (data_.starts_with("\xef\xbb\xbf")) at_ = 3; // the mark some editors put before UTF-8
 }
 
-void Cursor::fail_at(std::size_t position, const std::string& what) const
+void Cursor::fail_at(std::size_t position, const Message& why) const
 {
     const auto read = data_.substr(0, std::min(position, data_.size()));
-    const std::string place = has_bytes || coding != Coding::text
-                                  ? "byte " + std::to_string(position)
-                                  : "line " + std::to_string(1 + std::count(read.begin(), read.end(), '\n'));
-    throw InvalidInput("io.unreadable", "cannot read " + path_ + ", " + place + ": " + what);
+    const NamedEntity place = has_bytes || coding != Coding::text
+                                  ? numbered("byte", position)
+                                  : numbered("line", 1 + std::count(read.begin(), read.end(), '\n'));
+    throw InvalidInput(why.about(formatted("cannot read {}, {}", path_, place)));
 }
 
 Cursor Cursor::part(std::string_view part) const
@@ -135,7 +135,7 @@ std::string_view Cursor::word(const char* expected)
     more();
     last_ = at_;
     while (at_ < data_.size() && !separates(data_[at_])) ++at_;
-    if (last_ == at_) fail(std::string("the file ends where ") + expected + " was expected");
+    if (last_ == at_) fail("the file ends where {} was expected", expected);
     return data_.substr(last_, at_ - last_);
 }
 
@@ -168,8 +168,7 @@ void Cursor::expect(std::string_view wanted)
 
 void Cursor::expect_last(std::string_view wanted) const
 {
-    if (!same_word(last_word(), wanted))
-        fail("expected " + std::string(wanted) + ", found " + shown(last_word()));
+    if (!same_word(last_word(), wanted)) fail("expected {}, found {}", wanted, found(shown(last_word())));
 }
 
 bool Cursor::skip_past(std::string_view text)
@@ -183,14 +182,14 @@ bool Cursor::skip_past(std::string_view text)
 std::int64_t Cursor::integer_of(std::string_view word) const
 {
     const auto value = parse_integer<std::int64_t>(word);
-    if (!value) fail("expected a whole number, found " + shown(word));
+    if (!value) fail("expected a whole number, found {}", found(shown(word)));
     return *value;
 }
 
 double Cursor::real_of(std::string_view word, Exponents exponents) const
 {
     const auto value = parse_real(word, exponents);
-    if (!value) fail("expected a finite number, found " + shown(word));
+    if (!value) fail("expected a finite number, found {}", found(shown(word)));
     return *value;
 }
 
@@ -199,7 +198,7 @@ int Cursor::integer()
     if (coding != Coding::text) return raw<int>();
     const std::int64_t value = text_integer();
     if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
-        fail("the number " + std::to_string(value) + " is too large");
+        fail("the number {} is too large", value);
     return static_cast<int>(value);
 }
 
@@ -207,7 +206,7 @@ std::uint64_t Cursor::size()
 {
     if (coding != Coding::text) return raw<std::uint64_t>();
     const std::int64_t value = text_integer();
-    if (value < 0) fail("expected a count or a tag, found " + std::to_string(value));
+    if (value < 0) fail("expected a count or a tag, found {}", found(value));
     return static_cast<std::uint64_t>(value);
 }
 
@@ -215,7 +214,7 @@ double Cursor::real()
 {
     if (coding == Coding::text) return text_real();
     const double value = raw<double>();
-    if (!std::isfinite(value)) fail("expected a finite number, found " + std::to_string(value));
+    if (!std::isfinite(value)) fail("expected a finite number, found {}", found(value));
     return value;
 }
 
@@ -231,8 +230,7 @@ std::string_view Cursor::bytes(std::uint64_t count)
 {
     last_ = at_;
     if (count > data_.size() - at_)
-        fail("the file is cut off: expected " + std::to_string(count) + " bytes, found " +
-             std::to_string(data_.size() - at_));
+        fail("the file is cut off: expected {} bytes, found {}", needed(count), found(data_.size() - at_));
     at_ += count;
     return data_.substr(last_, count);
 }
@@ -241,8 +239,7 @@ std::uint64_t Cursor::plausible(std::uint64_t count, std::uint64_t bytes, std::u
 {
     const std::uint64_t least = coding != Coding::text ? bytes : 2 * values; // a digit and a blank
     if (count > (data_.size() - at_ + 1) / std::max<std::uint64_t>(least, 1))
-        fail("the file is cut off: it announces " + std::to_string(count) +
-             " entries and has no room for them");
+        fail("the file is cut off: it announces {} entries and has no room for them", count);
     return count;
 }
 

@@ -100,18 +100,19 @@ void check_content(const std::string& name, const FormatRow& format, std::string
 {
     if (format.read == read_stl && is_binary_stl(bytes)) return;
     if (const std::string_view unread = unread_by_content(bytes); !unread.empty())
-        throw InvalidInput("io.unreadable", "cannot read " + name + ", line 1: expected " +
-                                                std::string(format.name) + ", found " + std::string(unread) +
-                                                ", which is not read; export it as .vtu, .unv or .msh");
-    const std::string_view found = ending_by_content(bytes);
-    if (found.empty() || found == format.ending) return;
-    const Format* const other = find_format("file" + std::string(found));
+        throw InvalidInput(Message("io.unreadable",
+                                   "cannot read {}, line 1: expected {}, found {}, which is not read", name,
+                                   format.name, found(unread))
+                               .remedy("export it as .vtu, .unv or .msh"));
+    const std::string_view ending = ending_by_content(bytes);
+    if (ending.empty() || ending == format.ending) return;
+    const Format* const other = find_format("file" + std::string(ending));
     if (other != nullptr && row_of(*other).read == format.read) return; // several endings mean the same
-    throw InvalidInput("io.unreadable",
-                       "cannot read " + name + ", line 1: expected " + std::string(format.name) + ", found " +
-                           (other != nullptr ? std::string(other->name)
-                                             : "what a " + std::string(found) + " file begins with") +
-                           "; give it the ending of what it holds, " + std::string(found));
+    throw InvalidInput(Message("io.unreadable", "cannot read {}, line 1: expected {}, found {}", name,
+                               format.name,
+                               found(other != nullptr ? std::string(other->name)
+                                                      : formatted("what a {} file begins with", ending)))
+                           .remedy("give it the ending of what it holds, {}", ending));
 }
 
 } // namespace
@@ -184,11 +185,12 @@ Deck read_deck(const std::string& path, const RunContext& context)
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
         if (ending_of(path) == cad) {
             check_file(path);
-            throw InvalidInput("io.no_mesh", path + " is CAD, which has no mesh; `lacuna info` lists faces");
+            throw InvalidInput(Message("io.no_mesh", "{} is CAD, which has no mesh", path)
+                                   .remedy("`lacuna info` lists faces"));
         }
     needed_reader(path, {});
     Deck deck = read_deck(path, read_file(path));
-    for (const std::string& warning : deck.warnings) log_line(context, "note: " + warning);
+    for (const std::string& warning : deck.warnings) log_line(context, formatted("note: {}", warning));
     return deck;
 }
 

@@ -128,11 +128,10 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
 {
     const std::vector<Vec3>& points = deck_.points;
     if (corners.size() < 3)
-        cursor.fail("expected a face of three corners or more, found " + std::to_string(corners.size()));
+        cursor.fail("expected a face of three corners or more, found {}", found(corners.size()));
     for (const Index p : corners)
         if (p < 0 || index(p) >= points.size())
-            cursor.fail("expected a point of " + std::to_string(points.size()) + ", found number " +
-                        std::to_string(std::int64_t(p) + 1));
+            cursor.fail("expected a point of {}, found number {}", points.size(), found(std::int64_t(p) + 1));
     if (corners.size() == 4) return add_element(block_of(DeckShape::quad4, ""), tag, region, corners);
     const std::size_t triangles = block_of(DeckShape::tri3, "");
     const auto add_triangle = [&](Index a, Index b, Index c) {
@@ -157,7 +156,7 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
         for (const Triangle& t : cut.triangles)
             add_triangle(corners[index(t[0])], corners[index(t[1])], corners[index(t[2])]);
     } catch (const InvalidInput&) {
-        cursor.fail("the polygon of " + std::to_string(corners.size()) + " corners crosses itself");
+        cursor.fail("the polygon of {} corners crosses itself", corners.size());
     }
 }
 
@@ -188,8 +187,8 @@ void DeckBuilder::check_points(const std::string& path) const
     constexpr double kFarthest = 1e100; // a volume of such lengths is still a number
     for (std::size_t p = 0; p < deck_.points.size(); ++p) {
         if (deck_.points[p].cwiseAbs().maxCoeff() <= kFarthest) continue;
-        throw InvalidInput("io.unreadable", "cannot read " + path + ": point " + std::to_string(p + 1) +
-                                                " has a coordinate beyond 1e100");
+        throw InvalidInput("io.unreadable", "cannot read {}: {} has a coordinate beyond 1e100", path,
+                           numbered("point", p + 1));
     }
 }
 
@@ -198,10 +197,11 @@ Deck DeckBuilder::take(const std::string& path)
     check_points(path);
     deck_.path = path;
     const std::string passed = counted();
-    if (!passed.empty()) deck_.notes.push_back(path + ": passed over " + passed);
+    if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
     for (const auto& [type, count] : further_nodes_)
-        warn("elements " + type + " list more nodes than they have; those beyond are left out, up to " +
-             std::to_string(count) + " an element");
+        warn(formatted(
+            "elements {} list more nodes than they have; those beyond are left out, up to {} an element",
+            type, count));
     for (std::string& warning : deck_.warnings) warning.insert(0, path + ": ");
     for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
         deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);

@@ -96,12 +96,12 @@ public:
         name_labels();
         file_.notes = deck_.notes;
         if (shared_by_many_ > 0)
-            file_.notes.push_back(deck_.path + ": " + std::to_string(shared_by_many_) +
-                                  " sides are shared by more than two solids, which lie in each other or are "
-                                  "listed twice");
+            file_.notes.push_back(formatted("{}: {} sides are shared by more than two solids, which lie in "
+                                            "each other or are listed twice",
+                                            deck_.path, shared_by_many_));
         if (singles_ > 0)
-            file_.notes.push_back(deck_.path + ": " + std::to_string(singles_) +
-                                  " properties or sets of one shell each are taken as one");
+            file_.notes.push_back(formatted("{}: {} properties or sets of one shell each are taken as one",
+                                            deck_.path, singles_));
         return std::move(file_);
     }
 
@@ -114,11 +114,10 @@ private:
 
     [[noreturn]] void refuse() const
     {
-        throw InvalidInput("io.no_faces",
-                           deck_.path +
-                               " holds no faces that can be read; check that it is what its ending "
-                               "says, and holds triangles, quads or solids" +
-                               (deck_.notes.empty() ? "" : ". " + deck_.notes.front()));
+        throw InvalidInput(
+            Message("io.no_faces", "{} holds no faces that can be read", deck_.path)
+                .remedy("check that it is what its ending says, and holds triangles, quads or solids{}",
+                        deck_.notes.empty() ? "" : formatted(". {}", deck_.notes.front())));
     }
 
     void list_sets()

@@ -28,19 +28,20 @@ Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place, int 
     if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos)
         place.fail("INCLUDE: expected the name of a file");
     if (depth >= kDeepest || files_.size() >= kMostFiles)
-        place.fail("INCLUDE: too many files within files; does one include itself?");
+        place.fail(
+            Message(kUnreadable, "INCLUDE: too many files within files").remedy("does one include itself?"));
     // Links are followed before comparing.
     std::error_code error;
     const fs::path base = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
     const fs::path wanted = error ? fs::path() : fs::weakly_canonical(base / name, error);
     const auto [end, more] = std::mismatch(base.begin(), base.end(), wanted.begin(), wanted.end());
     if (error || end != base.end())
-        place.fail("INCLUDE: " + shown(name) +
-                   " is not in the deck's folder; put it there and name it without its folder");
+        place.fail(Message(kUnreadable, "INCLUDE: {} is not in the deck's folder", shown(name))
+                       .remedy("put it there and name it without its folder"));
     try {
         files_.push_back(std::make_shared<File>(wanted.string()));
     } catch (const InvalidInput& trouble) {
-        place.fail(std::string("INCLUDE: ") + trouble.what());
+        place.fail(Message(kUnreadable, "INCLUDE: {}", trouble.what()).attempt(trouble.message()));
     }
     return files_.back()->cursor;
 }

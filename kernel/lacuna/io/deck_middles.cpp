@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/mesh_deck.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,11 +12,6 @@
 
 namespace lacuna::io {
 namespace {
-
-std::string patch_name(const mesh::SkinPatch& patch)
-{
-    return patch.groups.empty() ? "face " + std::to_string(patch.face) : patch.groups.front();
-}
 
 /// Corners of an element, and the node in their middle.
 template <std::size_t N>
@@ -157,24 +153,37 @@ void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
         const bool together = full && found[q] >= 0 &&
                               (mesh.node(middle) - deck.points[index(found[q])] * scale).norm() <= tolerance;
         if (!together) {
-            std::string corners;
+            const NamedEntity face = entity_of(mesh.patches[index(skin_quad(mesh, of[q]).patch)]);
+            std::vector<NamedEntity> corners;
             for (const Index point : quads[q])
-                corners += (corners.empty() ? "" : ", ") + std::to_string(deck.point_tags[index(point)]);
+                corners.push_back(numbered("node", deck.point_tags[index(point)]));
+            if (found[q] < 0)
+                throw InvalidInput(
+                    Message("io.mixed_order",
+                            "{}: the quad of {} has no node in its middle in the deck, and the mesh has",
+                            face, corners)
+                        .remedy("sweep with serendipity = true"));
+            if (!full)
+                throw InvalidInput(
+                    Message("io.mixed_order",
+                            "{}: the quad of {} has a node in its middle in the deck, and the mesh has none",
+                            face, corners)
+                        .remedy("sweep with order = 2, without serendipity"));
             throw InvalidInput(
                 "io.mixed_order",
-                patch_name(mesh.patches[index(skin_quad(mesh, of[q]).patch)]) + ": the quad of nodes " +
-                    corners +
-                    (found[q] < 0 ? " has no node in its middle in the deck, and the mesh has; sweep with "
-                                    "serendipity = true"
-                     : !full      ? " has a node in its middle in the deck, and the mesh has none; sweep "
-                                    "with order = 2, without serendipity"
-                                  : " has the node in its middle elsewhere in the deck than in the mesh"));
+                "{}: the quad of {} has the node in its middle elsewhere in the deck than in the mesh", face,
+                corners);
         }
         points[middle] = found[q];
     }
 }
 
 } // namespace
+
+NamedEntity entity_of(const mesh::SkinPatch& patch)
+{
+    return {"face", patch.face, patch.groups.empty() ? std::string() : patch.groups.front()};
+}
 
 void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points)
@@ -196,30 +205,35 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
     }
     const std::vector<Index> found = find_middles<2>(deck, pairs);
     points.resize(mesh.node_count(), -1);
-    const auto refuse = [&](std::size_t s, const std::string& why) {
-        const mesh::SkinPatch& patch = mesh.patches[index(skin_quad(mesh, sides[s].quad).patch)];
-        throw InvalidInput("io.mixed_order",
-                           patch_name(patch) + ": the side between nodes " +
-                               std::to_string(deck.point_tags[index(pairs[s][0])]) + " and " +
-                               std::to_string(deck.point_tags[index(pairs[s][1])]) + " " + why);
+    const auto face_at = [&](std::size_t s) {
+        return entity_of(mesh.patches[index(skin_quad(mesh, sides[s].quad).patch)]);
     };
+    const auto node = [&](Index point) { return numbered("node", deck.point_tags[index(point)]); };
     for (std::size_t s = 0; s < found.size(); ++s) {
         if (mesh.order() == 1) {
             if (found[s] >= 0)
-                refuse(s, "has a middle node in the deck, and the mesh is of order 1: the two would not "
-                          "conform. Sweep with order = 2, serendipity = true");
+                throw InvalidInput(Message("io.mixed_order",
+                                           "{}: the side between {} and {} has a middle node in the deck, "
+                                           "and the mesh is of order 1: the two would not conform",
+                                           face_at(s), node(pairs[s][0]), node(pairs[s][1]))
+                                       .remedy("sweep with order = 2, serendipity = true"));
             continue;
         }
         if (found[s] < 0) {
             if (matched[sides[s].quad])
-                refuse(s, "has no middle node in the deck, and the mesh is of order 2: the two would not "
-                          "conform. Sweep with order = 1, or give the deck elements of order 2");
+                throw InvalidInput(Message("io.mixed_order",
+                                           "{}: the side between {} and {} has no middle node in the deck, "
+                                           "and the mesh is of order 2: the two would not conform",
+                                           face_at(s), node(pairs[s][0]), node(pairs[s][1]))
+                                       .remedy("sweep with order = 1, or give the deck elements of order 2"));
             continue;
         }
         const Vec3 there = deck.points[index(found[s])] * scale;
         if (!((mesh.node(sides[s].middle) - there).norm() <= tolerance))
-            refuse(s, "has its middle node " + std::to_string(deck.point_tags[index(found[s])]) +
-                          " elsewhere in the deck than in the mesh");
+            throw InvalidInput(
+                "io.mixed_order",
+                "{}: the side between {} and {} has its middle {} elsewhere in the deck than in the mesh",
+                face_at(s), node(pairs[s][0]), node(pairs[s][1]), node(found[s]));
         points[sides[s].middle] = found[s];
     }
     join_centres(deck, mesh, matched, tolerance, scale, points);

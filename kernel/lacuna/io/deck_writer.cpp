@@ -301,17 +301,16 @@ void check_numbers(const Deck& deck, DeckTag most, const std::string& format, co
     const auto is_high = [&](DeckTag tag) { return tag > most; };
     const auto has_high = [&](const DeckBlock& block) { return std::ranges::any_of(block.tags, is_high); };
     if (std::ranges::any_of(deck.point_tags, is_high) || std::ranges::any_of(deck.blocks, has_high))
-        throw InvalidInput("io.number_taken", deck.path + " has numbers above " + std::to_string(most) +
-                                                  ", more than " + format + " holds; " + remedy);
+        throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, more than {} holds",
+                                   deck.path, needed(most), format)
+                               .remedy("{}", remedy));
 }
 
 void refuse_element(std::size_t count, std::string_view type, DeckShape shape, std::string_view format,
                     std::string_view why)
 {
-    throw InvalidInput("io.no_such_element",
-                       std::to_string(count) + " elements " + std::string(type) + (type.empty() ? "" : " ") +
-                           "of " + std::to_string(shape_info(shape).nodes) + " nodes cannot be written as " +
-                           std::string(format) + ": " + std::string(why));
+    throw InvalidInput("io.no_such_element", "{} elements {}{}of {} nodes cannot be written as {}: {}", count,
+                       type, type.empty() ? "" : " ", shape_info(shape).nodes, format, why);
 }
 
 LayeredBulk::LayeredBulk(const Deck& deck, std::vector<BulkPart> own)

@@ -30,8 +30,9 @@ public:
     {
         cursor_.has_bytes = true;
         if (cursor_.rest().starts_with("\x89HDF"))
-            cursor_.fail("this is netCDF-4, which is HDF5; expected the classic format: "
-                         "nccopy -k 64-bit-offset in.exo out.exo writes it");
+            cursor_.fail(
+                Message(kUnreadable, "this is netCDF-4, which is HDF5, and the classic format is expected")
+                    .remedy("nccopy -k 64-bit-offset in.exo out.exo writes it"));
         const std::string_view magic = cursor_.bytes(4);
         const char version = magic[3];
         if (!magic.starts_with("CDF") || (version != 1 && version != 2 && version != 5))
@@ -60,7 +61,7 @@ public:
     [[nodiscard]] std::string_view bytes(const NcArray& array, const std::string& name,
                                          std::size_t values) const
     {
-        if (array.records) cursor_.fail("expected " + name + " once, found it for each time step");
+        if (array.records) cursor_.fail("expected {} once, found it for each time step", name);
         std::size_t all = 1;
         const std::string_view file = whole_.rest();
         for (const std::size_t length : array.lengths) {
@@ -68,12 +69,12 @@ public:
             if (length == 0) all = 0;
             all = all > file.size() ? file.size() + 1 : all * length;
         }
-        if (array.type == nullptr) cursor_.fail("expected numbers or text as " + name);
+        if (array.type == nullptr) cursor_.fail("expected numbers or text as {}", name);
         if (all != values)
-            cursor_.fail("expected " + std::to_string(values) + " values of " + name + ", found " +
-                         (all > file.size() ? "more than the file holds" : std::to_string(all)));
+            cursor_.fail("expected {} values of {}, found {}", needed(values), name,
+                         found(all > file.size() ? "more than the file holds" : std::to_string(all)));
         if (array.begin > file.size() || values > (file.size() - array.begin) / array.type->bytes)
-            cursor_.fail("the file is cut off: expected " + std::to_string(values) + " values of " + name);
+            cursor_.fail("the file is cut off: expected {} values of {}", needed(values), name);
         taken_ += values * array.type->bytes;
         if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays lie in each other");
         return file.substr(array.begin, values * array.type->bytes);
@@ -83,7 +84,7 @@ public:
                                                    std::size_t values) const
     {
         const std::string_view raw = bytes(array, name, values);
-        if (array.type->wholes == nullptr) cursor_.fail("expected whole numbers as " + name);
+        if (array.type->wholes == nullptr) cursor_.fail("expected whole numbers as {}", name);
         std::vector<std::int64_t> all(values);
         array.type->wholes(raw.data(), true, values, all.data());
         return all;
@@ -110,8 +111,7 @@ private:
         const int found = cursor_.integer();
         const std::uint64_t length = count();
         if (found != tag && (found != 0 || length != 0))
-            cursor_.fail("expected a list of kind " + std::to_string(tag) + ", found " +
-                         std::to_string(found));
+            cursor_.fail("expected a list of kind {}, found {}", needed(tag), lacuna::found(found));
         return cursor_.plausible(length, 8, 1);
     }
 
@@ -134,7 +134,7 @@ private:
             const std::string of = name();
             const VtkType* type = type_of(cursor_.integer());
             const std::uint64_t length = count();
-            if (type == nullptr) cursor_.fail("expected a type of numbers in the attribute " + shown(of));
+            if (type == nullptr) cursor_.fail("expected a type of numbers in the attribute {}", shown(of));
             const std::uint64_t size = cursor_.plausible(length, type->bytes, 1) * type->bytes;
             const std::string_view text = cursor_.bytes(size);
             cursor_.bytes((4 - size % 4) % 4);
@@ -152,8 +152,8 @@ private:
             for (std::uint64_t d = 0; d < rank; ++d) {
                 const std::uint64_t dimension = count();
                 if (dimension >= dimensions_.size())
-                    cursor_.fail("expected a dimension of " + std::to_string(dimensions_.size()) + " for " +
-                                 shown(of) + ", found number " + std::to_string(dimension));
+                    cursor_.fail("expected a dimension of {} for {}, found number {}", dimensions_.size(),
+                                 shown(of), found(dimension));
                 array.lengths.push_back(dimensions_[dimension]);
                 array.records = array.records || (d == 0 && array.lengths.back() == 0);
             }
@@ -192,7 +192,7 @@ public:
         read_points();
         read_blocks();
         const TagPlaces places(numbers_, [&](Index, Index at) {
-            cursor_.fail("element " + std::to_string(numbers_[index(at)]) + " has the number of one before");
+            cursor_.fail("{} has the number of one before", numbered("element", numbers_[index(at)]));
         });
         read_sets("ns", "node_ns", "num_nod_ns", DeckSet::Kind::nodes);
         read_sets("els", "elem_els", "num_ele_els", DeckSet::Kind::elements);
@@ -203,7 +203,7 @@ private:
     const NcArray& needed(const std::string& name) const
     {
         const NcArray* array = head_.find(name);
-        if (array == nullptr) cursor_.fail("expected the array " + name + ", found none");
+        if (array == nullptr) cursor_.fail("expected the array {}, found none", name);
         return *array;
     }
 
@@ -214,7 +214,7 @@ private:
             if (const NcArray* array = head_.find(name)) {
                 std::vector<DeckTag> all = head_.wholes(*array, name, count);
                 for (const DeckTag tag : all)
-                    if (tag < 0) cursor_.fail(std::string(name) + " has the number " + std::to_string(tag));
+                    if (tag < 0) cursor_.fail("{} has the number {}", name, tag);
                 return all;
             }
         std::vector<DeckTag> all(count);
@@ -226,7 +226,7 @@ private:
     {
         const std::size_t count = head_.dimension("num_nodes");
         const std::size_t axes = head_.dimension("num_dim");
-        if (axes < 2 || axes > 3) cursor_.fail("expected 2 or 3 as num_dim, found " + std::to_string(axes));
+        if (axes < 2 || axes > 3) cursor_.fail("expected 2 or 3 as num_dim, found {}", found(axes));
         if (!is_index(count)) cursor_.fail("too many nodes");
         const NcArray* together = head_.find("coord");
         std::string_view all;
@@ -243,13 +243,13 @@ private:
             }
             for (std::size_t p = 0; p < count; ++p) {
                 const double value = array.type->real(raw.data() + p * array.type->bytes, true);
-                if (!std::isfinite(value)) cursor_.fail("expected finite coordinates in " + name);
+                if (!std::isfinite(value)) cursor_.fail("expected finite coordinates in {}", name);
                 points[p][static_cast<Index>(axis)] = value;
             }
         }
         std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
         const TagPlaces unique(tags, [&](Index, Index at) {
-            cursor_.fail("node " + std::to_string(tags[index(at)]) + " has the number of one before");
+            cursor_.fail("{} has the number of one before", numbered("node", tags[index(at)]));
         });
         into_.deck().point_tags = std::move(tags);
     }
@@ -330,8 +330,7 @@ private:
             for (std::size_t k = 0; k < kept; ++k) {
                 const std::int64_t node = all[e * nodes + (places.empty() ? k : places[k])];
                 if (node < 1 || node > last)
-                    cursor_.fail(array + " names node " + std::to_string(node) + " of " +
-                                 std::to_string(last));
+                    cursor_.fail("{} names {} of {}", array, numbered("node", node), last);
                 room.nodes[e * kept + k] = static_cast<Index>(node - 1);
             }
         }
@@ -358,8 +357,7 @@ private:
             if (find_shape(family.dimension, triangle ? 3 : family.corners, static_cast<int>(nodes), shape))
                 return shape;
         }
-        cursor_.fail("block " + shown(name) + ": elements " + shown(type) + " of " + std::to_string(nodes) +
-                     " nodes are not known");
+        cursor_.fail("block {}: elements {} of {} nodes are not known", shown(name), shown(type), nodes);
     }
 
     void read_sets(const std::string& kind, const std::string& list, const std::string& length,
@@ -388,8 +386,7 @@ private:
                                                                           : numbers_;
             for (std::size_t i = 0; i < many; ++i) {
                 if (all[i] < 1 || all[i] > static_cast<std::int64_t>(tags.size()))
-                    cursor_.fail(list + number + " names " + std::to_string(all[i]) + " of " +
-                                 std::to_string(tags.size()));
+                    cursor_.fail("{}{} names {} of {}", list, number, all[i], tags.size());
                 const auto at = static_cast<std::size_t>(all[i] - 1);
                 if (of != DeckSet::Kind::sides)
                     set.members.push_back(tags[at]);
@@ -405,7 +402,7 @@ private:
     {
         int side = 0;
         if (exodus < 1 || exodus > 6 || !abaqus_side(shape, static_cast<int>(exodus), side))
-            cursor_.fail(array + " names side " + std::to_string(exodus) + ", which the element has not");
+            cursor_.fail("{} names side {}, which the element has not", array, exodus);
         return side;
     }
 

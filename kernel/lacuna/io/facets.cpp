@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
@@ -18,9 +19,6 @@ using namespace topology;
 
 namespace {
 
-/// Free edges a message names before it only counts.
-constexpr std::size_t kNamedEdges = 4;
-
 /// The facets of the volume, face after face, and the points they use, numbered from 0 in order of first use.
 struct Skin {
     std::vector<Triangle> triangles;
@@ -31,15 +29,16 @@ struct Skin {
 [[noreturn]] void throw_not_sealed(const OpenVolume& volume)
 {
     const std::vector<EdgeId> open = free_edges(volume);
-    std::string which = "its facets do not meet side by side";
-    if (!open.empty()) {
-        which = std::to_string(open.size()) + (open.size() == 1 ? " edge is free: " : " edges are free: ");
-        for (std::size_t i = 0; i < std::min(open.size(), kNamedEdges); ++i)
-            which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
-        if (open.size() > kNamedEdges) which += ", …";
-    }
-    throw InvalidInput("io.not_sealed", "the volume is not sealed, so its facets would not be watertight: " +
-                                            which + "; close() it first");
+    if (open.empty())
+        throw InvalidInput(Message("io.not_sealed", "the volume is not sealed, so its facets would not be "
+                                                    "watertight: its facets do not meet side by side")
+                               .remedy("close() it first"));
+    throw InvalidInput(
+        Message("io.not_sealed",
+                "the volume is not sealed, so its facets would not be watertight: {} {} free: {}",
+                found(open.size()), open.size() == 1 ? "edge is" : "edges are",
+                topology::entities_of(volume.model, open))
+            .remedy("close() it first"));
 }
 
 /// Every side of a facet must be met by another facet's, run the other way.
@@ -256,9 +255,10 @@ void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetF
 {
     const std::string ending = ending_of(path.text());
     if (ending != ".stl" && ending != ".obj" && ending != ".msh")
-        throw InvalidInput("io.unknown_ending",
-                           "cannot write facets to '" + path.text() + "': the ending \"" + ending +
-                               "\" says no format; facets are written as .stl, .obj and .msh");
+        throw InvalidInput(Message("io.unknown_ending",
+                                   "cannot write facets to '{}': the ending \"{}\" says no format",
+                                   path.text(), ending)
+                               .remedy("facets are written as .stl, .obj and .msh"));
     check_sealed(volume);
     const Skin skin = skin_of(volume);
     if (ending == ".msh")

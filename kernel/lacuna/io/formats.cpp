@@ -135,9 +135,9 @@ const Format& needed_mesh_format(const std::string& call, const std::string& pat
     const auto holds_decks = [](const Format& of) { return of.has_option("with"); };
     const Format* const format = find_format(path);
     if (format != nullptr && (decks ? holds_decks(*format) : is_written(*format))) return *format;
-    throw InvalidInput("lua.unknown_ending", call + ": the ending of " + path +
-                                                 " says no format; meshes are written as " +
-                                                 (decks ? endings_of(holds_decks) : endings_of(is_written)));
+    throw InvalidInput(
+        Message("lua.unknown_ending", "{}: the ending of {} says no format", call, path)
+            .remedy("meshes are written as {}", decks ? endings_of(holds_decks) : endings_of(is_written)));
 }
 
 const Format& format_of(DeckFormat deck)
@@ -158,9 +158,9 @@ const FormatRow& needed_reader(const std::string& path, std::string_view others)
     const Format* const format = find_format(path);
     if (format != nullptr && format->is_read) return row_of(*format);
     const std::string known = endings_of([](const Format& of) { return of.is_read; });
-    throw InvalidInput("io.unknown_ending", path + ": the ending \"" + ending_of(path) +
-                                                "\" is unknown; files are read that end in " +
-                                                std::string(others) + (others.empty() ? "" : " ") + known);
+    throw InvalidInput(
+        Message("io.unknown_ending", "{}: the ending \"{}\" is unknown", path, ending_of(path))
+            .remedy("files are read that end in {}{}{}", others, others.empty() ? "" : " ", known));
 }
 
 } // namespace lacuna::io

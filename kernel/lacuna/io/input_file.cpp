@@ -23,16 +23,20 @@ public:
         // Without O_NONBLOCK a pipe would hold the process until somebody writes to it.
         descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
         if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
-            throw InvalidInput("io.no_file", "there is no file " + path + "; check the name and the folder");
+            throw InvalidInput(
+                Message("io.no_file", "there is no file {}", path).remedy("check the name and the folder"));
         if (descriptor_ < 0)
-            throw InvalidInput("io.no_file",
-                               "cannot open " + path + ": " + std::generic_category().message(errno));
+            throw InvalidInput("io.no_file", "cannot open {}: {}", path,
+                               std::generic_category().message(errno));
         struct stat about {};
-        if (::fstat(descriptor_, &about) != 0) refuse("io.no_file", path + " cannot be looked at");
-        if (S_ISDIR(about.st_mode)) refuse("io.not_a_file", path + " is a folder; name a file in it");
+        if (::fstat(descriptor_, &about) != 0) refuse({"io.no_file", "{} cannot be looked at", path});
+        if (S_ISDIR(about.st_mode))
+            refuse(Message("io.not_a_file", "{} is a folder", path).remedy("name a file in it"));
         if (!S_ISREG(about.st_mode))
-            refuse("io.not_a_file", path + " is no plain file but a pipe or a device; copy it to a file");
-        if (about.st_size == 0) refuse("io.empty_file", path + " is empty; export it anew");
+            refuse(Message("io.not_a_file", "{} is no plain file but a pipe or a device", path)
+                       .remedy("copy it to a file"));
+        if (about.st_size == 0)
+            refuse(Message("io.empty_file", "{} is empty", path).remedy("export it anew"));
         bytes_ = static_cast<std::size_t>(about.st_size);
     }
     ~InputFile() { ::close(descriptor_); }
@@ -50,8 +54,8 @@ public:
             const ssize_t part = ::read(descriptor_, data.data() + done, data.size() - done);
             if (part < 0 && errno == EINTR) continue;
             if (part < 0)
-                throw BackendError("io.read_failed",
-                                   "reading " + path + " failed: " + std::generic_category().message(errno));
+                throw BackendError("io.read_failed", "reading {} failed: {}", path,
+                                   std::generic_category().message(errno));
             if (part == 0) break;
             done += static_cast<std::size_t>(part);
         }
@@ -60,10 +64,10 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const char* code, const std::string& why)
+    [[noreturn]] void refuse(const Message& why)
     {
         ::close(descriptor_);
-        throw InvalidInput(code, why);
+        throw InvalidInput(why);
     }
 
     int descriptor_ = -1;

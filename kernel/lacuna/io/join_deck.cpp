@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <map>
@@ -169,13 +170,12 @@ private:
     [[noreturn]] void refuse(std::size_t node, Index first, Index second) const
     {
         const Vec3& p = mesh_.nodes[node];
-        throw InvalidInput("io.nodes_coincide",
-                           "nodes " + std::to_string(deck_.point_tags[index(first)]) + " and " +
-                               std::to_string(deck_.point_tags[index(second)]) +
-                               " of the deck both lie at (" + text_of(p.x()) + ", " + text_of(p.y()) + ", " +
-                               text_of(p.z()) +
-                               "), where the mesh has one node, and elements beside it use both; merge "
-                               "coincident nodes in the deck");
+        throw InvalidInput(Message("io.nodes_coincide",
+                                   "{} and {} of the deck both lie at ({}, {}, {}), where the mesh has "
+                                   "one node, and elements beside it use both",
+                                   numbered("node", deck_.point_tags[index(first)]),
+                                   numbered("node", deck_.point_tags[index(second)]), p.x(), p.y(), p.z())
+                               .remedy("merge coincident nodes in the deck"));
     }
 
     /// Every quad on a face of the deck must be one of the deck's.
@@ -190,18 +190,16 @@ private:
         for (std::size_t p = 0; p < counts.size(); ++p) {
             const auto [quads, matched] = counts[p];
             const mesh::SkinPatch& patch = mesh_.patches[p];
-            const std::string name = patch.groups.empty() ? "face " + std::to_string(patch.face)
-                                                          : patch.groups.front() + " (face " +
-                                                                std::to_string(patch.face) + ")";
             const topology::Face* face = face_of(patch);
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
-            throw InvalidInput(
-                "io.not_conformal",
-                name + ": the deck has " + std::to_string(given) + " quads and " +
-                    std::to_string(face->triangles.size() - std::min(2 * given, face->triangles.size())) +
-                    " triangles there, and " + std::to_string(matched) + " of " + std::to_string(quads) +
-                    " quads of the mesh are faces of its elements; mesh:report says which meshes were kept");
+            throw InvalidInput(Message("io.not_conformal",
+                                       "the deck has {} quads and {} triangles on {}, and {} of {} quads of "
+                                       "the mesh there are faces of its elements",
+                                       given,
+                                       face->triangles.size() - std::min(2 * given, face->triangles.size()),
+                                       entity_of(patch), found(matched), needed(quads))
+                                   .remedy("mesh:report says which meshes were kept"));
         }
     }
 
@@ -211,9 +209,9 @@ private:
         if (patch.face == 0) return nullptr;
         const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
         if (found == model_.faces.end())
-            throw InvalidInput("io.other_model", "with: the mesh has face " + std::to_string(patch.face) +
-                                                     ", which the model does not; give the model the volume "
-                                                     "was made of");
+            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, which the model does not",
+                                       numbered("face", patch.face))
+                                   .remedy("give the model the volume was made of"));
         return &*found;
     }
 

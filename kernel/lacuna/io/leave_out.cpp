@@ -147,9 +147,8 @@ public:
             mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
-            throw InvalidInput("io.nothing_left", "without: " + list() + " " +
-                                                      (parts_.size() > 1 ? "are" : "is") + " all of " +
-                                                      deck_.path + "; nothing would be left");
+            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; nothing would be left", list(),
+                               parts_.size() > 1 ? "are" : "is", deck_.path);
         find_nodes();
         split_blocks();
         split_points();
@@ -307,8 +306,7 @@ private:
             std::erase_if(set.sides, [&](const DeckSide& side) { return element_goes(side.element); });
             const std::size_t after = set.members.size() + set.sides.size();
             if (after < before)
-                sets_.push_back(set.name + " loses " + std::to_string(before - after) + " of " +
-                                std::to_string(before));
+                sets_.push_back(formatted("{} loses {} of {}", set.name, before - after, before));
             if (after == 0 && before > 0) add_emptied(set.name);
             // All nodes, of which the part may have none of its own, are more with the part that replaces it.
             if (after < before || after >= deck_.points.size()) gone_.sets.push_back(all);
@@ -321,22 +319,19 @@ private:
     void note(std::size_t elements)
     {
         const auto nodes = std::ranges::count(goes_, 1);
-        std::string text = deck_.path + ": without " + list() + ": " + std::to_string(elements) +
-                           " elements are left out, and " + std::to_string(nodes) +
-                           " nodes that only they use";
-        if (!sets_.empty()) text += "; " + listed(sets_);
-        found_.kept.notes.push_back(std::move(text));
+        found_.kept.notes.push_back(
+            formatted("{}: without {}: {} elements are left out, and {} nodes that only they use{}{}",
+                      deck_.path, list(), elements, nodes, sets_.empty() ? "" : "; ", listed(sets_)));
         std::map<std::string, std::size_t> cards;
         const auto count = [&](const std::string& card, DeckTag node, DeckTag element) {
             if ((node != 0 && node_goes(node)) || (element != 0 && element_goes(element))) ++cards[card];
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back("note: " + deck_.path + ": " + card +
-                                        " names nodes or elements that are left "
-                                        "out, " +
-                                        std::to_string(times) +
-                                        " times; cards are kept as they stand, change them by hand");
+            found_.kept.notes.push_back(
+                formatted("note: {}: {} names nodes or elements that are left out, {} times; cards are kept "
+                          "as they stand, change them by hand",
+                          deck_.path, card, times));
     }
 
     const Deck& deck_;
@@ -386,9 +381,9 @@ void refuse_part(std::span<const Deck> decks, const std::string& name)
         for (const DeckSet& set : deck.sets)
             if (set.kind == DeckSet::Kind::elements) add_once(known, set.name);
     }
-    throw InvalidInput("io.no_such_part",
-                       "without: " + name + " is no region, property or set of " + paths +
-                           (known.empty() ? ", which has none with a name" : ", which has " + listed(known)));
+    throw InvalidInput("io.no_such_part", "without: {} is no region, property or set of {}{}", name, paths,
+                       known.empty() ? ", which has none with a name"
+                                     : formatted(", which has {}", short_list(known, std::identity())));
 }
 
 std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name)
@@ -419,8 +414,8 @@ void close_gap(Deck& deck, const RunContext& context)
             if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
     if (!lost.empty())
         log_line(context,
-                 "note: " + deck.path +
-                     ": what was left out of these sets is not replaced, or in part: " + listed(lost));
+                 formatted("note: {}: what was left out of these sets is not replaced, or in part: {}",
+                           deck.path, listed(lost)));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return;
     std::vector<std::string> empty; // of elements, whose sections go

@@ -27,12 +27,12 @@ bool is_among(std::string_view endings, const std::string& ending)
 void check_options(const LoadOptions& options)
 {
     if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-        throw InvalidInput("io.scale",
-                           "the scale must be a number above 0, not " + std::to_string(options.scale));
+        throw InvalidInput("io.scale", "the scale must be a number above 0, not {:.6g}",
+                           found(options.scale));
     }
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
-        throw InvalidInput("io.tolerance", "the tolerance must be a length of 0 or more, not " +
-                                               std::to_string(options.tolerance));
+        throw InvalidInput("io.tolerance", "the tolerance must be a length of 0 or more, not {:.6g}",
+                           found(options.tolerance));
     }
 }
 
@@ -236,10 +236,12 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     topology::Model& model = loaded.model;
     constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
     if (model.tolerance > kMostTolerance * model.diagonal) {
-        throw InvalidInput("io.tolerance", "the tolerance " + std::to_string(model.tolerance) +
-                                               " is more than a hundredth of the model's diagonal (" +
-                                               std::to_string(model.diagonal) +
-                                               "), so faces would fall together; give a smaller one");
+        throw InvalidInput(
+            Message("io.tolerance",
+                    "the tolerance {:.6g} is more than a hundredth of the model's diagonal ({:.6g}),  "
+                    "so faces would fall together",
+                    found(model.tolerance), model.diagonal)
+                .remedy("give a smaller one"));
     }
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
@@ -258,7 +260,8 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
                        const RunContext& context, const OtherFormats& others)
 {
     check_options(options);
-    if (paths.empty()) throw InvalidInput("io.no_file", "no file was named; name at least one");
+    if (paths.empty())
+        throw InvalidInput(Message("io.no_file", "no file was named").remedy("name at least one"));
     std::vector<std::string> other, facets;
     for (const std::string& path : paths) {
         check_file(path);
@@ -267,8 +270,9 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         (is_other ? other : facets).push_back(path);
     }
     if (facets.empty() && !options.without.empty())
-        throw InvalidInput("io.no_such_part", "without: " + options.without.front() +
-                                                  ": parts are of finite element meshes, and none is read");
+        throw InvalidInput("io.no_such_part",
+                           "without: {}: parts are of finite element meshes, and none is read",
+                           options.without.front());
     LoadedFiles loaded{.scale = options.scale};
     if (!other.empty()) loaded = others.import(other, options, context);
     if (!facets.empty()) {

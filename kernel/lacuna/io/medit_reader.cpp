@@ -48,7 +48,7 @@ public:
     {
         std::string_view word = next_word();
         if (!same_word(word, "MeshVersionFormatted"))
-            cursor_.fail("expected MeshVersionFormatted, found " + shown(word));
+            cursor_.fail("expected MeshVersionFormatted, found {}", found(shown(word)));
         cursor_.integer();
         while (!(word = next_word()).empty() && !same_word(word, "End")) {
             const auto section = std::ranges::find_if(
@@ -56,7 +56,7 @@ public:
             if (same_word(word, "Dimension")) {
                 if (cursor_.integer() != 3) cursor_.fail("expected Dimension 3");
             } else if (section == std::end(kSections)) {
-                cursor_.fail("expected a section, as Vertices or Triangles, found " + shown(word));
+                cursor_.fail("expected a section, as Vertices or Triangles, found {}", found(shown(word)));
             } else {
                 read_section(*section);
             }
@@ -79,7 +79,7 @@ private:
     {
         const std::uint64_t count = cursor_.plausible(cursor_.size(), 1,
                                                       static_cast<std::uint64_t>(section.values));
-        if (!is_index(count)) cursor_.fail("too many " + std::string(section.name));
+        if (!is_index(count)) cursor_.fail("too many {}", section.name);
         if (section.name == "Vertices") {
             if (!into_.points().empty()) cursor_.fail("a second section Vertices");
             into_.points().reserve(count);
@@ -109,8 +109,7 @@ private:
             else
                 corner[index(k)] = -1;
             if (corner[index(k)] < 0 || index(corner[index(k)]) >= into_.points().size())
-                cursor_.fail("expected the number of one of the " + std::to_string(into_.points().size()) +
-                             " vertices so far");
+                cursor_.fail("expected the number of one of the {} vertices so far", into_.points().size());
         }
         for (int k = corners; k < section.values - 1; ++k) cursor_.integer();
         const int reference = cursor_.integer();

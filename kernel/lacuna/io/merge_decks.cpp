@@ -63,9 +63,9 @@ public:
         if (same_ && !clashes_ && scale == 1)
             all_.gap.gone.insert(all_.gap.gone.end(), more_.gap.gone.begin(), more_.gap.gone.end());
         else if (!more_.gap.gone.empty())
-            log_line(context_, "note: sets of " + more_.path +
-                                   " do not get the cells that replace what was left "
-                                   "out of it: they have other names, numbers or units now");
+            log_line(context_, formatted("note: sets of {} do not get the cells that replace what was left "
+                                         "out of it: they have other names, numbers or units now",
+                                         more_.path));
         all_.gap.node = std::max(all_.gap.node, more_.gap.node + node_offset_);
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
         all_.notes.insert(all_.notes.end(), more_.notes.begin(), more_.notes.end());
@@ -73,21 +73,20 @@ public:
 
 private:
     /// Refuse, or mark, what both decks have.
-    void check_clash(const std::string& what, const std::vector<DeckTag>& both)
+    void check_clash(const char* what, const std::vector<DeckTag>& both)
     {
         if (both.empty()) return;
         clashes_ = true;
         if (options_.renumber) return;
-        refuse(what + " " + std::to_string(both.front()), both.size());
+        refuse(numbered(what, both.front()), both.size());
     }
 
-    [[noreturn]] void refuse(const std::string& first, std::size_t count) const
+    [[noreturn]] void refuse(const Argument& first, std::size_t count) const
     {
-        throw InvalidInput("io.numbers_clash",
-                           "with: " + first + " is in " + all_.path + " and in " + more_.path +
-                               (count > 1 ? ", and so are " + std::to_string(count - 1) + " more" : "") +
-                               "; renumber = true gives those of the later deck numbers and names of their "
-                               "own, and leaves its cards out, which name the old ones");
+        throw InvalidInput(Message("io.numbers_clash", "with: {} is in {} and in {}{}", first, all_.path,
+                                   more_.path, count > 1 ? formatted(", and so are {} more", count - 1) : "")
+                               .remedy("renumber = true gives those of the later deck numbers and names of "
+                                       "their own, and leaves its cards out, which name the old ones"));
     }
 
     [[nodiscard]] std::vector<DeckTag> shared_properties() const
@@ -127,9 +126,8 @@ private:
         if (in_both(taken, own).empty()) return 0;
         const DeckTag highest = *std::ranges::max_element(taken), last = *std::ranges::max_element(own);
         if (highest + last > std::numeric_limits<Index>::max())
-            throw InvalidInput("io.number_taken", std::string("with: the highest ") + what +
-                                                      " would have the number " +
-                                                      std::to_string(highest + last));
+            throw InvalidInput("io.number_taken", "with: the highest {} would have the number {}", what,
+                               highest + last);
         return highest;
     }
 
@@ -187,10 +185,10 @@ private:
             more_.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
         if (!any) return;
         if (!same_ || clashes_ || !more_.instances.empty()) {
-            log_line(context_, "cards of " + more_.path + " are left out: " +
-                                   (!same_     ? "they are of another format"
-                                    : clashes_ ? "they name numbers and sets that are others now"
-                                               : "they name nodes by their instances"));
+            log_line(context_, formatted("cards of {} are left out: {}", more_.path,
+                                         !same_     ? "they are of another format"
+                                         : clashes_ ? "they name numbers and sets that are others now"
+                                                    : "they name nodes by their instances"));
             return;
         }
         if (all_.format != DeckFormat::abaqus) {
@@ -200,7 +198,8 @@ private:
         }
         const auto [model, steps] = model_and_steps(text_at(more_, DeckText::Place::cards));
         if (!steps.empty())
-            log_line(context_, "the steps of " + more_.path + " are left out; those of the first deck stay");
+            log_line(context_,
+                     formatted("the steps of {} are left out; those of the first deck stay", more_.path));
         add_model_cards(all_, model);
     }
 

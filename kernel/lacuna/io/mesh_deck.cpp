@@ -27,19 +27,17 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     taken.insert(taken.end(), texts.begin(), texts.end());
     for (const DeckTag tag : taken) highest = std::max(highest, tag);
     const DeckTag first = asked != 0 ? asked : highest + 1;
-    const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("io.number_taken",
-                           std::string(option) + " = " + std::to_string(first) + ": " + why);
-    };
-    if (first < 1) refuse("numbers are 1 or more");
+    if (first < 1)
+        throw InvalidInput("io.number_taken", "{} = {}: numbers are 1 or more", option, found(first));
     const DeckTag last = first + static_cast<DeckTag>(count) - 1;
     if (last > std::numeric_limits<Index>::max())
-        refuse("the last of " + std::to_string(count) + " would be " + std::to_string(last) + ", more than " +
-               std::to_string(std::numeric_limits<Index>::max()));
+        throw InvalidInput("io.number_taken", "{} = {}: the last of {} would be {}, more than {}", option,
+                           first, count, found(last), needed(std::numeric_limits<Index>::max()));
     for (const DeckTag tag : taken)
         if (tag >= first && tag <= last)
-            refuse(std::string("the deck has a ") + what + " " + std::to_string(tag) +
-                   "; the first free one is " + std::to_string(highest + 1));
+            throw InvalidInput(Message("io.number_taken", "{} = {}: the deck has a {}", option, found(first),
+                                       numbered(what, tag))
+                                   .remedy("the first free one is {}", needed(highest + 1)));
     return first;
 }
 
@@ -73,9 +71,10 @@ public:
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         if (cell_shape(mesh_) == DeckShape::hex27 && !format_of(options_.format).has_hex27)
-            throw InvalidInput("io.no_such_element",
-                               "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV; "
-                               "sweep with order = 2, serendipity = true for those of 20");
+            throw InvalidInput(
+                Message("io.no_such_element",
+                        "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV")
+                    .remedy("sweep with order = 2, serendipity = true for those of 20"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         find_place();
@@ -103,11 +102,11 @@ private:
         const bool second = mesh_.order() == 2;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
         if (is_abaqus_element(element_, cell_shape(mesh_))) return;
-        throw InvalidInput("io.element",
-                           "element = \"" + element_ + "\": expected Abaqus's word for a hexahedron of " +
-                               (second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
-                                       : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "
-                                         "middle nodes"));
+        throw InvalidInput("io.element", "element = \"{}\": expected Abaqus's word for a hexahedron of {}",
+                           element_,
+                           second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
+                                  : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "
+                                    "middle nodes");
     }
 
     /// Check for cancellation about once a millisecond.
@@ -261,8 +260,8 @@ private:
         const bool has_other = set.of_one_deck && !section_set_.empty() && section_set_ != set.name;
         const bool other = has_other || (chosen && !same_word(*section, material_));
         if (other)
-            log_line(context_, "note: " + volume_ + " is not in the set " + set.name +
-                                   ", whose section has the material " + *section);
+            log_line(context_, formatted("note: {} is not in the set {}, whose section has the material {}",
+                                         volume_, set.name, *section));
         if (other || is_emptied(set.name)) return false;
         section_set_ = set.name;
         return true;
@@ -332,16 +331,20 @@ private:
             }
         }
         if (!cards.empty())
-            log_line(context_, "note: the numbers of " + listed(cards) +
-                                   " stay as they are: no node and no cell of " + volume_ +
-                                   " is added to them");
+            log_line(
+                context_,
+                formatted(
+                    "note: the numbers of {} stay as they are: no node and no cell of {} is added to them",
+                    listed(cards), volume_));
     }
 
     void tell_names() const
     {
         std::vector<std::string> names;
-        for (const auto& [wanted, name] : renamed_) names.push_back(wanted + " is called " + name);
-        if (!names.empty()) log_line(context_, "note: names that other sets have: " + listed(names));
+        for (const auto& [wanted, name] : renamed_)
+            names.push_back(formatted("{} is called {}", wanted, name));
+        if (!names.empty())
+            log_line(context_, formatted("note: names that other sets have: {}", listed(names)));
     }
 
     void add_skin_cells()
@@ -467,24 +470,27 @@ private:
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
             if (added_.region >= 0) return; // another piece of a mesh added before
-            log_line(context_, volume() + " takes the place of the region of that name, whose cards stay" +
-                                   (options_.material.empty() ? "" : "; material is not looked at"));
+            log_line(context_,
+                     formatted("{} takes the place of the region of that name, whose cards stay{}", volume(),
+                               options_.material.empty() ? "" : "; material is not looked at"));
             return;
         }
         if (material_.empty()) {
             if (find(added_.neighbour_material) == known.end()) return;
             material_ = added_.neighbour_material;
-            log_line(context_, volume() + ": its material is " + material_ + ", that of " + added_.neighbour +
-                                   " beside it; open_volume's material says another");
+            log_line(
+                context_,
+                formatted("{}: its material is {}, that of {} beside it; open_volume's material says another",
+                          volume(), material_, added_.neighbour));
             return;
         }
         if (const auto found = find(material_); found != known.end()) {
             material_ = *found;
             return;
         }
-        throw InvalidInput("io.no_material",
-                           "material = " + material_ + ": " + deck_.path + " has " +
-                               (known.empty() ? "no materials" : "the materials " + listed(known)));
+        throw InvalidInput("io.no_material", "material = {}: {} has {}", material_, deck_.path,
+                           known.empty() ? "no materials"
+                                         : formatted("the materials {}", short_list(known, std::identity())));
     }
     static constexpr const char* kSkin = "\n"; // keeps keys of skin and cell groups apart; in no name
 
@@ -500,13 +506,15 @@ private:
         if (deck_.format == DeckFormat::nastran) {
             // A material name comes from another format: write 1, and the user sets the number.
             const std::string number = parse_integer<int>(material_) ? material_ : "1";
-            std::string text = "$ property of " + volume_;
-            if (number != material_ && !material_.empty()) text += ", material " + material_;
-            deck_.texts.push_back({DeckText::Place::cards, "",
-                                   text + "\nPSOLID," + std::to_string(region.tag) + "," + number + "\n"});
+            const bool named = number != material_ && !material_.empty();
+            deck_.texts.push_back(
+                {DeckText::Place::cards, "",
+                 formatted("$ property of {}{}{}\nPSOLID,{},{}\n", volume_, named ? ", material " : "",
+                           named ? material_ : "", region.tag, number)});
         } else if (deck_.format == DeckFormat::abaqus && !material_.empty() && section_set_.empty() &&
                    !section_material(deck_, region.name)) {
-            add_model_cards(deck_, "*SOLID SECTION, ELSET=" + region.name + ", MATERIAL=" + material_ + "\n");
+            add_model_cards(deck_,
+                            formatted("*SOLID SECTION, ELSET={}, MATERIAL={}\n", region.name, material_));
         }
     }
 

@@ -18,7 +18,7 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
           const Team* team = nullptr)
 {
     if (team != nullptr && team->rank != 0) return;
-    for (const std::string& note : notes) log_line(context, "note: " + path.text() + ": " + note);
+    for (const std::string& note : notes) log_line(context, formatted("note: {}: {}", path.text(), note));
 }
 
 /// Clear `all_groups` if the format cannot hold it, and log that.
@@ -39,11 +39,12 @@ void check_version(const Format& format, const MeshFileOptions& options)
 {
     if (!format.has_option("version")) return;
     if (options.version != 2.2 && options.version != 4.1)
-        throw InvalidInput("io.unknown_version", "MSH version " + text_of(options.version) +
-                                                     " cannot be written; known are 4.1 and 2.2");
+        throw InvalidInput(
+            Message("io.unknown_version", "MSH version {} cannot be written", text_of(options.version))
+                .remedy("known are 4.1 and 2.2"));
     if (options.partition.parts > 0 && options.version != 4.1)
-        throw InvalidInput("io.partition_version",
-                           "parts are written in MSH version 4.1 alone; leave out the version");
+        throw InvalidInput(Message("io.partition_version", "parts are written in MSH version 4.1 alone")
+                               .remedy("leave out the version"));
 }
 
 /// Write a swept mesh in a format other than a deck.
@@ -81,7 +82,7 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
         return set.kind == DeckSet::Kind::sides ||
                (set.kind == DeckSet::Kind::nodes && !format.has_node_sets);
     });
-    if (unwritten > 0) notes.push_back(std::to_string(unwritten) + " " + std::string(format.unwritten_sets));
+    if (unwritten > 0) notes.push_back(formatted("{} {}", unwritten, format.unwritten_sets));
 }
 
 DeckFile file_of(const FormatRow& format, const Deck& deck, const DeckFileOptions& options,
@@ -181,7 +182,7 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
                 const DeckFileOptions& options)
 {
     if (const std::size_t lines = deck.element_count(1); lines > 0 && !format.has_lines) {
-        log_line(context, path.text() + ": " + std::to_string(lines) + " lines are not written");
+        log_line(context, formatted("{}: {} lines are not written", path.text(), lines));
         return write_deck(without_lines(deck), format, path, context, options);
     }
     const FormatRow& row = row_of(format);
@@ -193,8 +194,8 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format.deck != deck.format && texts)
-        file.notes.push_back("materials, loads and other cards of " + deck.path +
-                             " are of another format and not carried over");
+        file.notes.push_back(formatted(
+            "materials, loads and other cards of {} are of another format and not carried over", deck.path));
     if (!file.changed.empty()) file.notes.push_back(file.changed);
     tell(file.notes, path, context);
     if (row.view_folder != nullptr)

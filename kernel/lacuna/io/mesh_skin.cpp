@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/split_facets.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <string>
 
@@ -46,15 +47,15 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
         face.name = of.groups.empty() ? "" : of.groups.front();
         face.tag = of.face != 0 ? of.face : of.tag;
         if (skin.face[patch].valid())
-            throw InvalidInput("io.skin_in_pieces", "the quads of patch " + std::to_string(of.tag) + " \"" +
-                                                        face.name + "\" of a mesh do not hang together");
+            throw InvalidInput("io.skin_in_pieces", "the quads of {} of a mesh do not hang together",
+                               NamedEntity{"patch", of.tag, face.name});
         skin.face[patch] = FaceId(f);
         roles.walls.emplace_back(f);
     }
     for (std::size_t p = 0; p < skin.face.size(); ++p) {
         if (!skin.face[p].valid())
-            throw InvalidInput("io.skin_in_pieces",
-                               "patch " + std::to_string(mesh.patches[p].tag) + " of a mesh has no quads");
+            throw InvalidInput("io.skin_in_pieces", "{} of a mesh has no quads",
+                               numbered("patch", mesh.patches[p].tag));
     }
     skin.volume = topology::open_volume(model, roles, context);
     return skin;

@@ -7,12 +7,14 @@
 #include <lacuna/io/detail/msh_file.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/msh_shapes.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -196,9 +198,11 @@ public:
         else if (view->points > 0)
             nodes_ = {1, static_cast<std::int64_t>(view->points)};
         if (view->is_deck && std::min(nodes_.first, elements_.first) < 1)
-            throw InvalidInput("io.number_taken", view->source +
-                                                      " has a node or an element of number 0, which an MSH "
-                                                      "file cannot hold; write another format");
+            throw InvalidInput(
+                Message("io.number_taken",
+                        "{} has a node or an element of number 0, which an MSH file cannot hold",
+                        view->source)
+                    .remedy("write another format"));
     }
 
     DeckFile write_41()
@@ -343,10 +347,9 @@ private:
                    topology::is_role_group(name.substr(name.find(':') + 1));
         });
         if (view_->source.empty() || lost.empty()) return;
-        for (const std::string& name : lost) file_.changed += (file_.changed.empty() ? "" : ", ") + name;
-        file_.changed = "an element is in one group, so that " + file_.changed +
-                        (lost.size() > 1 ? " lack" : " lacks") +
-                        " elements that are in others too; groups = \"all\" keeps them";
+        file_.changed = formatted("an element is in one group, so that {} {} elements that are in others "
+                                  "too; groups = \"all\" keeps them",
+                                  full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
     }
 
     void open(const char* version)
@@ -355,8 +358,7 @@ private:
         if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // tells readers the byte order
         text_ += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
         for (const PhysicalName& name : names_)
-            text_ += std::to_string(name.dimension) + " " + std::to_string(name.tag) + " \"" + name.name +
-                     "\"\n";
+            text_ += formatted("{} {} \"{}\"\n", name.dimension, name.tag, name.name);
         text_ += "$EndPhysicalNames\n";
     }
 

@@ -43,8 +43,7 @@ ElementType type_of(const Cursor& cursor, int type)
     if (const auto shape = shape_numbered(&ShapeWords::gmsh, type))
         return {type, shape_info(*shape).dimension, shape_info(*shape).nodes, *shape};
     const auto known = std::ranges::find(kFurtherTypes, type, &ElementType::type);
-    if (known == std::end(kFurtherTypes))
-        cursor.fail("element type " + std::to_string(type) + " is not known");
+    if (known == std::end(kFurtherTypes)) cursor.fail("element type {} is not known", type);
     return *known;
 }
 
@@ -88,11 +87,11 @@ private:
         else if (name == "Elements")
             version_ == 4 ? read_elements_4() : read_elements_2();
         else if (!cursor_.skip_past("$End" + name))
-            cursor_.fail("the file ends within $" + name);
+            cursor_.fail("the file ends within ${}", name);
         else
             return void(cursor_.line());
         if (!same_word(cursor_.full_line(), "$End" + name))
-            cursor_.fail("expected $End" + name + ": $" + name + " holds more than it announces");
+            cursor_.fail("expected $End{}: ${} holds more than it announces", name, name);
     }
 
     void read_format()
@@ -101,9 +100,10 @@ private:
         const std::int64_t binary = cursor_.text_integer();
         const std::int64_t bytes = cursor_.text_integer();
         if (version != 4.1 && version != 4 && !(version >= 2 && version < 3))
-            cursor_.fail("expected version 1.0, 2.2, 4.0 or 4.1; save the mesh anew as one of them");
+            cursor_.fail(Message(kUnreadable, "expected version 1.0, 2.2, 4.0 or 4.1")
+                             .remedy("save the mesh anew as one of them"));
         if (bytes != 8)
-            cursor_.fail("numbers of " + std::to_string(bytes) + " bytes are not read; expected 8");
+            cursor_.fail("numbers of {} bytes are not read; expected {}", found(bytes), needed(8));
         version_ = version >= 4 ? 4 : 2;
         into_.deck().version = version;
         first_of_4_ = version == 4;
@@ -111,7 +111,8 @@ private:
         if (binary == 1) {
             cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
             if (cursor_.raw_integer() != 1)
-                cursor_.fail("the bytes are in another machine's order; save the mesh as text");
+                cursor_.fail(Message(kUnreadable, "the bytes are in another machine's order")
+                                 .remedy("save the mesh as text"));
         } else if (binary != 0) {
             cursor_.fail("expected 0 for text or 1 for binary in $MeshFormat");
         }
@@ -142,7 +143,7 @@ private:
     int small_int(std::string_view word) const
     {
         const auto value = parse_integer<int>(word);
-        if (!value) cursor_.fail("expected a small whole number, found " + shown(word));
+        if (!value) cursor_.fail("expected a small whole number, found {}", found(shown(word)));
         return *value;
     }
 
@@ -200,7 +201,7 @@ private:
     std::uint64_t node_tag()
     {
         const int tag = cursor_.integer();
-        if (tag < 0) cursor_.fail("node tag " + std::to_string(tag) + " is negative");
+        if (tag < 0) cursor_.fail("node tag {} is negative", tag);
         return static_cast<std::uint64_t>(tag);
     }
 
@@ -222,10 +223,9 @@ private:
     void end_nodes(std::uint64_t count)
     {
         if (into_.points().size() != count)
-            cursor_.fail("the file announces " + std::to_string(count) + " nodes and holds " +
-                         std::to_string(into_.points().size()));
+            cursor_.fail("the file announces {} nodes and holds {}", count, into_.points().size());
         tags_.emplace(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("node " + std::to_string(node + 1) + " of the file has the tag of one before");
+            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
         });
         nodes_known_ = true;
     }
@@ -240,8 +240,7 @@ private:
             int dimension = cursor_.integer();
             if (const int entity = cursor_.integer(); first_of_4_) dimension = entity;
             const bool parametric = cursor_.integer() != 0;
-            if (dimension < 0 || dimension > 3)
-                cursor_.fail("nodes of dimension " + std::to_string(dimension));
+            if (dimension < 0 || dimension > 3) cursor_.fail("nodes of dimension {}", dimension);
             const std::uint64_t count = cursor_.plausible(cursor_.size(), 28, 4);
             if (count > total - into_.points().size()) cursor_.fail("more nodes than announced");
             if (cursor_.coding != Coding::text && !first_of_4_ && !parametric) {
@@ -371,7 +370,7 @@ private:
     DeckTag tag_at(const char* at, const char* whose) const
     {
         const auto tag = static_cast<DeckTag>(from_bytes<Tag>(at, kBig));
-        if (tag < 0) cursor_.fail(std::string(whose) + " tag is too large or negative");
+        if (tag < 0) cursor_.fail("{} tag is too large or negative", whose);
         return tag;
     }
 
@@ -399,7 +398,7 @@ private:
     Index position(DeckTag tag) const
     {
         const Index node = tags_->find(tag);
-        if (node < 0) cursor_.fail("a cell names node " + std::to_string(tag) + ", which is not there");
+        if (node < 0) cursor_.fail("a cell names {}, which is not there", numbered("node", tag));
         return node;
     }
 
@@ -455,8 +454,7 @@ private:
             const ElementType type = type_of(cursor_, cursor_.integer());
             const int physical = group_tag(), entity = cursor_.integer(), nodes = cursor_.integer();
             if (nodes != type.nodes)
-                cursor_.fail("a cell of type " + std::to_string(type.type) + " has " +
-                             std::to_string(type.nodes) + " nodes, not " + std::to_string(nodes));
+                cursor_.fail("a cell of type {} has {} nodes, not {}", type.type, type.nodes, nodes);
             expect_cells(type, 0);
             add_cell(type, tag, physical, entity);
         }
@@ -503,8 +501,7 @@ private:
             const int count = text ? 1 : cursor_.integer();
             const int tags = cursor_.integer();
             if (count < 1 || tags < 0 || static_cast<std::uint64_t>(count) > total - done)
-                cursor_.fail("a block of " + std::to_string(count) + " cells with " + std::to_string(tags) +
-                             " tags");
+                cursor_.fail("a block of {} cells with {} tags", count, tags);
             const auto values = static_cast<std::uint64_t>(type.nodes) + static_cast<std::uint64_t>(tags);
             cursor_.plausible(static_cast<std::uint64_t>(count), 4 * (values + 1), values);
             expect_cells(type, count > 1 ? static_cast<std::uint64_t>(count) : 0);

@@ -56,7 +56,7 @@ std::string stepped(std::string_view field, std::string_view step, const DeckPla
     if (whole && by) return std::to_string(std::int64_t(*whole) + *by);
     const auto real = parse_real(field, Exponents::fortran), more = parse_real(step, Exponents::fortran);
     if (whole || !real || !more)
-        place.fail("cannot add " + shown(step) + " to " + shown(field) + " of the card that is replicated");
+        place.fail("cannot add {} to {} of the card that is replicated", shown(step), shown(field));
     std::array<char, 32> text{};
     std::string sum(text.data(), std::to_chars(text.data(), text.data() + text.size(), *real + *more).ptr);
     return sum.find_first_of(".e") == std::string::npos ? sum + '.' : sum; // or it would be a whole number
@@ -86,13 +86,13 @@ Index Card::whole(std::size_t number, Index otherwise) const
     if (text.empty()) return otherwise;
     const auto value = parse_integer<Index>(text);
     if (!value || *value < 0)
-        fail("expected a whole number in field " + std::to_string(number) + ", found " + shown(text));
+        fail("expected a whole number in field {}, found {}", number, found(shown(text)));
     return *value;
 }
 
 Index Card::needed(std::size_t number) const
 {
-    if (field(number).empty()) fail("expected a number in field " + std::to_string(number) + ", found none");
+    if (field(number).empty()) fail("expected a number in field {}, found none", number);
     return whole(number, 0);
 }
 
@@ -101,8 +101,7 @@ double Card::real(std::size_t number) const
     const std::string_view text = field(number);
     if (text.empty()) return 0;
     const auto value = parse_real(text, Exponents::fortran);
-    if (!value)
-        fail("expected a finite number in field " + std::to_string(number) + ", found " + shown(text));
+    if (!value) fail("expected a finite number in field {}, found {}", number, found(shown(text)));
     return *value;
 }
 
@@ -224,8 +223,7 @@ void BulkData::free_fields(const Cursor& cursor, std::string_view line)
     const std::size_t all = 2 + (is_large(line_[0]) ? kFields / 2 : kFields);
     for (std::size_t k = all; k < line_.size(); ++k)
         if (!line_[k].empty())
-            cursor.fail("expected at most " + std::to_string(all) + " fields in a line, found " +
-                        std::to_string(line_.size()));
+            cursor.fail("expected at most {} fields in a line, found {}", all, found(line_.size()));
     line_.resize(all);
 }
 
@@ -288,7 +286,7 @@ bool BulkData::take_fields(const DeckPlace& place)
         // Behind a card that names none, a name that no line gives is a mark of somebody's.
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
-        if (!open_) place.fail("a continuation " + shown(first) + " of no card");
+        if (!open_) place.fail("a continuation {} of no card", shown(first));
         if (first.size() > 1 && marker_.size() <= 1 && unasked_.empty()) unasked_ = shown(first);
         check_half(card_, is_large(first), place);
     } else if (const std::string_view name = first.substr(0, first.find('*')); !replicates(name)) {
@@ -325,7 +323,7 @@ void BulkData::begin_card(std::string_view name, const DeckPlace& place)
     const bool nameless = parse_integer<Index>(name).has_value();
     if (!nameless && (std::isalpha(static_cast<unsigned char>(name.empty() ? ' ' : name[0])) == 0 ||
                       name.size() > kField || !std::ranges::all_of(name, fits)))
-        place.fail("expected the name of a bulk data card, found " + shown(name));
+        place.fail("expected the name of a bulk data card, found {}", found(shown(name)));
     end_card();
     open_ = true;
     replica_ = text_ = false;
@@ -358,8 +356,9 @@ bool BulkData::hand_over(const Card& card, CardUse use)
                                                    std::pair(superelements_, card.text(3)));
         const bool again = !fresh && known->second.first != superelements_;
         if (again && known->second.second != card.text(3))
-            card.fail("superelements are read as one deck, and another has another " + known->first +
-                      "; renumber one of them");
+            card.fail(Message(kUnreadable, "superelements are read as one deck, and another has another {}",
+                              known->first)
+                          .remedy("renumber one of them"));
         if (again) return false;
     }
     take_(card);
@@ -398,11 +397,11 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
 {
     const auto times = parse_integer<Index>(count);
     if (!times || *times < 1 || !open_ || !replica_ || is_named(marker_))
-        place.fail("expected =n with a count above 0 right below a card that begins with =, found =" +
-                   std::string(count.substr(0, kField)));
+        place.fail("expected =n with a count above 0 right below a card that begins with =, found ={}",
+                   count.substr(0, kField));
     if (index(*times) > room_)
-        place.fail("=" + std::to_string(*times) +
-                   " makes more cards than a deck of this size may; write them out");
+        place.fail(Message(kUnreadable, "={} makes more cards than a deck of this size may", *times)
+                       .remedy("write them out"));
     room_ -= index(*times);
     for (Index n = 0; n < *times && card_use_ != CardUse::keep; ++n) {
         begin_replica(place);
@@ -489,14 +488,14 @@ void BulkData::finish()
     if (!continuations_.empty()) {
         const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
         const std::string text = shown(line.raw.substr(0, kField));
-        if (cards_.empty()) line.card.place.fail("a continuation " + text + " of no card");
+        if (cards_.empty()) line.card.place.fail("a continuation {} of no card", text);
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation " + shown(card.marker) + " is not there, and " + text +
-                       " is a continuation of no card");
+        card.card.fail("its continuation {} is not there, and {} is a continuation of no card",
+                       shown(card.marker), text);
     }
     if (!cards_.empty() && !unasked_.empty()) {
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation " + shown(card.marker) + " is not there, and no card names " +
+        card.card.fail("its continuation {} is not there, and no card names {}", shown(card.marker),
                        unasked_);
     }
     // What they name never came: a mark of somebody's.

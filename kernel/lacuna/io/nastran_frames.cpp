@@ -28,7 +28,7 @@ void Frames::add(Index tag, const Definition& definition)
 {
     if (tag == 0) definition.place.fail("expected a coordinate system's number above 0");
     const auto [found, fresh] = frames_.try_emplace(tag, Frame{.definition = definition});
-    if (!fresh) definition.place.fail("a second coordinate system " + std::to_string(tag));
+    if (!fresh) definition.place.fail("a second {}", numbered("coordinate system", tag));
 }
 
 Vec3 Frames::to_basic(Index tag, const Vec3& point, const DeckPlace& place)
@@ -36,8 +36,9 @@ Vec3 Frames::to_basic(Index tag, const Vec3& point, const DeckPlace& place)
     if (tag == 0) return point;
     const auto found = frames_.find(tag);
     if (found == frames_.end())
-        place.fail("the point is in coordinate system " + std::to_string(tag) +
-                   ", which is not there; CORD1R, 1C, 1S, 2R, 2C and 2S are read");
+        place.fail(
+            Message(kUnreadable, "the point is in {}, which is not there", numbered("coordinate system", tag))
+                .remedy("CORD1R, 1C, 1S, 2R, 2C and 2S are read"));
     if (!found->second.known) resolve(tag, found->second);
     const Frame& frame = found->second;
     return frame.origin + frame.axes * along_axes(frame.definition.kind, point);
@@ -47,8 +48,8 @@ void Frames::resolve(Index tag, Frame& frame)
 {
     const Definition& given = frame.definition;
     if (++depth_ > kDeepest)
-        given.place.fail("coordinate system " + std::to_string(tag) +
-                         " is given by itself, or by others more than " + std::to_string(kDeepest) + " deep");
+        given.place.fail("{} is given by itself, or by others more than {} deep",
+                         numbered("coordinate system", tag), kDeepest);
     std::array<Vec3, 3> at;
     for (std::size_t k = 0; k < 3; ++k)
         at[k] = given.by_nodes ? node_at_(given.node[k], given.place)
@@ -58,7 +59,7 @@ void Frames::resolve(Index tag, Frame& frame)
     const Vec3 y = z.cross((at[2] - at[0]).stableNormalized());
     constexpr double kLeastSine = 1e-9; // between the z axis and the third point: less is rounding
     if (!(y.norm() > kLeastSine))
-        given.place.fail("the three points of coordinate system " + std::to_string(tag) + " are in line");
+        given.place.fail("the three points of {} are in line", numbered("coordinate system", tag));
     frame.axes.col(2) = z;
     frame.axes.col(1) = y.normalized();
     frame.axes.col(0) = frame.axes.col(1).cross(z);

@@ -47,8 +47,8 @@ public:
     {
         bulk_.read([](std::string_view name) { return use_of(name); }, [&](const Card& card) { take(card); });
         finish_nodes();
-        into_.resolve(*tags_, [&](std::uint64_t place, const std::string& what) {
-            bulk_.files().place_of(place).fail(what);
+        into_.resolve(*tags_, [&](std::uint64_t place, const Message& why) {
+            bulk_.files().place_of(place).fail(why);
         });
         finish_properties();
         if (bulk_.superelements() > 0) finish_superelements();
@@ -89,8 +89,8 @@ private:
         else if (std::ranges::find(kFrameCards, card.name) != std::end(kFrameCards))
             take_frame(card);
         else if (card.name == "SELOC" || (card.name == "SEBULK" && is_copy(card.field(3))))
-            card.fail(
-                "superelements that are moved, repeated or mirrored are not read; write the deck as one");
+            card.fail(Message(kUnreadable, "superelements that are moved, repeated or mirrored are not read")
+                          .remedy("write the deck as one"));
         else
             into_.pass_over(card.name.empty() ? "lines without the name of a card" : card.name);
     }
@@ -139,8 +139,7 @@ private:
         const Index region = card.field(3).empty() ? -1 : region_of(card.needed(3));
         std::string more = card.text(static_cast<std::size_t>(kind.kept_from > 0 ? kind.kept_from : 4) +
                                      (kind.kept_from > 0 ? 0 : most));
-        if (!more.empty() && kind.kept_from == 0)
-            card.fail("expected at most " + std::to_string(most) + " nodes, found more");
+        if (!more.empty() && kind.kept_from == 0) card.fail("expected at most {} nodes, found more", most);
         if (!more.empty()) into_.deck().blocks[block].more.emplace_back(of.count(), std::move(more));
         into_.add_element(block, tag, region, {nodes.data(), count}, card.place.number());
     }
@@ -259,8 +258,7 @@ private:
     Vec3 node_in_basic(Index tag, const DeckPlace& place)
     {
         const Index node = tags_->find(tag);
-        if (node < 0)
-            place.fail("the coordinate system names node " + std::to_string(tag) + ", which is not there");
+        if (node < 0) place.fail("the coordinate system names {}, which is not there", numbered("node", tag));
         return in_basic(index(node));
     }
 
@@ -271,11 +269,12 @@ private:
         if (default_frame_ != 0) place.fail("GRDSET of superelements that are read as one deck is ambiguous");
         const std::vector<DeckTag> tags = element_tags(into_.deck());
         const TagPlaces elements(tags, [&](Index, Index again) {
-            place.fail("superelements are read as one deck, and element " +
-                       std::to_string(tags[index(again)]) + " is there twice; renumber one of them");
+            place.fail(Message(kUnreadable, "superelements are read as one deck, and {} is there twice",
+                               numbered("element", tags[index(again)]))
+                           .remedy("renumber one of them"));
         });
-        into_.warn("read as one deck with its superelements, of which there are " +
-                   std::to_string(bulk_.superelements()));
+        into_.warn(formatted("read as one deck with its superelements, of which there are {}",
+                             bulk_.superelements()));
     }
 
     /// An element without a property has that of its own number. Where no card gives such properties, all

@@ -62,7 +62,7 @@ private:
         for (std::string_view word = next_word(line_); !word.empty(); word = next_word(line_))
             corners_.push_back(corner(word.substr(0, word.find('/'))));
         if (corners_.size() < 3)
-            fail("expected a face of three corners or more, found " + std::to_string(corners_.size()));
+            fail("expected a face of three corners or more, found {}", found(corners_.size()));
         if (label_ < 0) label_ = into_.add_region(++labels_, name_);
         into_.add_face(corners_, label_, cursor_);
     }
@@ -74,19 +74,22 @@ private:
         const auto count = static_cast<std::int64_t>(into_.points().size());
         const std::int64_t place = !value ? -1 : *value > 0 ? *value - 1 : count + *value;
         if (!value || *value == 0 || place < 0 || place >= count)
-            fail("expected the number of one of the " + std::to_string(count) + " points so far, found " +
-                 shown(word));
+            fail("expected the number of one of the {} points so far, found {}", count, found(shown(word)));
         return static_cast<Index>(place);
     }
 
     double coordinate(std::string_view word) const
     {
         const auto value = parse_real(word);
-        if (!value) fail("expected a finite coordinate, found " + shown(word));
+        if (!value) fail("expected a finite coordinate, found {}", found(shown(word)));
         return *value;
     }
 
-    [[noreturn]] void fail(const std::string& what) const { cursor_.fail_at(begin_, what); }
+    template <class... Arguments>
+    [[noreturn]] void fail(lacuna::Format<sizeof...(Arguments)> format, const Arguments&... arguments) const
+    {
+        cursor_.fail_at(begin_, format, arguments...);
+    }
 
     Cursor& cursor_;
     DeckBuilder& into_;

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/sections.h>
+#include <lacuna/io/detail/texts.h>
 #include <lacuna/io/detail/whole_folder.h>
 
 #include <algorithm>
@@ -95,10 +96,10 @@ private:
             const mesh::CellShapeInfo& info = mesh::shape_info(block.shape);
             if (info.dimension != 3 || block.count == 0) continue;
             if (info.nodes != info.corners)
-                throw InvalidInput("io.no_such_element", "polyMesh has no middle nodes, and " +
-                                                             std::to_string(block.count) + " cells have " +
-                                                             std::to_string(info.nodes) +
-                                                             " nodes each; sweep with order = 1");
+                throw InvalidInput(Message("io.no_such_element",
+                                           "polyMesh has no middle nodes, and {} cells have {} nodes each",
+                                           block.count, info.nodes)
+                                       .remedy("sweep with order = 1"));
             mesh::each_run(block.entities, 0, block.count,
                            [&](std::size_t first, std::size_t last, Index entity) {
                                const std::string name = group_of(view_.entities[index(entity)], "volume");
@@ -173,9 +174,9 @@ private:
                 while (end < row.size() && rising(found_[index(row[end])].corners) == rising(face.corners))
                     ++end;
                 if (end - k > 2)
-                    throw InvalidInput("io.not_conformal", "a face of cell " + std::to_string(face.cell + 1) +
-                                                               " is one of " + std::to_string(end - k) +
-                                                               " cells; two have a face in common at most");
+                    throw InvalidInput("io.not_conformal",
+                                       "a face of {} is one of {} cells; {} have a face in common at most",
+                                       numbered("cell", face.cell + 1), found(end - k), needed("two"));
                 // Faces were collected cell by cell and the sort kept that order: the owner comes first.
                 if (end - k == 2)
                     inner.push_back({face.cell, found_[index(row[k + 1])].cell, row[k]});
@@ -219,8 +220,9 @@ private:
             outside += known ? 1 : 0;
         }
         if (const std::size_t inside = skin.size() - outside; inside > 0)
-            notes.push_back(std::to_string(inside) + " quads and triangles that are no faces outside are not "
-                                                     "written: a polyMesh has patches there alone");
+            notes.push_back(formatted("{} quads and triangles that are no faces outside are not written: a "
+                                      "polyMesh has patches there alone",
+                                      inside));
         // Entities of one group form one patch; faces without a group come last.
         std::vector<std::pair<std::string, std::vector<Index>>> groups;
         const auto add = [&](const std::string& name, const std::vector<Index>& own) {
@@ -251,9 +253,9 @@ private:
 
 std::string head_of(const char* kind, const char* object, const std::string& note = {})
 {
-    return std::string("FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       ") + kind +
-           ";\n" + (note.empty() ? "" : "    note        \"" + note + "\";\n") +
-           "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
+    return formatted("FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {};\n{}    "
+                     "location    \"constant/polyMesh\";\n    object      {};\n}}\n\n",
+                     kind, note.empty() ? "" : formatted("    note        \"{}\";\n", note), object);
 }
 
 /// A list of `count` entries, one a line, each of at most `numbers` numbers.
@@ -287,10 +289,10 @@ char* put_label(char* out, Index label)
 std::string zones_text(const PolyMesh& mesh)
 {
     Words words;
-    std::string text = head_of("regIOobject", "cellZones") + std::to_string(mesh.zones.size()) + "\n(\n";
+    std::string text = formatted("{}{}\n(\n", head_of("regIOobject", "cellZones"), mesh.zones.size());
     for (const auto& [name, cells] : mesh.zones) {
-        text += words[name] + "\n{\n    type cellZone;\n    cellLabels List<label>\n" +
-                std::to_string(cells.count()) + "\n(\n";
+        text += formatted("{}\n{{\n    type cellZone;\n    cellLabels List<label>\n{}\n(\n", words[name],
+                          cells.count());
         cells.each(0, cells.count(), [&](std::size_t first, std::size_t last) {
             for (; first < last; ++first) text += std::to_string(first) + "\n";
         });
@@ -316,7 +318,8 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
 {
     WholeFolder folder(path, is_of_mesh);
     const PolyMesh mesh(view, context);
-    for (const std::string& note : mesh.notes) log_line(context, "note: " + path.text() + ": " + note);
+    for (const std::string& note : mesh.notes)
+        log_line(context, formatted("note: {}: {}", path.text(), note));
     const auto write = [&](const char* name, const std::vector<Section>& sections) {
         write_file(folder.file(name), sections, Sizes::varying, context);
     };
@@ -336,23 +339,21 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
                    *out++ = static_cast<char>('0' + corners);
                    return put_row(out, std::span(face).first(corners));
                })));
-    const std::string note = "nPoints:" + std::to_string(mesh.points.count()) +
-                             " nCells:" + std::to_string(mesh.cells) +
-                             " nFaces:" + std::to_string(mesh.faces.size()) +
-                             " nInternalFaces:" + std::to_string(mesh.neighbours.size());
+    const std::string note = formatted("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}",
+                                       mesh.points.count(), mesh.cells, mesh.faces.size(),
+                                       mesh.neighbours.size());
     const auto labels = [&](const char* name, const std::vector<Index>& of) {
         write(name, list(head_of("labelList", name, note), of.size(), 1,
                          each([&](std::size_t i, char* out) { return put_label(out, of[i]); })));
     };
     labels("owner", mesh.owners);
     labels("neighbour", mesh.neighbours);
-    std::string boundary = head_of("polyBoundaryMesh", "boundary") + std::to_string(mesh.patches.size()) +
-                           "\n(\n";
+    std::string boundary = formatted("{}{}\n(\n", head_of("polyBoundaryMesh", "boundary"),
+                                     mesh.patches.size());
     for (const PolyMesh::Patch& patch : mesh.patches)
-        boundary += "    " + patch.name +
-                    "\n    {\n        type            patch;\n        nFaces          " +
-                    std::to_string(patch.count) + ";\n        startFace       " +
-                    std::to_string(patch.first) + ";\n    }\n";
+        boundary += formatted("    {}\n    {{\n        type            patch;\n        nFaces          {};\n "
+                              "       startFace       {};\n    }}\n",
+                              patch.name, patch.count, patch.first);
     write("boundary", {{boundary + ")\n", 0, 0, {}}});
     if (mesh.zones.size() > 1) write("cellZones", {{zones_text(mesh), 0, 0, {}}});
     folder.commit();

@@ -16,9 +16,10 @@ namespace {
 
 [[noreturn]] void refuse_parts(int parts, std::size_t layers)
 {
-    throw InvalidInput("io.too_many_parts",
-                       "partitions = " + std::to_string(parts) + ": the mesh has " + std::to_string(layers) +
-                           " layers, and a part is one layer at least; ask for as many at most");
+    throw InvalidInput(Message("io.too_many_parts",
+                               "partitions = {}: the mesh has {} layers, and a part is one layer at least",
+                               found(parts), needed(layers))
+                           .remedy("ask for as many at most"));
 }
 
 /// How many parts each mesh is, where there are more parts than meshes: by its cells.

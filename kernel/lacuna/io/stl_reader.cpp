@@ -52,8 +52,8 @@ public:
         const std::string_view rest = cursor_.rest();
         if (std::ranges::any_of(rest, [](char c) { return c != 0 && c != '\n' && !is_blank(c); }))
             cursor_.fail_at(cursor_.position(),
-                            "expected a header of 80 bytes and a count of facets, found " +
-                                std::to_string(rest.size()) + " bytes more");
+                            "expected a header of 80 bytes and a count of facets, found {} bytes more",
+                            found(rest.size()));
     }
 
 private:
@@ -65,10 +65,9 @@ private:
             const std::uint64_t count = count_at(all.substr(at + kHeader)), begin = at + kHeader + 4;
             const std::uint64_t room = (all.size() - begin) / kFacet;
             if (count > room)
-                cursor_.fail_at(at + kHeader, "the header announces " + std::to_string(count) +
-                                                  " facets and the bytes after it hold " +
-                                                  std::to_string(room) +
-                                                  (at == 0 ? "" : ": it or a count before it is wrong"));
+                cursor_.fail_at(at + kHeader,
+                                "the header announces {} facets and the bytes after it hold {}{}", count,
+                                room, at == 0 ? "" : ": it or a count before it is wrong");
             at = begin + kFacet * count;
         }
     }

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/cell_shapes.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <array>
@@ -173,13 +174,13 @@ void check_skin(const mesh::HexMesh& mesh)
     if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
         !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
         !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
-        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; "
-                                          "every one needs one to be written");
+        throw InvalidInput("io.no_patch",
+                           "a quad of the skin belongs to no patch; every one needs one to be written");
     std::set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches)
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            throw InvalidInput("io.patch_tag", "the skin patch with tag " + std::to_string(patch.tag) +
-                                                   " must have a positive tag of its own");
+            throw InvalidInput("io.patch_tag", "the skin {} must have a positive tag of its own",
+                               numbered("patch", patch.tag));
 }
 
 std::shared_ptr<const MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,

@@ -82,15 +82,16 @@ public:
         }
         if (datasets == 0) cursor_.fail_at(0, "expected -1, which begins a dataset, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("node " + std::to_string(node + 1) + " of the file has the tag of one before");
+            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
         });
         for (const auto& [frame, position] : frames_used_)
             if (frames_turned_.contains(frame))
-                cursor_.fail_at(position, "the node is in coordinate system " + std::to_string(frame) +
-                                              ", which is not the global one; export the mesh in global "
-                                              "coordinates");
-        into_.resolve(
-            tags, [&](std::uint64_t place, const std::string& what) { cursor_.fail_at(place - 1, what); });
+                cursor_.fail_at(position,
+                                Message(kUnreadable, "the node is in {}, which is not the global one",
+                                        numbered("coordinate system", frame))
+                                    .remedy("export the mesh in global coordinates"));
+        into_.resolve(tags,
+                      [&](std::uint64_t place, const Message& why) { cursor_.fail_at(place - 1, why); });
         if (!text_.empty()) into_.deck().texts.push_back({DeckText::Place::cards, "", std::move(text_)});
         for (const auto& [dataset, text] : others_)
             into_.deck().texts.push_back({DeckText::Place::tail, "",
@@ -163,21 +164,20 @@ private:
 
     void expect_line(const char* what)
     {
-        if (!next_line()) cursor_.fail(std::string("the dataset ends where ") + what + " was expected");
+        if (!next_line()) cursor_.fail("the dataset ends where {} was expected", what);
     }
 
     void expect_numbers(std::size_t least, const char* what) const
     {
         if (numbers_.size() < least)
-            cursor_.fail("expected " + std::to_string(least) + " numbers of " + what + ", found " +
-                         std::to_string(numbers_.size()));
+            cursor_.fail("expected {} numbers of {}, found {}", needed(least), what, found(numbers_.size()));
     }
 
     /// A tag or a small number.
     Index whole(std::size_t at) const
     {
         const auto value = parse_integer<Index>(numbers_[at]);
-        if (!value) cursor_.fail("expected a whole number, found " + shown(numbers_[at]));
+        if (!value) cursor_.fail("expected a whole number, found {}", found(shown(numbers_[at])));
         return *value;
     }
 
@@ -193,7 +193,7 @@ private:
     void read_node(Index tag, std::size_t first)
     {
         expect_numbers(first + 3, "a node");
-        if (tag < 0) cursor_.fail("expected the tag of a node, found " + std::to_string(tag));
+        if (tag < 0) cursor_.fail("expected the tag of a node, found {}", found(tag));
         Vec3 p;
         for (std::size_t k = 0; k < 3; ++k)
             p[static_cast<Index>(k)] = cursor_.real_of(numbers_[first + k], Exponents::fortran);
@@ -209,23 +209,23 @@ private:
         const std::int64_t descriptor = cursor_.integer_of(numbers_[1]);
         const Index property = whole(2);
         const Index nodes = whole(values - 1);
-        if (nodes < 1) cursor_.fail("expected an element with nodes, found " + std::to_string(nodes));
+        if (nodes < 1) cursor_.fail("expected an element with nodes, found {}", found(nodes));
         if (unv_has_orientation(descriptor, dataset)) expect_line("a beam's orientation");
         const ElementKind kind = kind_of(descriptor);
         const std::size_t wanted = kind.nodes() * kind.step;
         if (index(nodes) < wanted)
-            cursor_.fail("expected " + std::to_string(wanted) + " nodes of an element " +
-                         std::to_string(descriptor) + ", found " + std::to_string(nodes));
+            cursor_.fail("expected {} nodes of an element {}, found {}", needed(wanted), descriptor,
+                         found(nodes));
         std::array<Index, 20> at{};
         const auto places = kind.shape ? unv_places(*kind.shape) : std::span<const std::uint8_t>();
         for (Index read = 0; read < nodes;) {
             expect_line("the nodes of an element");
             if (numbers_.size() > index(nodes - read))
-                cursor_.fail("expected " + std::to_string(nodes) + " nodes, found more");
+                cursor_.fail("expected {} nodes, found more", needed(nodes));
             for (std::size_t k = 0; k < numbers_.size(); ++k, ++read) {
                 const Index node = whole(k);
                 if (index(read) < wanted && node < 0)
-                    cursor_.fail("expected the tag of a node, found " + std::to_string(node));
+                    cursor_.fail("expected the tag of a node, found {}", found(node));
                 if (index(read) >= wanted || index(read) % kind.step != 0) continue;
                 const std::size_t place = index(read) / kind.step;
                 at[places.empty() ? place : places[place]] = node;
@@ -235,8 +235,7 @@ private:
             others_[dataset] += whole_.substr(position, cursor_.position() - position);
             return into_.pass_over("elements " + std::to_string(descriptor));
         }
-        if (tag < 0)
-            cursor_.fail_at(position, "expected the tag of an element, found " + std::to_string(tag));
+        if (tag < 0) cursor_.fail_at(position, "expected the tag of an element, found {}", found(tag));
         if (index(nodes) > wanted) into_.pass_over_nodes(std::to_string(descriptor), index(nodes) - wanted);
         into_.add_element(into_.block_of(*kind.shape, std::to_string(descriptor)), tag,
                           into_.region_of(property), {at.data(), kind.nodes()}, position + 1);
@@ -247,15 +246,15 @@ private:
         expect_numbers(dataset.count_at + 1, "a group");
         const Index number = whole(0);
         const Index count = whole(dataset.count_at);
-        if (count < 0) cursor_.fail("expected a count of entities, found " + std::to_string(count));
+        if (count < 0) cursor_.fail("expected a count of entities, found {}", found(count));
         if (!more_lines()) cursor_.fail("the dataset ends where the name of a group was expected");
         const std::string name(line_);
         std::vector<DeckTag> members[2]; // elements, nodes
         for (auto left = static_cast<std::size_t>(count); left > 0;) {
             expect_line("the entities of a group");
             if (numbers_.size() % dataset.values != 0 || numbers_.size() > left * dataset.values)
-                cursor_.fail("expected " + std::to_string(dataset.values) + " numbers of each of " +
-                             std::to_string(left) + " entities, found " + std::to_string(numbers_.size()));
+                cursor_.fail("expected {} numbers of each of {} entities, found {}", needed(dataset.values),
+                             left, found(numbers_.size()));
             for (std::size_t k = 0; k < numbers_.size(); k += dataset.values, --left)
                 if (const Index what = whole(k); what == kUnvElement || what == kUnvNode)
                     members[what == kUnvElement ? 0 : 1].push_back(whole(k + 1));

@@ -135,7 +135,7 @@ DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
         const std::string name = free_name(set.name, DeckFormat::unv, [&](const std::string& other) {
             return !same && std::ranges::any_of(names, [&](const auto& of) { return same_word(of, other); });
         });
-        if (name != set.name) file.notes.push_back("the set " + set.name + " is called " + name);
+        if (name != set.name) file.notes.push_back(formatted("the set {} is called {}", set.name, name));
         names.push_back(name);
         head += name + "\n";
         add_members(set, bulk, std::move(head), file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/vtk_writer.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/view_piece.h>
@@ -185,7 +186,7 @@ std::string_view end_of_place(VtuArray::Place place)
 
 std::string pvtu_head(const std::vector<VtuArray>& arrays, int ghosts)
 {
-    std::string text = opening("PUnstructuredGrid") + " GhostLevel=\"" + std::to_string(ghosts) + "\">\n";
+    std::string text = formatted("{} GhostLevel=\"{}\">\n", opening("PUnstructuredGrid"), ghosts);
     for (const auto& [place, word] : kPlaces) {
         if (place == VtuArray::Place::cells) continue;
         text.append("<P").append(word).append(end_of_place(place));
@@ -214,14 +215,13 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
     if (!view.lists.empty()) text += "<FieldData>\n";
     // As text: they are short, and more binary arrays are harder to order, see `order_behind()`.
     for (const auto& [name, values] : view.lists) {
-        text += "<DataArray type=\"Int32\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"" +
-                std::to_string(values.size()) + "\" format=\"ascii\">";
+        text += formatted("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
+                          escaped(name), values.size());
         for (const int value : values) text.append(" ").append(std::to_string(value));
         text += "</DataArray>\n";
     }
     if (!view.lists.empty()) text += "</FieldData>\n";
-    text.append("<Piece NumberOfPoints=\"").append(std::to_string(view.points));
-    text.append("\" NumberOfCells=\"").append(std::to_string(view.cells())).append("\">\n");
+    text += formatted("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", view.points, view.cells());
     const std::vector<std::size_t> order_of = order_behind(arrays);
     std::vector<std::size_t> offsets(arrays.size());
     std::vector<Section> sections(1);

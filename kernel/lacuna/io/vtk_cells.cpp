@@ -125,27 +125,25 @@ std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor)
 {
     if (!cells.types.empty() && cells.types.size() != cells.ends.size())
-        cursor.fail("expected a type for each of " + std::to_string(cells.ends.size()) + " cells, found " +
-                    std::to_string(cells.types.size()));
-    const auto fail = [&](std::size_t cell, const std::string& what) {
-        cursor.fail("cell " + std::to_string(cell + 1) + ": " + what);
-    };
+        cursor.fail("expected a type for each of {} cells, found {}", cells.ends.size(),
+                    found(cells.types.size()));
+    const auto name = [&](std::size_t cell) { return numbered("cell", cell + 1); };
     const Index count = cells.last_point - cells.first_point;
     const auto needs_points = [&](std::size_t cell, std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k)
             if (const Index point = cells.points[static_cast<std::size_t>(k)]; point < 0 || point >= count)
-                fail(cell, "expected one of " + std::to_string(count) + " points, found number " +
-                               std::to_string(point));
+                cursor.fail("{}: expected one of {} points, found number {}", name(cell), needed(count),
+                            found(point));
     };
     const auto begin_of = [&](std::size_t c) { return c == 0 ? std::int64_t(0) : cells.ends[c - 1]; };
     const auto size_of = [&](std::size_t c, const CellType& type) {
         const std::int64_t begin = begin_of(c), end = cells.ends[c];
         if (end < begin || end > static_cast<std::int64_t>(cells.points.size()))
-            fail(c, "expected its points to end between " + std::to_string(begin) + " and " +
-                        std::to_string(cells.points.size()) + ", found " + std::to_string(end));
+            cursor.fail("{}: expected its points to end between {} and {}, found {}", name(c), begin,
+                        cells.points.size(), found(end));
         if (end - begin < type.points)
-            fail(c, "expected " + std::to_string(type.points) + " points or more, found " +
-                        std::to_string(end - begin));
+            cursor.fail("{}: expected {} points or more, found {}", name(c), needed(type.points),
+                        found(end - begin));
         return end - begin;
     };
     std::vector<Index> node;
@@ -153,7 +151,7 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
         CellType type{0, cells.strips ? Kind::strip : Kind::polygon, 3};
         if (!cells.types.empty()) {
             const std::optional<CellType> known = find_type(cells.types[c]);
-            if (!known) fail(c, "the cell type " + std::to_string(cells.types[c]) + " is not known");
+            if (!known) cursor.fail("{}: the cell type {} is not known", name(c), cells.types[c]);
             type = *known;
         }
         // Cells of one type at a time; lists of corners one by one.

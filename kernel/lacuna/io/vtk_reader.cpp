@@ -18,13 +18,13 @@ public:
     {
         const std::string_view head = cursor_.line();
         if (!same_word(head.substr(0, 22), "# vtk DataFile Version"))
-            cursor_.fail("expected \"# vtk DataFile Version\", found " + shown(head));
+            cursor_.fail("expected \"# vtk DataFile Version\", found {}", found(shown(head)));
         into_.deck().version =
             parse_real(trimmed(head.substr(std::min<std::size_t>(22, head.size())))).value_or(0);
         cursor_.line(); // the title, any text
         const std::string_view coding = cursor_.word("ASCII or BINARY");
         if (!same_word(coding, "ASCII") && !same_word(coding, "BINARY"))
-            cursor_.fail("expected ASCII or BINARY, found " + shown(coding));
+            cursor_.fail("expected ASCII or BINARY, found {}", found(shown(coding)));
         cursor_.has_bytes = binary_ = same_word(coding, "BINARY");
         while (cursor_.more()) {
             const std::string_view word = cursor_.word();
@@ -46,8 +46,9 @@ private:
         if (same_word(word, "DATASET")) {
             const std::string_view kind = cursor_.word("a kind of data set");
             if (!same_word(kind, "POLYDATA") && !same_word(kind, "UNSTRUCTURED_GRID"))
-                cursor_.fail("expected DATASET POLYDATA or UNSTRUCTURED_GRID, found " + shown(kind) +
-                             "; write it as one of them");
+                cursor_.fail(Message(kUnreadable, "expected DATASET POLYDATA or UNSTRUCTURED_GRID, found {}",
+                                     found(shown(kind)))
+                                 .remedy("write it as one of them"));
         } else if (same_word(word, "POINTS")) {
             read_points();
         } else if (same_word(word, "POLYGONS") || same_word(word, "TRIANGLE_STRIPS")) {
@@ -68,7 +69,7 @@ private:
         } else if (same_word(word, "FIELD")) {
             skip_field();
         } else {
-            cursor_.fail("expected a section, as POINTS or CELLS, found " + shown(word));
+            cursor_.fail("expected a section, as POINTS or CELLS, found {}", found(shown(word)));
         }
     }
 
@@ -111,8 +112,8 @@ private:
             read_places(cursor_.word("a type of numbers"), values, points);
             if (!ends.empty() && ends.front() != 0) cursor_.fail("expected the first offset to be 0");
             if (!ends.empty() && ends.back() != static_cast<std::int64_t>(points.size()))
-                cursor_.fail("expected the last offset to be " + std::to_string(points.size()) + ", found " +
-                             std::to_string(ends.back()));
+                cursor_.fail("expected the last offset to be {}, found {}", points.size(),
+                             found(ends.back()));
             if (!ends.empty()) ends.erase(ends.begin());
             return;
         }
@@ -126,13 +127,13 @@ private:
         std::int64_t left = 0;
         for (std::uint64_t i = 0; i < values;) {
             left = number(i++);
-            if (left < 0) cursor_.fail("expected the length of a list, found " + std::to_string(left));
+            if (left < 0) cursor_.fail("expected the length of a list, found {}", found(left));
             ends.push_back(static_cast<std::int64_t>(points.size()) + left);
             for (; left > 0 && i < values; --left) points.push_back(place_of(number(i++)));
         }
         if (left != 0 || ends.size() != lists)
-            cursor_.fail("expected " + std::to_string(lists) + " lists in " + std::to_string(values) +
-                         " numbers, found " + std::to_string(ends.size()));
+            cursor_.fail("expected {} lists in {} numbers, found {}", needed(lists), values,
+                         found(ends.size()));
     }
 
     void take_cells()
@@ -170,7 +171,9 @@ private:
     void skip_string()
     {
         if (cursor_.at_end()) cursor_.fail("the file ends where a text was expected");
-        if (binary_) cursor_.fail("texts in binary files are not read; write the file as text");
+        if (binary_)
+            cursor_.fail(
+                Message(kUnreadable, "texts in binary files are not read").remedy("write the file as text"));
         cursor_.line();
     }
 
@@ -178,7 +181,7 @@ private:
     Index place_of(std::int64_t value) const
     {
         const auto place = static_cast<Index>(value);
-        if (place != value) cursor_.fail("expected the number of a point, found " + std::to_string(value));
+        if (place != value) cursor_.fail("expected the number of a point, found {}", found(value));
         return place;
     }
 
@@ -213,7 +216,8 @@ private:
     const VtkType& needed_type(std::string_view name) const
     {
         const VtkType* type = vtk_type(name);
-        if (type == nullptr) cursor_.fail("expected a type of numbers, as float, found " + shown(name));
+        if (type == nullptr)
+            cursor_.fail("expected a type of numbers, as float, found {}", found(shown(name)));
         return *type;
     }
 
@@ -245,8 +249,7 @@ private:
     template <class Take>
     void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
     {
-        if (type.wholes == nullptr)
-            cursor_.fail("expected whole numbers, found type " + std::string(type.legacy));
+        if (type.wholes == nullptr) cursor_.fail("expected whole numbers, found type {}", type.legacy);
         for (std::uint64_t i = 0; i < count; ++i) take(cursor_.text_integer());
     }
 

@@ -74,7 +74,7 @@ public:
             if (tag.name == "VTKFile")
                 read_head(tag);
             else if (!headed_)
-                cursor_.fail("expected <VTKFile>, found <" + std::string(tag.name.substr(0, 40)) + ">");
+                cursor_.fail("expected <VTKFile>, found <{}>", found(tag.name.substr(0, 40)));
             else if (tag.name == "Piece")
                 pieces_.push_back(
                     {count(tag, "NumberOfPoints"), count(tag, "NumberOfCells"), {}, {}, {}, {}});
@@ -150,14 +150,15 @@ private:
     {
         while (!(text = trimmed(text)).empty()) {
             const std::size_t equals = text.find('=');
-            if (equals == std::string_view::npos) cursor_.fail("expected an attribute, found " + shown(text));
+            if (equals == std::string_view::npos)
+                cursor_.fail("expected an attribute, found {}", found(shown(text)));
             const std::string_view key = trimmed(text.substr(0, equals));
             text = trimmed(text.substr(equals + 1));
             const std::size_t end = text.empty() || (text[0] != '"' && text[0] != '\'')
                                         ? std::string_view::npos
                                         : text.find(text[0], 1);
             if (end == std::string_view::npos)
-                cursor_.fail("expected a value in quotes, found " + shown(text));
+                cursor_.fail("expected a value in quotes, found {}", found(shown(text)));
             tag.attributes.emplace_back(key, text.substr(1, end - 1));
             text.remove_prefix(end + 1);
         }
@@ -166,14 +167,15 @@ private:
     void read_head(const XmlTag& tag)
     {
         if (tag["type"] != "UnstructuredGrid")
-            cursor_.fail("expected type=\"UnstructuredGrid\", found " + shown(tag["type"]));
+            cursor_.fail("expected type=\"UnstructuredGrid\", found {}", found(shown(tag["type"])));
         big_ = tag["byte_order"] == "BigEndian";
         if (!big_ && tag["byte_order"] != "LittleEndian" && !tag["byte_order"].empty())
-            cursor_.fail("expected byte_order LittleEndian or BigEndian, found " + shown(tag["byte_order"]));
+            cursor_.fail("expected byte_order LittleEndian or BigEndian, found {}",
+                         found(shown(tag["byte_order"])));
         compressor_ = tag["compressor"];
         const std::string_view header = tag["header_type"].empty() ? "UInt32" : tag["header_type"];
         if (header != "UInt32" && header != "UInt64")
-            cursor_.fail("expected header_type UInt32 or UInt64, found " + shown(header));
+            cursor_.fail("expected header_type UInt32 or UInt64, found {}", found(shown(header)));
         header_ = vtk_type(header);
         headed_ = true;
     }
@@ -182,7 +184,7 @@ private:
     {
         const auto value = parse_integer<Index>(trimmed(tag[attribute]));
         if (!value || *value < 0)
-            cursor_.fail("expected a count " + std::string(attribute) + ", found " + shown(tag[attribute]));
+            cursor_.fail("expected a count {}, found {}", attribute, found(shown(tag[attribute])));
         return static_cast<std::uint64_t>(*value);
     }
 
@@ -196,7 +198,7 @@ private:
         if (section_.empty() || pieces_.empty()) return;
         if (array.format == "appended") {
             const auto offset = parse_integer<std::uint64_t>(trimmed(tag["offset"]));
-            if (!offset) cursor_.fail("expected an offset, found " + shown(tag["offset"]));
+            if (!offset) cursor_.fail("expected an offset, found {}", found(shown(tag["offset"])));
             array.offset = *offset;
         }
         Piece& piece = pieces_.back();
@@ -214,7 +216,7 @@ private:
     {
         base64_ = tag["encoding"] == "base64";
         if (!base64_ && tag["encoding"] != "raw")
-            cursor_.fail("expected encoding raw or base64, found " + shown(tag["encoding"]));
+            cursor_.fail("expected encoding raw or base64, found {}", found(shown(tag["encoding"])));
         if (!cursor_.skip_past("_")) cursor_.fail("expected _ before the appended data");
         appended_ = cursor_.rest();
     }
@@ -262,7 +264,7 @@ private:
     std::int64_t whole_of(double value, const Array& array, const char* name) const
     {
         if (value != std::floor(value) || std::abs(value) > kMostWhole)
-            cursor_.fail_at(array.position, std::string("expected whole numbers as ") + name);
+            cursor_.fail_at(array.position, "expected whole numbers as {}", name);
         return static_cast<std::int64_t>(value);
     }
 
@@ -294,7 +296,7 @@ private:
     {
         constexpr const char* kName = "connectivity";
         const auto refuse = [&](std::int64_t value) {
-            cursor_.fail_at(array.position, "expected the number of a point, found " + std::to_string(value));
+            cursor_.fail_at(array.position, "expected the number of a point, found {}", found(value));
         };
         const auto take = [&](double value) {
             const std::int64_t number = whole_of(value, array, kName);
@@ -313,35 +315,39 @@ private:
     template <class Take, class Run>
     void each_run(const Array& array, const char* name, std::uint64_t count, const Take& take, const Run& run)
     {
-        const auto fail = [&](const std::string& what) {
-            cursor_.fail_at(array.position, std::string(name) + ": " + what);
+        const auto fail = [&]<class... Arguments>(lacuna::Format<sizeof...(Arguments)> format,
+                                                  const Arguments&... arguments) {
+            cursor_.fail_at(array.position, Message(kUnreadable, format, arguments...).about(name));
         };
         if (count == 0) return;
         if (array.type == nullptr) fail("expected an array of numbers, found none");
         if (array.format == "ascii") {
             Cursor text = cursor_.part(array.text);
             for (std::uint64_t i = 0; i < count; ++i) take(text.text_real());
-            if (text.more()) fail("expected " + std::to_string(count) + " numbers, found more");
+            if (text.more()) fail("expected {} numbers, found more", needed(count));
             return;
         }
         if (array.format != "binary" && array.format != "appended")
-            fail("expected format ascii, binary or appended, found " + shown(array.format));
+            fail("expected format ascii, binary or appended, found {}", found(shown(array.format)));
         const bool appended = array.format == "appended";
         if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
         const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
+        if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor")
+            cursor_.fail_at(array.position,
+                            Message(kUnreadable, "data compressed by {} are not read", shown(compressor_))
+                                .remedy("write the file with another compressor or none")
+                                .about(name));
         if (!compressor_.empty()) return each_compressed(array, from, appended && !base64_, count, fail, run);
         // No count is believed beyond what the text can hold.
-        if (count > from.size()) fail("the file is cut off: expected " + std::to_string(count) + " numbers");
-        const std::uint64_t needed = header_->bytes + count * array.type->bytes;
-        const std::string decoded = appended && !base64_ ? std::string() : from_base64(from, needed);
+        if (count > from.size()) fail("the file is cut off: expected {} numbers", needed(count));
+        const std::uint64_t least = header_->bytes + count * array.type->bytes;
+        const std::string decoded = appended && !base64_ ? std::string() : from_base64(from, least);
         const std::string_view bytes = appended && !base64_ ? from : std::string_view(decoded);
-        if (bytes.size() < needed)
-            fail("the file is cut off: expected " + std::to_string(needed) + " bytes, found " +
-                 std::to_string(bytes.size()));
+        if (bytes.size() < least)
+            fail("the file is cut off: expected {} bytes, found {}", needed(least), found(bytes.size()));
         const std::uint64_t announced = header_number(bytes.data());
         if (announced != count * array.type->bytes)
-            fail("expected " + std::to_string(count * array.type->bytes) + " bytes, found " +
-                 std::to_string(announced));
+            fail("expected {} bytes, found {}", needed(count * array.type->bytes), found(announced));
         run(bytes.data() + header_->bytes, count);
     }
 
@@ -358,9 +364,6 @@ private:
     void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
                          const Fail& fail, const Run& run)
     {
-        if (compressor_ != "vtkZLibDataCompressor")
-            fail("data compressed by " + shown(compressor_) +
-                 " are not read; write the file with another compressor or none");
         const std::size_t width = header_->bytes;
         const auto decoded = [&](std::uint64_t most) {
             return raw ? std::string(from.substr(0, most)) : from_base64(from, most);
@@ -373,27 +376,25 @@ private:
         const std::uint64_t blocks = whole(head, 0);
         const std::uint64_t size = whole(head, 1);
         const std::uint64_t last = whole(head, 2);
-        if (blocks > from.size()) fail("the file is cut off: expected " + std::to_string(blocks) + " blocks");
+        if (blocks > from.size()) fail("the file is cut off: expected {} blocks", needed(blocks));
         const std::string list = decoded((3 + blocks) * width);
         std::uint64_t packed = (3 + blocks) * width;
         for (std::uint64_t b = 0; b < blocks; ++b) {
             const std::uint64_t length = whole(list, 3 + b);
-            if (length > from.size())
-                fail("the file is cut off: a block has " + std::to_string(length) + " bytes");
+            if (length > from.size()) fail("the file is cut off: a block has {} bytes", length);
             packed += length;
         }
         const std::string bytes = raw ? std::string() : decoded(packed);
         const std::string_view all = raw ? from.substr(0, packed) : std::string_view(bytes);
         if (all.size() < packed)
-            fail("the file is cut off: expected " + std::to_string(packed) + " bytes, found " +
-                 std::to_string(all.size()));
+            fail("the file is cut off: expected {} bytes, found {}", needed(packed), found(all.size()));
         std::string left; // bytes of a value that goes on in the next block
         std::uint64_t taken = 0;
         for (std::uint64_t b = 0, at = (3 + blocks) * width; b < blocks; ++b) {
             const std::uint64_t length = whole(list, 3 + b);
             const std::uint64_t wanted = b + 1 == blocks && last > 0 ? last : size;
             const auto plain = inflate(all.substr(at, length), wanted);
-            if (!plain) fail("block " + std::to_string(b + 1) + " of the compressed data is damaged");
+            if (!plain) fail("block {} of the compressed data is damaged", b + 1);
             at += length;
             left += *plain;
             const std::uint64_t here = std::min<std::uint64_t>(count - taken,
@@ -404,8 +405,8 @@ private:
             if (taken == count && !left.empty()) break;
         }
         if (taken != count || !left.empty())
-            fail("expected " + std::to_string(count) + " numbers in the compressed data, found " +
-                 (taken == count ? "more" : std::to_string(taken)));
+            fail("expected {} numbers in the compressed data, found {}", needed(count),
+                 found(taken == count ? "more" : std::to_string(taken)));
     }
 
     static constexpr double kMostWhole = 9007199254740992.0; // 2^53: whole numbers a double holds

@@ -38,9 +38,9 @@ fs::path resolved(const std::string& path)
 
 [[noreturn]] void refuse_folder(const std::string& path, int error)
 {
-    throw InvalidInput("io.no_folder", "the folder '" + path +
-                                           "' cannot be used: " + std::generic_category().message(error) +
-                                           "; make it first, or name another place");
+    throw InvalidInput(Message("io.no_folder", "the folder '{}' cannot be used: {}", path,
+                               std::generic_category().message(error))
+                           .remedy("make it first, or name another place"));
 }
 
 /// What names beside the place begin with, before the number of the process. Files are `unfinished` that are
@@ -57,7 +57,7 @@ std::string replacing_prefix(const std::string& name) { return prefix_beside(nam
 
 std::string numbered(const std::string& prefix, std::uint64_t number)
 {
-    return prefix + std::to_string(::getpid()) + "-" + std::to_string(number);
+    return formatted("{}{}-{}", prefix, ::getpid(), number);
 }
 
 /// A number that no name had before it.
@@ -119,7 +119,7 @@ std::shared_ptr<const Folder> Folder::inside(const std::string& name) const
 OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const std::string& path)
 {
     const auto outside = [&](const std::string& why) -> InvalidInput {
-        return {"io.outside", "'" + path + "' is not below " + folder->path() + ": " + why};
+        return {"io.outside", "'{}' is not below {}: {}", path, folder->path(), why};
     };
     fs::path inside = fs::path(path);
     if (inside.is_absolute()) {
@@ -136,7 +136,7 @@ OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const 
             struct stat status = {};
             if (::fstatat(result.folder_->descriptor(), part->c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
                 S_ISLNK(status.st_mode))
-                throw outside("'" + part->string() + "' is a link");
+                throw outside(formatted("'{}' is a link", part->string()));
             result.folder_ = result.folder_->inside(part->string());
         }
     }
@@ -158,8 +158,9 @@ std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
     const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
     std::error_code ignored;
     if (!fs::is_directory(parent, ignored))
-        throw InvalidInput("io.no_folder", "cannot write '" + path_ + "': there is no folder '" +
-                                               parent.string() + "'; make it first, or name another place");
+        throw InvalidInput(
+            Message("io.no_folder", "cannot write '{}': there is no folder '{}'", path_, parent.string())
+                .remedy("make it first, or name another place"));
     return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
 }
 
@@ -172,9 +173,10 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
                                   AT_SYMLINK_NOFOLLOW) == 0;
     if (!exists && errno != ENOENT) fail(errno); // too long a name, a folder that may not be searched
     if (name_.empty() || (exists && S_ISDIR(before.st_mode)))
-        throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is a folder; add a file name");
+        throw InvalidInput(
+            Message("io.not_a_file", "cannot write '{}': it is a folder", path_).remedy("add a file name"));
     if (exists && !S_ISREG(before.st_mode))
-        throw InvalidInput("io.not_a_file", "cannot write '" + path_ + "': it is not a plain file");
+        throw InvalidInput("io.not_a_file", "cannot write '{}': it is not a plain file", path_);
     if (naming == Naming::none) open_unnamed();
     if (descriptor_ < 0) open_named();
     if (exists && ::fchmod(descriptor_, before.st_mode & 07777) != 0) fail(errno);
@@ -243,19 +245,18 @@ WholeFile::~WholeFile()
 
 std::string WholeFile::unfinished_path() const
 {
-    if (unfinished_.empty())
-        return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
+    if (unfinished_.empty()) return formatted("/proc/{}/fd/{}", ::getpid(), descriptor_);
     return (fs::path(folder_->path()) / unfinished_).string();
 }
 
 void WholeFile::fail(int error)
 {
-    std::string hint;
-    if (error == ENOSPC || error == EDQUOT || error == EFBIG) hint = "; make room, or name another disk";
-    if (error == EMFILE) hint = "; ask for fewer partitions";
-    throw BackendError("io.write_failed", "cannot write '" + path_ +
-                                              "': " + std::generic_category().message(error) + hint +
-                                              ". Nothing was left behind");
+    Message failed("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
+                   std::generic_category().message(error));
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+        failed = std::move(failed).remedy("make room, or name another disk");
+    if (error == EMFILE) failed = std::move(failed).remedy("ask for fewer partitions");
+    throw BackendError(std::move(failed));
 }
 
 void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
@@ -316,7 +317,7 @@ void WholeFile::publish_unnamed()
     // What writing did not tell, closing does: this asks before anything is in its place.
     const int other = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
     if (other >= 0 && ::close(other) != 0) fail(errno);
-    const std::string source = "/proc/self/fd/" + std::to_string(descriptor_);
+    const std::string source = formatted("/proc/self/fd/{}", descriptor_);
     const auto link_as = [&](const std::string& name) {
         return ::linkat(AT_FDCWD, source.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) ==
                0;

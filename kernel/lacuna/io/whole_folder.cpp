@@ -39,14 +39,14 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
     : path_(path.text())
 {
     std::tie(folder_, name_) = path.place();
-    const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("io.not_replaced", "cannot write '" + path_ + "': " + why);
-    };
-    if (name_.empty()) refuse("it has no name");
+    if (name_.empty()) throw InvalidInput("io.not_replaced", "cannot write '{}': it has no name", path_);
     struct stat before = {};
     if (::fstatat(folder_->descriptor(), name_.c_str(), &before, AT_SYMLINK_NOFOLLOW) == 0) {
         replaces_ = true;
-        if (!S_ISDIR(before.st_mode)) refuse("it is there and no folder; remove it, or name another place");
+        if (!S_ISDIR(before.st_mode))
+            throw InvalidInput(
+                Message("io.not_replaced", "cannot write '{}': it is there and no folder", path_)
+                    .remedy("remove it, or name another place"));
         for (const std::string& name : names_in(folder_->descriptor(), name_)) {
             struct stat status = {};
             const std::string inside = name_ + "/" + name;
@@ -54,15 +54,17 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
                                            AT_SYMLINK_NOFOLLOW) == 0 &&
                                  S_ISREG(status.st_mode);
             if (!is_file || !is_own(name))
-                refuse("the folder is there and holds '" + name +
-                       "', which would be lost; move that away, or name another place");
+                throw InvalidInput(
+                    Message("io.not_replaced",
+                            "cannot write '{}': the folder is there and holds '{}', which would be lost",
+                            path_, name)
+                        .remedy("move that away, or name another place"));
         }
     } else if (errno != ENOENT) {
         fail(errno);
     }
     for (int attempt = 0; unfinished_.empty(); ++attempt) {
-        const std::string name = "." + name_ + ".unfinished-" + std::to_string(::getpid()) + "-" +
-                                 std::to_string(attempt);
+        const std::string name = formatted(".{}.unfinished-{}-{}", name_, ::getpid(), attempt);
         if (::mkdirat(folder_->descriptor(), name.c_str(), 0777) == 0)
             unfinished_ = name;
         else if (errno != EEXIST)
@@ -116,9 +118,8 @@ void WholeFolder::remove_unfinished() noexcept
 
 void WholeFolder::fail(int error) const
 {
-    throw BackendError("io.write_failed", "cannot write '" + path_ +
-                                              "': " + std::generic_category().message(error) +
-                                              ". Nothing was left behind");
+    throw BackendError("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
+                       std::generic_category().message(error));
 }
 
 } // namespace lacuna::io

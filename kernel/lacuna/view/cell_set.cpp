@@ -25,7 +25,7 @@ bool is_of_void(const std::string& group)
 
 std::string counted(std::size_t count, const std::string& what)
 {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : what.ends_with('x') ? "es" : "s");
+    return formatted("{} {}{}", count, what, count == 1 ? "" : what.ends_with('x') ? "es" : "s");
 }
 
 std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
@@ -150,7 +150,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             std::string name;
             if (first) {
                 if (region >= 0) name = deck.regions[index(region)].name;
-                if (name.empty()) name = "region " + std::to_string(found.regions.size() + 1);
+                if (name.empty()) name = formatted("region {}", found.regions.size() + 1);
                 at->second = of_name.try_emplace(name, found.regions.size()).first->second;
             }
             if (at->second == found.regions.size()) {
@@ -176,9 +176,9 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
         }
     }
     if (found.regions.empty())
-        throw InvalidInput("view.no_solids", "view: " + deck.path +
-                                                 " has no solids, so there are no cells to show; use "
-                                                 "show = \"faces\"");
+        throw InvalidInput(
+            Message("view.no_solids", "view: {} has no solids, so there are no cells to show", deck.path)
+                .remedy("use show = \"faces\""));
     check_cancelled(context);
 
     const SetsOfSides sets(deck);

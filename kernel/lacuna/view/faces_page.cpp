@@ -2,6 +2,7 @@
 #include <lacuna/view/page.h>
 
 #include <lacuna/closure/shared/model_facts.h>
+#include <lacuna/core/message.h>
 #include <lacuna/topology/shared/use_places.h>
 #include <lacuna/view/detail/base64.h>
 #include <lacuna/view/detail/page_file.h>
@@ -192,18 +193,18 @@ void write_page(const Model& model, const io::OutputPath& path, const PageOption
                 const RunContext& context)
 {
     write_faces(model, closure::model_facts(model, context), nullptr,
-                {std::to_string(model.faces.size()) + " faces"}, path, options, context);
+                {formatted("{} faces", model.faces.size())}, path, options, context);
 }
 
 void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, const PageOptions& options,
                 const RunContext& context)
 {
     const std::vector<EdgeId> free = topology::free_edges(volume);
-    std::vector<std::string> facts{std::to_string(volume.model.faces.size()) + " faces"};
+    std::vector<std::string> facts{formatted("{} faces", volume.model.faces.size())};
     if (free.empty())
         facts.emplace_back("sealed");
     else
-        facts.push_back("class " + std::string(topology::to_string(topology::classify(volume).value)));
+        facts.push_back(formatted("class {}", topology::to_string(topology::classify(volume).value)));
     closure::ModelFacts found;
     found.faces = topology::face_facts(volume.model);
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f)

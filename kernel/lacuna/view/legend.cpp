@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/view/detail/legend.h>
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/view/detail/stroke_font.h>
 
@@ -35,8 +36,7 @@ std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
     for (std::size_t k = 0; k < keys.size(); ++k) {
         if (rows.empty() || used + width_of(keys[k]) > wide) {
             if (rows.size() == kRows) {
-                Key rest{
-                    {255, 255, 255}, "and " + std::to_string(keys.size() - k + 1) + " more", false, true};
+                Key rest{{255, 255, 255}, formatted("and {} more", keys.size() - k + 1), false, true};
                 rows.back().back() = rest; // replaces the last key
                 break;
             }

@@ -272,16 +272,15 @@ void check(const PictureOptions& options)
     const std::pair<const char*, int> lengths[] = {{"width", options.width}, {"height", options.height}};
     for (const auto& [name, length] : lengths)
         if (length < kLeast || length > kMost)
-            throw InvalidInput("view.picture_size", std::string("picture: option '") + name +
-                                                        "' must be 16 to 16384 pixels, found " +
-                                                        std::to_string(length));
+            throw InvalidInput("view.picture_size",
+                               "picture: option '{}' must be 16 to 16384 pixels, found {}", name,
+                               found(length));
     if (!(options.direction.norm() > 0) || !options.direction.allFinite())
-        throw InvalidInput("view.direction",
-                           "picture: option 'direction' has zero length; give a vector that is not zero");
+        throw InvalidInput(Message("view.direction", "picture: option 'direction' has zero length")
+                               .remedy("give a vector that is not zero"));
     if (options.cut && (!(options.cut->normal.norm() > 0) || !options.cut->normal.allFinite()))
-        throw InvalidInput(
-            "view.direction",
-            "picture: the normal of option 'cut' has zero length; give a vector that is not zero");
+        throw InvalidInput(Message("view.direction", "picture: the normal of option 'cut' has zero length")
+                               .remedy("give a vector that is not zero"));
 }
 
 } // namespace

@@ -155,18 +155,19 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
     for (const Region& region : regions) most = std::max(most, region.mesh->layers);
     const auto [from, to] = *options.layers;
     if (from < 1 || to < from || from > most)
-        throw InvalidInput("view.layers", "picture: option 'layers' is " + std::to_string(from) + " to " +
-                                              std::to_string(to) + ", but the mesh has layers 1 to " +
-                                              std::to_string(most));
+        throw InvalidInput("view.layers",
+                           "picture: option 'layers' is {} to {}, but the mesh has layers 1 to {}",
+                           found(from), found(to), needed(most));
 }
 
 std::string title_of(std::span<const Region> regions)
 {
     std::size_t cells = 0;
     for (const Region& region : regions) cells += region.mesh->cell_count();
-    if (regions.size() > 1) return counted(regions.size(), "region") + ", " + counted(cells, "cell");
+    if (regions.size() > 1)
+        return formatted("{}, {}", counted(regions.size(), "region"), counted(cells, "cell"));
     const auto layers = static_cast<std::size_t>(regions.front().mesh->layers);
-    return regions.front().name + ": " + counted(cells, "cell") + ", " + counted(layers, "layer");
+    return formatted("{}: {}, {}", regions.front().name, counted(cells, "cell"), counted(layers, "layer"));
 }
 
 /// Whether sides inside the volume may be visible.
@@ -203,7 +204,7 @@ Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& co
             for (std::size_t p = 0; p < own.patches.size(); ++p) {
                 const ShownPatch& patch = own.patches[p];
                 if (patch.quads == 0) continue;
-                const std::string name = patch.groups.empty() ? "patch " + std::to_string(patch.tag)
+                const std::string name = patch.groups.empty() ? formatted("patch {}", patch.tag)
                                                               : full_list(patch.groups, std::identity());
                 legend.keys.push_back({kind_colour(own.first_patch + p), name, patch.made_void});
             }
@@ -250,8 +251,8 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     if (!options.edges)
         for (DrawnSide& side : scene.sides) side.hidden = 15;
     if (scene.sides.empty())
-        throw InvalidInput("view.empty", "picture: option 'cut' hides all cells; reverse its normal or "
-                                         "move its point");
+        throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
+                               .remedy("reverse its normal or move its point"));
     scene.legend = legend_of(regions, colours, options);
     if (options.colour == ColourBy::quality) scene.legend.low = quality_low(least);
     if (options.colour == ColourBy::layer) scene.legend.high = layers;
@@ -275,9 +276,9 @@ Legend legend_of(const topology::Model& model, const std::vector<topology::Role>
     Legend legend;
     legend.title = options.title;
     if (legend.title.empty())
-        legend.title = counted(given, "given face") +
-                       (closed > 0 ? ", " + std::to_string(closed) + " void" : "") + ", " +
-                       counted(free, "free edge");
+        legend.title = formatted("{}{}, {}", counted(given, "given face"),
+                                 closed > 0 ? formatted(", {} void", closed) : "",
+                                 counted(free, "free edge"));
     if (roles == nullptr) {
         legend.keys.push_back({kGiven, "given"});
     } else {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/types.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <bit>
 #include <charconv>
@@ -66,6 +68,9 @@ constexpr bool is_index(std::uint64_t count)
 /// Text from a file as a message may show it: in quotes, 40 characters at most, what is not printable as '?'.
 std::string shown(std::string_view text);
 
+/// The code of all errors in the text or the bytes of a file.
+inline constexpr const char* kUnreadable = "io.unreadable";
+
 /// Reads lines, words and values, and never beyond the end. Messages name the file and the line, in binary
 /// parts the byte, of what was read last.
 class Cursor {
@@ -126,9 +131,20 @@ public:
     /// cost memory. @param bytes  of a record in a binary file. @param values  of a record in a text file.
     std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const;
 
-    /// @throw InvalidInput "io.unreadable"
-    [[noreturn]] void fail(const std::string& what) const { fail_at(last_, what); }
-    [[noreturn]] void fail_at(std::size_t position, const std::string& what) const;
+    /// @throw InvalidInput "io.unreadable" about the file and the line or byte
+    [[noreturn]] void fail(const Message& why) const { fail_at(last_, why); }
+    [[noreturn]] void fail_at(std::size_t position, const Message& why) const;
+    template <class... Arguments>
+    [[noreturn]] void fail(lacuna::Format<sizeof...(Arguments)> format, const Arguments&... arguments) const
+    {
+        fail_at(last_, format, arguments...);
+    }
+    template <class... Arguments>
+    [[noreturn]] void fail_at(std::size_t position, lacuna::Format<sizeof...(Arguments)> format,
+                              const Arguments&... arguments) const
+    {
+        fail_at(position, Message(kUnreadable, format, arguments...));
+    }
 
 private:
     template <class Value>

@@ -187,9 +187,9 @@ void DeckBuilder::resolve(const TagPlaces& nodes, const Fail& fail)
             if (node == -1) continue;
             const Index place = nodes.find(node);
             if (place < 0)
-                fail(places_[b][i / per], block.type + " " + std::to_string(block.tags[i / per]) +
-                                              ": names node " + std::to_string(node) +
-                                              ", which is not there");
+                fail(places_[b][i / per],
+                     Message(kUnreadable, "{} of type {} names {}, which is not there",
+                             numbered("element", block.tags[i / per]), block.type, numbered("node", node)));
             node = place;
         }
     }

@@ -19,7 +19,12 @@ struct DeckPlace {
     std::uint64_t file = 0; ///< 0: the deck itself, then those included as they are met
 
     /// @throw InvalidInput "io.unreadable"
-    [[noreturn]] void fail(const std::string& what) const { cursor->fail_at(position, what); }
+    template <class... Arguments>
+    [[noreturn]] void fail(lacuna::Format<sizeof...(Arguments)> format, const Arguments&... arguments) const
+    {
+        cursor->fail_at(position, format, arguments...);
+    }
+    [[noreturn]] void fail(const Message& why) const { cursor->fail_at(position, why); }
     /// As one number above 0.
     [[nodiscard]] std::uint64_t number() const { return (file << kPositionBits | position) + 1; }
     static constexpr int kPositionBits = 44; // files of up to 16 TB

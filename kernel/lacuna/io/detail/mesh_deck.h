@@ -56,6 +56,9 @@ Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options
 Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
                        bool interfaces, std::vector<BulkPlace>& places, const RunContext& context);
 
+/// The face of a patch of the skin, as messages name it.
+NamedEntity entity_of(const mesh::SkinPatch& patch);
+
 /// The deck's middle nodes that are the mesh's on the sides they share.
 /// @param matched  quads of the skin that are faces of the deck's elements.
 /// @param points   of each corner of the mesh the deck's point, -1: none; out: of the middle nodes too.

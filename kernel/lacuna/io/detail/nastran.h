@@ -30,7 +30,12 @@ struct Card {
     [[nodiscard]] Vec3 point(std::size_t first) const;
     /// Fields from `first` on as one text, apart by commas; without blank ones at the end.
     [[nodiscard]] std::string text(std::size_t first) const;
-    [[noreturn]] void fail(const std::string& what) const { place.fail(name + ": " + what); }
+    [[noreturn]] void fail(const Message& why) const { place.fail(why.about(name)); }
+    template <class... Arguments>
+    [[noreturn]] void fail(lacuna::Format<sizeof...(Arguments)> format, const Arguments&... arguments) const
+    {
+        fail(Message(kUnreadable, format, arguments...));
+    }
 };
 
 /// What becomes of a card: its fields are read, its lines go into the text that is kept, or both.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/list_text.h>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -12,6 +14,9 @@
 
 /// Lines of texts, and lists in messages. Internal to this folder.
 namespace lacuna::io {
+
+/// An entity of a file or a mesh for a message.
+NamedEntity numbered(const char* kind, std::integral auto tag) { return {kind, static_cast<long long>(tag)}; }
 
 /// "a, b, c and 4 more"
 inline std::string listed(const std::vector<std::string>& names)
