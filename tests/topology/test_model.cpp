@@ -312,9 +312,12 @@ TEST_CASE("an edge of three faces is refused, and edge and faces are named")
         FAIL("three faces at an edge were taken");
     } catch (const InvalidInput& error) {
         CHECK(error.code() == "topology.not_manifold");
-        const std::string what = error.what();
-        for (const char* word : {"left", "right", "fin", "edge "})
-            CHECK(what.find(word) != std::string::npos);
+        std::set<std::string> named;
+        for (const NamedEntity& entity : error.message().entities())
+            named.insert(entity.kind == "face" ? entity.name : entity.kind);
+        CHECK(named == std::set<std::string>{"left", "right", "fin", "edge", "vertex"});
+        CHECK(error.message().found() == std::vector<MessageValue>{3LL});
+        CHECK(error.message().needed() == std::vector<MessageValue>{2LL});
     }
 }
 

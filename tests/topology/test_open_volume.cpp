@@ -213,7 +213,8 @@ TEST_CASE("a gap beside a wall is named with its width and with a tolerance that
             open_volume(model, whole.roles);
         } catch (const InvalidInput& error) {
             CHECK(error.code() == "topology.wall_apart");
-            message = error.what();
+            CHECK(error.message().found() == std::vector<MessageValue>{model.tolerance});
+            message = error.message().remedy();
         }
         CAPTURE(message);
         const std::size_t at = message.find("tolerance = ");

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <string>
 #include <tuple>
 
 namespace lacuna::geometry {
@@ -90,8 +89,9 @@ void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, d
     for (const auto& [round, key, p] : order) {
         const Index holder = locate(at(p), last);
         if (holder < 0 || !find_cavity(at(p), holder, cavity)) {
-            throw InvalidInput("geometry.point_twice", "point " + std::to_string(p + 1) +
-                                                           " coincides with an earlier point; give it once");
+            throw InvalidInput(
+                Message("geometry.point_twice", "point {} coincides with an earlier point", found(p + 1))
+                    .remedy("give it once"));
         }
         fan(p, cavity, fresh);
         last = fresh.front();

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 namespace lacuna::geometry {
 
@@ -23,9 +22,11 @@ namespace {
 using flat::Facets;
 using flat::Positions;
 
-[[noreturn]] void fail(const std::string& what)
+[[noreturn]] void fail(const Message& why) { throw InvalidInput(why.about("facets cannot be flattened")); }
+template <class... Arguments>
+[[noreturn]] void fail(Format<sizeof...(Arguments)> format, const Arguments&... arguments)
 {
-    throw InvalidInput("geometry.not_flattenable", "facets cannot be flattened: " + what);
+    fail(Message("geometry.not_flattenable", format, arguments...));
 }
 
 /// Number the points in use consecutively.
@@ -35,8 +36,7 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
     for (const Triangle& triangle : triangles)
         for (const Index corner : triangle) {
             if (corner < 0 || index(corner) >= points.size())
-                fail("a triangle has point number " + std::to_string(corner) + " of " +
-                     std::to_string(points.size()));
+                fail("a triangle has point number {} of {}", found(corner), points.size());
             local[index(corner)] = 0;
         }
     Facets facets;
@@ -113,18 +113,23 @@ void check_disc(const Facets& facets, const std::vector<Segment>& boundary, cons
                 const std::vector<Index>& used)
 {
     if (!twice.empty())
-        fail("two triangles have the side from point " + std::to_string(used[index(twice.front()[0])]) +
-             " to point " + std::to_string(used[index(twice.front()[1])]) +
-             " in the same direction; expected an oriented manifold");
-    if (boundary.empty()) fail("they form a closed surface without boundary; cut it open");
+        fail("two triangles have the side from point {} to point {} in the same direction; expected an "
+             "oriented manifold",
+             used[index(twice.front()[0])], used[index(twice.front()[1])]);
+    if (boundary.empty())
+        fail(Message("geometry.not_flattenable", "they form a closed surface without boundary")
+                 .remedy("cut it open"));
     const Index parts = count_parts(facets);
     if (parts != 1)
-        fail("they have " + std::to_string(parts) + " connected parts; flatten each part separately");
+        fail(Message("geometry.not_flattenable", "they have {} connected parts", found(parts))
+                 .remedy("flatten each part separately"));
     const auto v = static_cast<long>(facets.points.size()), f = static_cast<long>(facets.triangles.size());
     const auto b = static_cast<long>(boundary.size()), loops = static_cast<long>(facets.loops.size());
     const long edges = (3 * f + b) / 2, euler = v - edges + f + loops;
     // Each handle reduces the Euler number by 2. A boundary that touches itself at a point is accepted.
-    if (euler <= 0) fail("they have " + std::to_string((2 - euler) / 2) + " handles; cut them open");
+    if (euler <= 0)
+        fail(Message("geometry.not_flattenable", "they have {} handles", found((2 - euler) / 2))
+                 .remedy("cut them open"));
 }
 
 // --- how well it went -----------------------------------------------------------------------------

@@ -33,10 +33,11 @@ template <class Solver>
 void check_solved(const Solver& solver)
 {
     if (solver.info() != Eigen::Success)
-        throw BackendError("geometry.singular",
-                           "facets cannot be flattened: the equations of the map have no "
-                           "unique solution; check for facets that are connected at "
-                           "one point only, or for coordinates that are not numbers");
+        throw BackendError(Message("geometry.singular",
+                                   "facets cannot be flattened: the equations of the map "
+                                   "have no unique solution")
+                               .remedy("check for facets that are connected at one point only, or for "
+                                       "coordinates that are not numbers"));
 }
 
 double signed_area(const Vec2& a, const Vec2& b, const Vec2& c) { return 0.5 * cross(b - a, c - a); }

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
 
 namespace lacuna::geometry {
 
@@ -109,29 +108,29 @@ std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::ve
 
 void check(const HarmonicProblem& problem)
 {
-    const auto fail = [](const std::string& what) {
-        throw InvalidInput("geometry.harmonic_input", "harmonic values cannot be solved for: " + what);
+    const auto fail = []<class... Arguments>(Format<sizeof...(Arguments)> format,
+                                             const Arguments&... arguments) {
+        throw InvalidInput(Message("geometry.harmonic_input", format, arguments...)
+                               .about("harmonic values cannot be solved for"));
     };
     const auto count = static_cast<Index>(problem.points.size());
     for (const Triangle& triangle : problem.triangles)
         for (const Index corner : triangle)
             if (corner < 0 || corner >= count)
-                fail("a triangle has point number " + std::to_string(corner) + " of " +
-                     std::to_string(count));
+                fail("a triangle has point number {} of {}", found(corner), count);
     for (const Index point : problem.fixed)
         if (point < 0 || point >= count)
-            fail("point " + std::to_string(point) + " is fixed, but the number of points is " +
-                 std::to_string(count));
+            fail("point {} is fixed, but the number of points is {}", found(point), count);
     if (problem.fixed_values.rows() != static_cast<Eigen::Index>(problem.fixed.size()))
-        fail(std::to_string(problem.fixed.size()) + " points are fixed, but there are values for " +
-             std::to_string(problem.fixed_values.rows()));
+        fail("{} points are fixed, but there are values for {}", needed(problem.fixed.size()),
+             found(problem.fixed_values.rows()));
     if (problem.corner_turns.empty()) return;
     if (problem.corner_turns.size() != problem.triangles.size())
-        fail("expected turns for " + std::to_string(problem.triangles.size()) + " triangles, found " +
-             std::to_string(problem.corner_turns.size()));
+        fail("expected turns for {} triangles, found {}", needed(problem.triangles.size()),
+             found(problem.corner_turns.size()));
     if (problem.period.size() != problem.fixed_values.cols())
-        fail("the period has " + std::to_string(problem.period.size()) + " numbers, the values have " +
-             std::to_string(problem.fixed_values.cols()));
+        fail("the period has {} numbers, the values have {}", found(problem.period.size()),
+             needed(problem.fixed_values.cols()));
 }
 
 /// The role of each point: kUnused, kFree or, for a fixed point, its row of fixed_values.
@@ -157,11 +156,11 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
     for (const Index point : problem.fixed) anchored[parts.find(point)] = true;
     for (std::size_t i = 0; i < role.size(); ++i)
         if (role[i] == kFree && !anchored[parts.find(i)])
-            throw BackendError("geometry.singular",
-                               "harmonic values are not determined: the facets connected to point " +
-                                   std::to_string(i) +
-                                   " contain no point with a known value; "
-                                   "fix at least one point of each connected part");
+            throw BackendError(Message("geometry.singular",
+                                       "harmonic values are not determined: the facets connected to point {} "
+                                       "contain no point with a known value",
+                                       i)
+                                   .remedy("fix at least one point of each connected part"));
 }
 
 /// Group the weights by point, keeping their order.
@@ -253,9 +252,9 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     solver.factorize(matrix);
     check_cancelled(context);
     if (solver.info() != Eigen::Success)
-        throw BackendError("geometry.singular",
-                           "harmonic values cannot be solved for: " + solver.lastErrorMessage() +
-                               "; check for coordinates that are not numbers");
+        throw BackendError(Message("geometry.singular", "harmonic values cannot be solved for: {}",
+                                   solver.lastErrorMessage())
+                               .remedy("check for coordinates that are not numbers"));
     return solver.solve(right);
 }
 

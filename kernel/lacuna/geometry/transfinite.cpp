@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 namespace lacuna::geometry {
 
@@ -29,14 +28,18 @@ template <class Point>
 void check_sides(std::span<const Point> bottom, std::span<const Point> right, std::span<const Point> top,
                  std::span<const Point> left)
 {
-    const auto fail = [](const std::string& what) {
-        throw InvalidInput("geometry.transfinite_sides", "a transfinite grid cannot be made: " + what);
+    const auto fail = []<class... Arguments>(Format<sizeof...(Arguments)> format,
+                                             const Arguments&... arguments) {
+        throw InvalidInput(Message("geometry.transfinite_sides", format, arguments...)
+                               .about("a transfinite grid cannot be made"));
     };
     if (bottom.size() != top.size() || left.size() != right.size())
-        fail("opposite sides must have equal numbers of points; found bottom " +
-             std::to_string(bottom.size()) + ", top " + std::to_string(top.size()) + ", left " +
-             std::to_string(left.size()) + ", right " + std::to_string(right.size()) +
-             "; give opposite sides the same number of divisions");
+        throw InvalidInput(
+            Message("geometry.transfinite_sides",
+                    "a transfinite grid cannot be made: opposite sides must have equal numbers of points; "
+                    "found bottom {}, top {}, left {}, right {}",
+                    found(bottom.size()), found(top.size()), found(left.size()), found(right.size()))
+                .remedy("give opposite sides the same number of divisions"));
     if (bottom.size() < 2 || left.size() < 2) fail("each side needs at least two points");
     if (bottom.front() != left.front()) fail("the bottom and the left side do not start in the same point");
     if (bottom.back() != right.front()) fail("the bottom side does not end where the right one starts");

@@ -10,30 +10,26 @@
 #include <limits>
 #include <numbers>
 #include <queue>
-#include <string>
 
 namespace lacuna::geometry {
 namespace {
 
-std::string loop_name(std::size_t loop, std::size_t count)
-{
-    return "loop " + std::to_string(loop + 1) + " of " + std::to_string(count);
-}
+NamedEntity named_loop(std::size_t loop) { return {"loop", static_cast<long long>(loop) + 1}; }
 
 void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index>> loops)
 {
     if (loops.empty()) throw InvalidInput("geometry.no_loop", "triangulate needs at least one loop");
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        const std::string name = loop_name(l, loops.size());
+        const NamedEntity loop = named_loop(l);
         if (loops[l].size() < 3) {
-            throw InvalidInput("geometry.short_loop", name + " has " + std::to_string(loops[l].size()) +
-                                                          " points; a region needs at least 3");
+            throw InvalidInput("geometry.short_loop", "{} of {} has {} points; a region needs at least {}",
+                               loop, loops.size(), found(loops[l].size()), needed(3));
         }
         for (const Index p : loops[l]) {
             if (p >= 0 && index(p) < points.size() && points[index(p)].allFinite()) continue;
-            throw InvalidInput("geometry.bad_point", name + " uses point " + std::to_string(p + 1) + " of " +
-                                                         std::to_string(points.size()) +
-                                                         ", which does not exist or is not finite");
+            throw InvalidInput("geometry.bad_point",
+                               "{} of {} uses point {} of {}, which does not exist or is not finite", loop,
+                               loops.size(), found(p + 1), points.size());
         }
         const Vec2& a = points[index(loops[l][0])];
         const auto differs = [&](Index p) { return points[index(p)] != a; };
@@ -42,14 +38,15 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
                               return orient2d(a, points[index(*other)], points[index(p)]) == 0;
                           });
         if (flat)
-            throw InvalidInput("geometry.zero_area", name + " has zero area: all its points are collinear");
+            throw InvalidInput("geometry.zero_area", "{} of {} has zero area: all its points are collinear",
+                               loop, loops.size());
     }
     if (const auto crossing = find_crossing(points, loops)) {
-        const std::string where = "segment " + std::to_string(crossing->segment_a + 1) + " of " +
-                                  loop_name(crossing->loop_a, loops.size()) + " crosses or touches segment " +
-                                  std::to_string(crossing->segment_b + 1) + " of " +
-                                  loop_name(crossing->loop_b, loops.size());
-        throw InvalidInput("geometry.loops_cross", where + "; loops must be simple and disjoint");
+        throw InvalidInput("geometry.loops_cross",
+                           "segment {0} of {1} of {4} crosses or touches segment {2} of {3} of {4}; loops "
+                           "must be simple and disjoint",
+                           crossing->segment_a + 1, named_loop(crossing->loop_a), crossing->segment_b + 1,
+                           named_loop(crossing->loop_b), loops.size());
     }
 }
 
@@ -159,9 +156,9 @@ private:
         if (!options_.size) return std::numeric_limits<double>::infinity();
         const double value = options_.size(p);
         if (value > 0) return value;
-        throw InvalidInput("geometry.bad_size", "the target edge length at (" + std::to_string(p.x()) + ", " +
-                                                    std::to_string(p.y()) + ") is " + std::to_string(value) +
-                                                    "; it must be above 0");
+        throw InvalidInput("geometry.bad_size",
+                           "the target edge length at ({:.6g}, {:.6g}) is {:.6g}; it must be above {}", p.x(),
+                           p.y(), found(value), needed(0));
     }
 
     [[nodiscard]] double wanted_at(const Vec2& p, Index holder) const
@@ -306,8 +303,8 @@ Triangulation triangulate(std::span<const Vec2> points, std::span<const std::vec
                           const TriangulateOptions& options, const RunContext& context)
 {
     if (!(options.grading >= 0)) {
-        throw InvalidInput("geometry.bad_grading",
-                           "grading is " + std::to_string(options.grading) + "; it must be 0 or above");
+        throw InvalidInput("geometry.bad_grading", "grading is {:.6g}; it must be {} or above",
+                           found(options.grading), needed(0));
     }
     check_loops(points, loops);
     std::vector<Index> used;

@@ -206,15 +206,18 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
                     const GrowOptions& options, const RunContext& context)
 {
     if (!(options.angle > 0 && options.angle <= 180))
-        throw InvalidInput("topology.bad_angle", "the angle is " + std::to_string(options.angle) +
-                                                     " degrees; it must be above 0 and at most 180");
+        throw InvalidInput("topology.bad_angle",
+                           "the angle is {:.6g} degrees; it must be above {} and at most {}",
+                           lacuna::found(options.angle), needed(0), needed(180));
     if (among.empty())
-        throw InvalidInput("healing.nothing_to_grow", "no face matches the selection; give fewer conditions");
+        throw InvalidInput(Message("healing.nothing_to_grow", "no face matches the selection")
+                               .remedy("give fewer conditions"));
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (model.faces[f].surface)
-            throw InvalidInput("healing.exact_faces", topology::name_of(model, FaceId(f)) +
-                                                          " is an exact CAD surface, which cannot be "
-                                                          "cut; faces are grown in meshes only");
+            throw InvalidInput("healing.exact_faces",
+                               "{} is an exact CAD surface, which cannot be cut; faces are grown in meshes "
+                               "only",
+                               entity_of(model, FaceId(f)));
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();

@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <sstream>
-#include <string>
 
 namespace lacuna::healing {
 namespace {
@@ -23,17 +21,16 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
                  const std::vector<int>& labels, const char* kind)
 {
     if (!labels.empty() && labels.size() != cells.size()) {
-        throw InvalidInput("topology.bad_labels", "there are " + std::to_string(labels.size()) +
-                                                      " labels for " + std::to_string(cells.size()) + " " +
-                                                      kind + "s; give one each, or none");
+        throw InvalidInput(Message("topology.bad_labels", "there are {} labels for {} {}s",
+                                   found(labels.size()), needed(cells.size()), kind)
+                               .remedy("give one each, or none"));
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (const Index p : cells[c]) {
             if (p >= 0 && index(p) < soup.points.size() && soup.points[index(p)].allFinite()) continue;
-            throw InvalidInput("topology.bad_point", std::string(kind) + " " + std::to_string(c + 1) +
-                                                         " uses point " + std::to_string(p + 1) + " of " +
-                                                         std::to_string(soup.points.size()) +
-                                                         ", which does not exist or is not finite");
+            throw InvalidInput(
+                "topology.bad_point", "{} uses point {} of {}, which does not exist or is not finite",
+                NamedEntity{kind, static_cast<long long>(c) + 1}, found(p + 1), soup.points.size());
         }
     }
 }
@@ -62,10 +59,10 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
 {
     constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
     if (low == high || (diagonal > kLeast && diagonal < kMost)) return;
-    std::ostringstream words;
-    words << "the facets lie between (" << low.transpose() << ") and (" << high.transpose()
-          << "): areas overflow or underflow at this size; load with another scale";
-    throw InvalidInput("topology.size", words.str());
+    throw InvalidInput(Message("topology.size",
+                               "the facets lie between {} and {}: areas overflow or underflow at this size",
+                               place_with_digits(low, 6), place_with_digits(high, 6))
+                           .remedy("load with another scale"));
 }
 
 /// Weld the used points and number the remaining ones in order of first use.
@@ -222,16 +219,23 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {
     if (facets.count() > 0 && (given > 0 || facets.shrunk <= facets.count())) return;
-    const std::string size = "smaller than the tolerance of " + with_digits(facets.tolerance, 4);
-    const std::string what = facets.count() == 0 ? "every facet is " + size
-                                                 : std::to_string(facets.shrunk) + " facets are " + size +
-                                                       " and " + std::to_string(facets.count()) + " are not";
-    const Vec3 far = point_far_from_others(soup.points);
-    throw InvalidInput(facets.count() == 0 ? "topology.no_facets" : "topology.small_facets",
-                       given > 0 ? what + "; give a smaller one"
-                                 : what + ": it depends on the extent of all points; remove the point at " +
-                                       place_with_digits(far, 4) +
-                                       " if it is not part of the shape, or give a tolerance");
+    if (given > 0)
+        throw InvalidInput(Message("topology.no_facets",
+                                   "every facet is smaller than the tolerance of {:.4g}",
+                                   found(facets.tolerance))
+                               .remedy("give a smaller one"));
+    Message message = facets.count() == 0
+                          ? Message("topology.no_facets",
+                                    "every facet is smaller than the tolerance of {:.4g}: it depends on the "
+                                    "extent of all points",
+                                    found(facets.tolerance))
+                          : Message("topology.small_facets",
+                                    "{} facets are smaller than the tolerance of {:.4g} and {} are not: it "
+                                    "depends on the extent of all points",
+                                    found(facets.shrunk), found(facets.tolerance), facets.count());
+    throw InvalidInput(std::move(message).remedy(
+        "remove the point at {} if it is not part of the shape, or give a tolerance",
+        place_with_digits(point_far_from_others(soup.points), 4)));
 }
 
 Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context)

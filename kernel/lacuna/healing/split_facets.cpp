@@ -17,7 +17,6 @@
 #include <map>
 #include <numbers>
 #include <span>
-#include <string>
 
 namespace lacuna::healing {
 namespace {
@@ -27,11 +26,6 @@ namespace {
 constexpr double kAngleSlack = 1e-6;
 /// Facets between two cancellation checks. Rule of thumb.
 constexpr std::size_t kFacetsBetweenPolls = 4096;
-
-std::string place(const Vec3& p)
-{
-    return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
-}
 
 /// Do two facets, or the quads they belong to, have the same corners?
 bool on_each_other(const Facets& facets, Index f, Index g)
@@ -147,11 +141,12 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
                     flood.flipped[index(g)] = flipped;
                     front.push_back(g);
                 } else if (flood.flipped[index(g)] != flipped) {
-                    throw InvalidInput("topology.not_orientable",
-                                       "face " + std::to_string(face + 1) +
-                                           " is one-sided, as a Möbius band is: facets at " +
-                                           place(facets.points[index(sides.from(side))]) +
-                                           " cannot be oriented; give its parts different labels");
+                    throw InvalidInput(
+                        Message("topology.not_orientable",
+                                "{} is one-sided, as a Möbius band is: facets at {} cannot be oriented",
+                                NamedEntity{"face", face + 1},
+                                place_with_digits(facets.points[index(sides.from(side))], 6))
+                            .remedy("give its parts different labels"));
                 }
             }
         }
@@ -359,12 +354,13 @@ private:
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options, const RunContext& context)
 {
     if (!(options.feature_angle > 0 && options.feature_angle <= 180)) {
-        throw InvalidInput("topology.bad_angle", "feature_angle is " + std::to_string(options.feature_angle) +
-                                                     " degrees; it must be above 0 and at most 180");
+        throw InvalidInput("topology.bad_angle",
+                           "feature_angle is {:.6g} degrees; it must be above {} and at most {}",
+                           found(options.feature_angle), needed(0), needed(180));
     }
     if (!(options.tolerance >= 0)) {
-        throw InvalidInput("topology.bad_tolerance",
-                           "tolerance is " + std::to_string(options.tolerance) + "; it must be 0 or above");
+        throw InvalidInput("topology.bad_tolerance", "tolerance is {:.6g}; it must be {} or above",
+                           found(options.tolerance), needed(0));
     }
     const double feature = options.feature_angle * std::numbers::pi / 180;
     const Facets facets = facets_of(soup, options.tolerance, context);
@@ -378,14 +374,13 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
     if (facets.repeated > 0) {
-        model.notes.push_back(std::to_string(facets.repeated) +
-                              (facets.repeated == 1 ? " facet was" : " facets were") +
-                              " listed twice; one of each is kept");
+        model.notes.push_back(formatted("{} {} listed twice; one of each is kept", facets.repeated,
+                                        facets.repeated == 1 ? "facet was" : "facets were"));
     }
     if (facets.shrunk > 0) {
-        model.notes.push_back(
-            std::to_string(facets.shrunk) + (facets.shrunk == 1 ? " facet was" : " facets were") +
-            " smaller than the tolerance of " + with_digits(facets.tolerance, 4) + " and left out");
+        model.notes.push_back(formatted("{} {} smaller than the tolerance of {:.4g} and left out",
+                                        facets.shrunk, facets.shrunk == 1 ? "facet was" : "facets were",
+                                        facets.tolerance));
     }
     add_faces(model, facets, flood, soup);
     check_cancelled(context);

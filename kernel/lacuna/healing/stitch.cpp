@@ -86,7 +86,7 @@ private:
                    const std::vector<EdgeTrack::EdgePosition>& places);
 
     const topology::Model& model() const { return loose_.model(); }
-    std::string edge_name(EdgeId e) const { return "edge " + std::to_string(model()[e].tag); }
+    NamedEntity named(EdgeId e) const { return {"edge", model()[e].tag}; }
     const EdgeTrack& track(EdgeId e)
     {
         auto& track = tracks_[e];
@@ -132,10 +132,10 @@ void Stitcher::join_vertices()
         far = v;
     }
     if (furthest > 2 * tolerance_) {
-        report_.notes.push_back("vertices are closer than the tolerance of " + in_words(tolerance_) +
-                                " in a chain; all became one, and vertex " +
-                                std::to_string(model().vertices[far].tag) + " moved by " +
-                                in_words(furthest) + "; give a smaller tolerance to keep them apart");
+        report_.notes.push_back(formatted("vertices are closer than the tolerance of {:.3g} in a chain; all "
+                                          "became one, and {} moved by {:.3g}; give a smaller tolerance to "
+                                          "keep them apart",
+                                          tolerance_, entity_of(model(), VertexId(far)), furthest));
     }
     settle_points();
     collapse_short_edges();
@@ -163,14 +163,12 @@ void Stitcher::settle_points()
     report_.edges_collapsed += shrunk.edges;
     for (const FaceId f : shrunk.faces) {
         ++report_.faces_left_out;
-        report_.notes.push_back(name_of(model(), f) + " is no wider than the tolerance of " +
-                                in_words(tolerance_) +
-                                " and is left out; give a smaller tolerance to keep it");
+        report_.notes.push_back(thin_face_note(model(), f, tolerance_));
     }
     for (const FaceId f : shrunk.meshes) {
-        report_.notes.push_back("the mesh of " + name_of(model(), f) +
-                                " cannot be kept: it has quads with sides no longer than the tolerance of " +
-                                in_words(tolerance_) + "; give a smaller tolerance");
+        report_.notes.push_back(formatted("the mesh of {} cannot be kept: it has quads with sides no longer "
+                                          "than the tolerance of {:.3g}; give a smaller tolerance",
+                                          entity_of(model(), f), tolerance_));
     }
     tracks_.clear();
     check_cancelled(context_);
@@ -300,10 +298,10 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                 stop.node = taken = near;
         }
         if (stop.node == 0 && keeps_mesh) {
-            report_.notes.push_back("vertex " + std::to_string(model()[stop.vertex].tag) + " lies on " +
-                                    edge_name(e) +
-                                    " between two nodes of a kept mesh, so the faces there stay apart; load "
-                                    "with keep_mesh = false, or make the meshes match");
+            report_.notes.push_back(formatted("{} lies on {} between two nodes of a kept mesh, so the faces "
+                                              "there stay apart; load with keep_mesh = false, or make the "
+                                              "meshes match",
+                                              entity_of(model(), stop.vertex), named(e)));
             continue;
         }
         // A stop before an occupied point would fold the edge back.
@@ -474,12 +472,12 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     if (face_a == face_b || model()[a].from == model()[a].to) return;
     const double reach = share_ * std::min(track(a).length(), track(b).length());
     if (!try_add(*free[0], b, reach)) return;
-    report_.notes.push_back(
-        edge_name(a) + " of " + name_of(model(), face_a) + " and " + edge_name(b) + " of " +
-        name_of(model(), face_b) + " have the same ends and are up to " +
-        in_words(greatest_gap(track(a), track(b), tolerance_, context_)) +
-        " apart between them; they were merged along the first; give a tolerance to decide "
-        "it yourself");
+    report_.notes.push_back(formatted("{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
+                                      "between them; they were merged along the first; give a tolerance to "
+                                      "decide it yourself",
+                                      named(a), entity_of(model(), face_a), named(b),
+                                      entity_of(model(), face_b),
+                                      greatest_gap(track(a), track(b), tolerance_, context_)));
     report_.sewn.push_back(report_.notes.back());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
@@ -552,11 +550,10 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     become.push_back(order.back());
     if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
     if (!fits) {
-        report_.notes.push_back(
-
-            edge_name(bundle.first) + " and " + edge_name(e) +
-            " coincide, but a kept mesh has other nodes there, so the faces stay "
-            "apart; load with keep_mesh = false, or make the meshes match");
+        report_.notes.push_back(formatted("{} and {} coincide, but a kept mesh has other nodes there, so the "
+                                          "faces stay apart; load with keep_mesh = false, or make the meshes "
+                                          "match",
+                                          named(bundle.first), named(e)));
         return false;
     }
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -578,21 +575,21 @@ std::string StitchReport::summary() const
     std::string text;
     const auto add = [&](int count, const char* one, const char* many) {
         if (count == 0) return;
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : many);
+        text += formatted("{}{} {}", text.empty() ? "stitched: " : ", ", count, count == 1 ? one : many);
     };
     add(vertices_merged, "vertex joined", "vertices joined");
     add(edges_merged, "edge merged", "edges merged");
     add(edges_split, "edge split", "edges split");
     add(edges_collapsed, "short edge collapsed", "short edges collapsed");
     add(faces_left_out, "face left out", "faces left out");
-    return text.empty() ? text : "stitched: " + text;
+    return text;
 }
 
 StitchReport stitch(topology::Model& model, double tolerance, const RunContext& context, double share)
 {
     if (!(tolerance > 0)) {
-        throw InvalidInput("topology.bad_tolerance",
-                           "the stitching tolerance is " + in_words(tolerance) + "; it must be above 0");
+        throw InvalidInput("topology.bad_tolerance", "the stitching tolerance is {:.3g}; it must be above {}",
+                           found(tolerance), needed(0));
     }
     const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
                                        [](const topology::Face& face) { return !face.loops.empty(); });
@@ -605,7 +602,7 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
         model = stitcher.result();
     } catch (const InvalidInput& error) {
         StitchReport failed;
-        failed.notes.push_back(std::string("faces that meet could not be joined: ") + error.what());
+        failed.notes.push_back(error.message().about("faces that meet could not be joined").text());
         return failed;
     }
     return report;

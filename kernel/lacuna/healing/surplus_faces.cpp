@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/surplus_faces.h>
 
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/coincident_faces.h>
 #include <lacuna/healing/detail/edge_track.h>
 #include <lacuna/topology/open_volume.h>
@@ -17,11 +16,6 @@ namespace {
 /// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
 /// one. The half circles round a hole are 0.45 of their length apart.
 constexpr double kLooksLikeGap = 0.25;
-
-std::string edge_name(const topology::Model& model, EdgeId e)
-{
-    return "edge " + std::to_string(model[e].tag);
-}
 
 void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector<FaceId>& alike,
                       const std::vector<int>& class_of, const std::vector<std::vector<EdgeId>>& edges)
@@ -41,9 +35,9 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
     std::vector<FaceId> order = alike;
     std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });
     for (std::size_t i = stay; i < order.size(); ++i) {
-        report.notes.push_back(name_of(model, order[i]) + " lies on " + name_of(model, order[0]) +
-                               " everywhere: the face is listed twice, and " + name_of(model, order[i]) +
-                               " is left out");
+        report.notes.push_back(
+            formatted("{0} lies on {1} everywhere: the face is listed twice, and {0} is left out",
+                      entity_of(model, order[i]), entity_of(model, order[0])));
         ++report.faces_left_out;
         loose.remove(order[i]);
     }
@@ -51,7 +45,13 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
 
 } // namespace
 
-std::string in_words(double value) { return with_digits(value, 3); }
+std::string thin_face_note(const topology::Model& model, FaceId face, double tolerance)
+{
+    return formatted(
+        "{} is no wider than the tolerance of {:.3g} and is left out; give a smaller tolerance to "
+        "keep it",
+        entity_of(model, face), tolerance);
+}
 
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report)
 {
@@ -70,8 +70,7 @@ void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& rep
                                         [](const auto& use) { return use.second % 2 == 0; });
         const bool empty = model[face].triangles.empty();
         if (!empty && (!folded || topology::face_area(model, face) > tolerance * border)) continue;
-        report.notes.push_back(name_of(model, face) + " is no wider than the tolerance of " +
-                               in_words(tolerance) + " and is left out; give a smaller tolerance to keep it");
+        report.notes.push_back(thin_face_note(model, face, tolerance));
         ++report.faces_left_out;
         loose.remove(face);
     }
@@ -138,11 +137,11 @@ void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, 
                 const EdgeTrack b(model, group[k], context);
                 const double gap = greatest_gap(a, b, tolerance, context);
                 if (gap <= tolerance || gap > kLooksLikeGap * std::min(a.length(), b.length())) continue;
-                report.notes.push_back(
-                    edge_name(model, group[i]) + " of " + name_of(model, loose.users(group[i])[0]) + " and " +
-                    edge_name(model, group[k]) + " of " + name_of(model, loose.users(group[k])[0]) +
-                    " have the same ends and a gap of " + in_words(gap) + ", more than the tolerance of " +
-                    in_words(tolerance) + "; give a larger tolerance to close it");
+                report.notes.push_back(formatted(
+                    "edge {} of {} and edge {} of {} have the same ends and a gap of {:.3g}, more than the "
+                    "tolerance of {:.3g}; give a larger tolerance to close it",
+                    model[group[i]].tag, entity_of(model, loose.users(group[i])[0]), model[group[k]].tag,
+                    entity_of(model, loose.users(group[k])[0]), gap, tolerance));
             }
         }
     }

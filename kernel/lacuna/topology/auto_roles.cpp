@@ -620,27 +620,31 @@ private:
 
     [[nodiscard]] std::vector<std::string> reasons(const Reading& reading, const Roles& roles) const
     {
-        const std::string source = names_of(model_, roles.source), target = names_of(model_, roles.target);
+        const std::vector<NamedEntity> source = entities_of(model_, roles.source),
+                                       target = entities_of(model_, roles.target);
         if (reading.source == kNone) {
             const std::size_t tubes = connected_parts(model_, roles.walls).size();
-            return {"all faces form " + std::to_string(tubes) + (tubes == 1 ? " tube" : " tubes") +
-                    " with a free loop at either side: source and target are missing"};
+            return {formatted("all faces form {} tube{} with a free loop at either side: source and target "
+                              "are missing",
+                              tubes, tubes == 1 ? "" : "s")};
         }
         if (reading.target == kNone) {
-            return {source + " has walls on its whole rim, and each ring of walls ends in one free "
-                             "loop: the target is missing"};
+            return {formatted("{} has walls on its whole rim, and each ring of walls ends in one free loop: "
+                              "the target is missing",
+                              source)};
         }
         if (reading.step != kNone && roles.source.size() > 1) {
-            return {"flat faces with the same normal, " + source + ", are one end, and the opposite faces " +
-                    target + " are the other: both at several heights"};
+            return {formatted("flat faces with the same normal, {}, are one end, and the opposite faces {} "
+                              "are the other: both at several heights",
+                              source, target)};
         }
         if (reading.step != kNone) {
-            return {"the flat faces opposite " + source +
-                    " are the other end, at several heights: " + target};
+            return {formatted("the flat faces opposite {} are the other end, at several heights: {}", source,
+                              target)};
         }
         const std::size_t loops = map_.patches[reading.source].rims.size();
-        return {"two ends, " + source + " and " + target + ", with " + std::to_string(loops) +
-                    (loops == 1 ? " loop each" : " loops each") + " and no vertex in common",
+        return {formatted("two ends, {} and {}, with {} loop{} each and no vertex in common", source, target,
+                          loops, loops == 1 ? "" : "s"),
                 roles.walls.empty() ? "no faces between them"
                                     : "every other face joins a loop of one end to a loop of the other"};
     }
@@ -666,15 +670,14 @@ private:
 
 std::string in_words(const Model& model, const Roles& roles, VolumeClass value)
 {
-    const auto list = [&](std::string_view role, const std::vector<FaceId>& faces) {
+    const auto list = [&](std::string_view role, const std::vector<FaceId>& faces) -> std::string {
+        if (faces.empty()) return {};
         const std::string text = full_list(std::span(faces).first(std::min(faces.size(), kMostFaces)),
                                            [&](FaceId face) { return std::to_string(model[face].tag); });
-        return faces.empty()
-                   ? std::string()
-                   : " " + std::string(role) + " = {" + text + (faces.size() > kMostFaces ? ", …}" : "}");
+        return formatted(" {} = {{{}{}}}", role, text, faces.size() > kMostFaces ? ", …" : "");
     };
-    return "class " + std::string(to_string(value)) + ":" + list("source", roles.source) +
-           list("target", roles.target) + list("walls", roles.walls);
+    return formatted("class {}:{}{}{}", to_string(value), list("source", roles.source),
+                     list("target", roles.target), list("walls", roles.walls));
 }
 
 namespace {

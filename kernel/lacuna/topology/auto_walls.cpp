@@ -2,10 +2,10 @@
 #include <lacuna/topology/shared/auto_walls.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/hollows.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -14,7 +14,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <string>
 
 namespace lacuna::topology {
 
@@ -268,14 +267,11 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), is_more);
     std::erase_if(result.walls, is_more);
     for (const FaceId face : result.more_of_end)
-        log_line(context, "note: " + name_of(model, face) + " of the same cavity becomes part of " +
-                              name_of(model, end.front()) + "'s end, because it faces the same way");
+        log_line(context,
+                 formatted("note: {} of the same cavity becomes part of {}'s end, because it faces the same "
+                           "way",
+                           entity_of(model, face), entity_of(model, end.front())));
     return result;
-}
-
-std::string tags_of(const Model& model, const std::vector<FaceId>& faces)
-{
-    return full_list(faces, [&](FaceId face) { return std::to_string(model[face].tag); });
 }
 
 } // namespace
@@ -300,10 +296,12 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     std::ranges::stable_sort(*choices, {}, &Choice::volume);
     WallChoice result = walls_of(choices->front(), sheets);
     if (choices->size() > 1 && (*choices)[1].volume * (1 - kSameVolume) <= choices->front().volume) {
-        throw InvalidInput("topology.walls_ambiguous",
-                           "walls = \"auto\" finds two equally good choices of walls; name them, walls = {" +
-                               tags_of(model, result.walls) + "} or {" +
-                               tags_of(model, walls_of((*choices)[1], sheets).walls) + "}");
+        throw InvalidInput(
+            Message("topology.walls_ambiguous",
+                    "walls = \"auto\" finds two equally good choices of walls: ({}) and ({})",
+                    entities_of(model, result.walls),
+                    entities_of(model, walls_of((*choices)[1], sheets).walls))
+                .remedy("name them, such as walls = {{{}, …}}", model[result.walls.front()].tag));
     }
     return result;
 }

@@ -308,9 +308,10 @@ public:
     }
 
 private:
-    [[noreturn]] static void refuse(const std::string& why)
+    template <class... Arguments>
+    [[noreturn]] static void refuse(Format<sizeof...(Arguments)> format, const Arguments&... arguments)
     {
-        throw InvalidInput("topology.mesh_unlike_face", why);
+        throw InvalidInput("topology.mesh_unlike_face", format, arguments...);
     }
 
     /// Place the rim's nodes on each loop, in the loop's direction.
@@ -318,8 +319,8 @@ private:
     {
         std::vector<std::vector<Index>> cycles = cycles_of(quads_);
         if (cycles.size() != chains_.size()) {
-            refuse("the mesh for " + name_of(model_, face_) + " has " + std::to_string(cycles.size()) +
-                   " rims and the face has " + std::to_string(chains_.size()) + " loops");
+            refuse("the mesh for {} has {} rims and the face has {} loops", entity_of(model_, face_),
+                   found(cycles.size()), needed(chains_.size()));
         }
         rims_.resize(chains_.size());
         int turned = 0;
@@ -336,14 +337,16 @@ private:
                 }
             }
             if (!rims_[best].empty())
-                refuse("two rims of the mesh for " + name_of(model_, face_) +
-                       " lie on the same loop of the face");
+                refuse("two rims of the mesh for {} lie on the same loop of the face",
+                       entity_of(model_, face_));
             rims_[best] = place_rim(cycle, chains_[best]);
             turned += is_turned(rims_[best], chains_[best].start.back()) ? 1 : 0;
         }
         if (turned != 0 && turned != static_cast<int>(cycles.size()))
-            refuse("the rims of the mesh for " + name_of(model_, face_) +
-                   " are not oriented like its loops; orient all quads alike");
+            throw InvalidInput(Message("topology.mesh_unlike_face",
+                                       "the rims of the mesh for {} are not oriented like its loops",
+                                       entity_of(model_, face_))
+                                   .remedy("orient all quads alike"));
         if (turned == 0) return;
         for (Quad& quad : quads_) std::swap(quad[is_triangle(quad) ? 0 : 3], quad[1]);
         for (std::vector<RimNode>& rim : rims_) std::reverse(rim.begin(), rim.end());
@@ -360,8 +363,8 @@ private:
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
             const Nearest place = nearest_on(model_, chain.points, chain.at, p);
             if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
-                refuse("a node of the mesh for " + name_of(model_, face_) + " is " +
-                       std::to_string(place.distance) + " off its loops");
+                refuse("a node of the mesh for {} is {:.3g} off its loops", entity_of(model_, face_),
+                       found(place.distance));
             }
             rim.push_back({cycle[i], place.at});
         }
@@ -403,12 +406,10 @@ private:
         const double off = (model_.at(rim[best].point) - place).norm();
         // Two edge ends of the loop itself, or of a closed edge.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
-            throw InvalidInput("topology.mesh_misses_vertex", "the mesh for " + name_of(model_, face_) +
-                                                                  " has no node at " +
-                                                                  name_of(model_, vertex) +
-                                                                  ", where edges of other faces end; "
-                                                                  "the nearest is " +
-                                                                  std::to_string(off) + " away");
+            throw InvalidInput("topology.mesh_misses_vertex",
+                               "the mesh for {} has no node at {}, where edges of other faces end; the "
+                               "nearest is {:.3g} away",
+                               entity_of(model_, face_), entity_of(model_, vertex), found(off));
         }
         return best;
     }
@@ -425,8 +426,8 @@ private:
         for (std::size_t u = 0; u < corner.size(); ++u) {
             const std::size_t next = corner[(u + 1) % corner.size()];
             if (corner.size() > 1 && corner[u] == next) {
-                refuse("the mesh for " + name_of(model_, face_) + " has no side on " +
-                       name_of(model_, chain.uses[u].edge));
+                refuse("the mesh for {} has no side on {}", entity_of(model_, face_),
+                       entity_of(model_, chain.uses[u].edge));
             }
         }
         for (std::size_t u = 0; u < corner.size(); ++u) {
@@ -444,8 +445,8 @@ private:
             } while (i != last);
             for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
                 if (nodes[k + 1].at > nodes[k].at) continue;
-                refuse("the nodes of the mesh for " + name_of(model_, face_) + " on " +
-                       name_of(model_, chain.uses[u].edge) + " are not in the order of the edge");
+                refuse("the nodes of the mesh for {} on {} are not in the order of the edge",
+                       entity_of(model_, face_), entity_of(model_, chain.uses[u].edge));
             }
             put_on_edge(chain, u, nodes);
         }
@@ -470,11 +471,10 @@ private:
         const std::vector<Index>& old = model_[edge].points;
         for (const FaceUse& user : remesher_.users(edge)) {
             if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
-            throw InvalidInput("topology.meshes_differ", "the mesh for " + name_of(model_, face_) + " has " +
-                                                             std::to_string(nodes.size()) + " nodes on " +
-                                                             name_of(model_, edge) + ", and the mesh of " +
-                                                             name_of(model_, user.face) + " has " +
-                                                             std::to_string(old.size()));
+            throw InvalidInput("topology.meshes_differ",
+                               "the mesh for {} has {} nodes on {}, and the mesh of {} has {}",
+                               entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
+                               entity_of(model_, user.face), needed(old.size()));
         }
     }
 
@@ -524,18 +524,21 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
         const std::vector<Index>& old = model[given.edge].points;
         const std::vector<double> at = geometry::arc_lengths(places_at(model, old));
         const bool closed = old.front() == old.back();
-        const auto refuse = [&](const std::string& why) {
+        const NamedEntity edge = entity_of(model, given.edge);
+        const std::size_t least = closed ? 4 : 2;
+        if (given.nodes.size() < least)
             throw InvalidInput("topology.nodes_off_edge",
-                               "the nodes for " + name_of(model, given.edge) + " " + why);
-        };
-        if (given.nodes.size() < (closed ? 4 : 2)) refuse("are too few");
+                               "the nodes for {} are too few: {}, and {} are needed", edge,
+                               found(given.nodes.size()), needed(least));
         std::vector<RimNode> nodes;
         double last = 0;
         for (std::size_t i = 0; i < given.nodes.size(); ++i) {
             const bool end = i + 1 == given.nodes.size();
             Nearest place{end ? at.back() : 0.0, 0};
             if (i > 0 && !end) place = nearest_on(model, old, at, given.nodes[i], last);
-            if (i > 0 && place.at <= last) refuse("are not in the order of the edge");
+            if (i > 0 && place.at <= last)
+                throw InvalidInput("topology.nodes_off_edge",
+                                   "the nodes for {} are not in the order of the edge", edge);
             last = place.at;
             // The ends are the vertices, which move to their nodes.
             const Index point = i == 0 ? old.front()

@@ -2,23 +2,18 @@
 #include <lacuna/topology/shared/left_out.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace lacuna::topology {
 
 namespace {
 
-std::string name_of(const LeftOutFace& face)
-{
-    return "face " + std::to_string(face.tag) + " of " + face.source;
-}
-
-/// Names of the void faces along any of the edges.
-std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
+/// The void faces along any of the edges.
+std::vector<NamedEntity> void_faces_along(const Model& model, const std::vector<EdgeId>& edges)
 {
     const auto is_along = [&](const EdgeUse& use) { return std::ranges::binary_search(edges, use.edge); };
     std::vector<FaceId> faces = all_faces(model);
@@ -26,7 +21,7 @@ std::string void_faces_along(const Model& model, const std::vector<EdgeId>& edge
         return model[face].origin != Origin::made_void ||
                std::ranges::none_of(uses_of(model[face]), is_along);
     });
-    return names_of(model, faces);
+    return entities_of(model, faces);
 }
 
 } // namespace
@@ -50,21 +45,25 @@ std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector
     return found;
 }
 
-void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, const std::string& found)
+void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, std::string_view found)
 {
     const std::vector<LeftOutBeside> missing = left_out_beside(model, faces);
     if (missing.empty()) return;
     const LeftOutBeside& first = missing.front();
-    const std::string others = full_list(
-        std::span(missing).subspan(1), [](const LeftOutBeside& one) { return std::to_string(one.face.tag); });
-    throw InvalidInput(
-        "cad.face_left_out",
-        name_of(first.face) + " is missing next to " + name_of(model, first.edges.front()) +
-            " of the volume: it " + first.face.why +
-            (others.empty() ? "" : "; also missing: face " + others) + ". If " + found +
-            " are found automatically, its hole becomes part of the void; repair it in the CAD "
-            "system, or name source, target and walls by their faces to close it with a void "
-            "face");
+    std::vector<NamedEntity> all;
+    for (const LeftOutBeside& one : missing) all.push_back({"face", one.face.tag});
+    const NamedEntity edge = entity_of(model, first.edges.front());
+    Message message = all.size() == 1
+                          ? Message("cad.face_left_out",
+                                    "{} of {} is missing next to {}: it {}. If {} are found automatically, "
+                                    "its hole becomes part of the void",
+                                    all, first.face.source, edge, first.face.why, found)
+                          : Message("cad.face_left_out",
+                                    "{} of {} are missing, the first next to {}: it {}. If {} are found "
+                                    "automatically, the holes become part of the void",
+                                    all, first.face.source, edge, first.face.why, found);
+    throw InvalidInput(std::move(message).remedy(
+        "repair the CAD file, or name source, target and walls to close the hole with a void face"));
 }
 
 std::vector<std::string> left_out_in_words(const OpenVolume& volume)
@@ -74,9 +73,10 @@ std::vector<std::string> left_out_in_words(const OpenVolume& volume)
     std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     std::vector<std::string> words;
     for (const LeftOutBeside& missing : left_out_beside(model, given)) {
-        const std::string stands = void_faces_along(model, missing.edges);
-        words.push_back(name_of(missing.face) + " was left out (it " + missing.face.why + ")" +
-                        (stands.empty() ? "" : "; its place is taken by " + stands));
+        const LeftOutFace& face = missing.face;
+        words.push_back(formatted("face {} of {} was left out (it {})", face.tag, face.source, face.why));
+        const std::vector<NamedEntity> stands = void_faces_along(model, missing.edges);
+        if (!stands.empty()) words.back() += formatted("; its place is taken by {}", stands);
     }
     return words;
 }

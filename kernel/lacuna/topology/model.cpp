@@ -3,7 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
-#include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
@@ -66,10 +66,11 @@ public:
         sides_.read(face.triangles);
         const Index twice = sides_.first_repeated();
         if (twice < 0) return;
-        throw InvalidInput("topology.not_manifold",
-                           "the facets of " + name() +
-                               " overlap or are not consistently oriented at the point " +
-                               place(from(index(twice))) + "; repair or remesh the face");
+        throw InvalidInput(
+            Message("topology.not_manifold",
+                    "the facets of {} overlap or are not consistently oriented at the point {}", entity(),
+                    place(from(index(twice))))
+                .remedy("repair or remesh the face"));
     }
 
     [[nodiscard]] std::size_t size() const { return sides_.size(); }
@@ -90,9 +91,10 @@ public:
             const std::size_t across = index(sides_.across(next));
             next = across - across % 3 + (across + 1) % 3;
             if (turns > size()) {
-                throw InvalidInput("topology.not_manifold",
-                                   "the facets of " + name() + " do not form a surface at the point " +
-                                       place(to(half)) + "; repair or remesh the face");
+                throw InvalidInput(Message("topology.not_manifold",
+                                           "the facets of {} do not form a surface at the point {}", entity(),
+                                           place(to(half)))
+                                       .remedy("repair or remesh the face"));
             }
         }
         return next;
@@ -103,23 +105,16 @@ public:
         const SegmentOnEdge* found = segments_.find(from(half), to(half));
         if (found == nullptr) {
             throw InvalidInput("topology.loose_border",
-                               "the border of " + name() + " leaves its edges at the point " +
-                                   place(from(half)) + "; each boundary side must lie on an edge");
+                               "the border of {} leaves its edges at the point {}; each boundary side must "
+                               "lie on an edge",
+                               entity(), place(from(half)));
         }
         return *found;
     }
 
 private:
-    [[nodiscard]] std::string name() const
-    {
-        return "face " + std::to_string(face_.tag) + (face_.name.empty() ? "" : " \"" + face_.name + "\"");
-    }
-    [[nodiscard]] std::string place(Index point) const
-    {
-        const Vec3& p = model_.at(point);
-        return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
-               ")";
-    }
+    [[nodiscard]] NamedEntity entity() const { return {"face", face_.tag, face_.name}; }
+    [[nodiscard]] std::string place(Index point) const { return place_with_digits(model_.at(point), 6); }
 
     const Model& model_;
     const Face& face_;
@@ -351,11 +346,12 @@ void orient_consistently(Model& model)
     const auto uses = edge_uses(model);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() <= 2) continue;
-        throw InvalidInput(
-            "topology.not_manifold",
-            name_of(model, EdgeId(e)) + " is shared by " + std::to_string(uses[e].size()) + " faces (" +
-                short_list(uses[e], [&](const FaceUse& use) { return name_of(model, use.face); }) +
-                "); the skin of a volume has two at each edge: leave out the others");
+        std::vector<NamedEntity> faces;
+        for (const FaceUse& use : uses[e]) faces.push_back(entity_of(model, use.face));
+        throw InvalidInput(Message("topology.not_manifold",
+                                   "{} is shared by {} faces ({}); the skin of a volume has {} at each edge",
+                                   entity_of(model, EdgeId(e)), found(uses[e].size()), faces, needed(2))
+                               .remedy("leave out the others"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
@@ -375,11 +371,12 @@ void orient_consistently(Model& model)
                 if (other == face) continue;
                 const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
                 if (settled[other.index()] && !agrees) {
-                    throw InvalidInput("topology.not_orientable",
-                                       name_of(model, face) + " and " + name_of(model, other) +
-                                           " cannot be oriented consistently across " +
-                                           name_of(model, use.edge) +
-                                           ": the faces form a one-sided band; leave one of them out");
+                    throw InvalidInput(Message("topology.not_orientable",
+                                               "{} and {} cannot be oriented consistently across {}: the "
+                                               "faces form a one-sided band",
+                                               entity_of(model, face), entity_of(model, other),
+                                               entity_of(model, use.edge))
+                                           .remedy("leave one of them out"));
                 }
                 if (settled[other.index()]) continue;
                 if (!agrees) flip(model[other]);

@@ -2,14 +2,15 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/gaps.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace lacuna::topology {
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kClassNames{"closed", "I", "II", "III", "IV", "V"};
 constexpr std::array<std::string_view, 3> kRoleNames{"source", "target", "wall"};
 
-std::string word(Role role) { return std::string(kRoleNames[static_cast<std::size_t>(role)]); }
+std::string_view word(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
 
 std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
 {
@@ -35,21 +36,13 @@ std::vector<VertexId> wall_free(const OpenVolume& volume, Role end)
     return result;
 }
 
-std::string tags_of(const Model& model, const std::vector<VertexId>& vertices)
-{
-    constexpr std::size_t kMost = 8;
-    const std::string text = full_list(std::span(vertices).first(std::min(vertices.size(), kMost)),
-                                       [&](VertexId v) { return std::to_string(model[v].tag); });
-    return vertices.size() > kMost ? text + ", … (" + std::to_string(vertices.size()) + " in all)" : text;
-}
-
 std::string count(std::size_t n, std::string_view one)
 {
-    return std::to_string(n) + " " + std::string(one) + (n == 1 ? "" : "s");
+    return formatted("{} {}{}", n, one, n == 1 ? "" : "s");
 }
 
-/// The gap between a wall and its neighbours, and the tolerance that sews it; empty if it is too wide.
-std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
+/// The gap between a wall and its neighbours, from the wall's edge; empty if it is too wide.
+std::optional<Gap> gap_beside(const Model& model, const std::vector<FaceId>& part)
 {
     const std::set<FaceId> own(part.begin(), part.end());
     const auto uses = edge_uses(model);
@@ -57,15 +50,10 @@ std::string gap_in_words(const Model& model, const std::vector<FaceId>& part)
     const std::vector<Gap> all = gaps(model);
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const Gap& gap) { return is_own(gap.own) != is_own(gap.other); });
-    if (found == all.end()) return "";
+    if (found == all.end()) return std::nullopt;
     Gap gap = *found;
     if (!is_own(gap.own)) std::swap(gap.own, gap.other);
-    const auto plain = [](double value) { return with_digits(value, 3); };
-    const std::string enough = plain(sewing_tolerance(model, gap));
-    return ": its " + name_of(model, gap.own) + " runs next to " + name_of(model, gap.other) + ", at most " +
-           plain(gap.width) + " away, and the tolerance is " + plain(model.tolerance) +
-           "; lacuna.load(…, { tolerance = " + enough + " }) or lacuna.model{ tolerance = " + enough +
-           " } joins them";
+    return gap;
 }
 
 /// A wall that is not connected to the ends is a mistake in the recipe: report it first.
@@ -76,15 +64,25 @@ void check_walls_touch(const OpenVolume& volume)
     if (std::ranges::all_of(all_faces(model), is_wall)) return;
     for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model))) {
         if (!std::ranges::all_of(part, is_wall)) continue;
-        throw InvalidInput("topology.wall_apart",
-                           name_of(model, part.front()) +
-                               " is named as a wall but touches neither source nor target" +
-                               gap_in_words(model, part));
+        const NamedEntity wall = entity_of(model, part.front());
+        const std::optional<Gap> gap = gap_beside(model, part);
+        if (!gap)
+            throw InvalidInput("topology.wall_apart",
+                               "{} is named as a wall but touches neither source nor target", wall);
+        throw InvalidInput(
+            Message("topology.wall_apart",
+                    "{} is named as a wall but touches neither source nor target: its {} runs next to {}, at "
+                    "most {:.3g} away, and the tolerance is {:.3g}",
+                    wall, entity_of(model, gap->own), entity_of(model, gap->other), gap->width,
+                    found(model.tolerance))
+                .remedy("lacuna.load(…, {{ tolerance = {0:.3g} }}) or lacuna.model{{ tolerance = {0:.3g} }} "
+                        "joins them",
+                        needed(sewing_tolerance(model, *gap))));
     }
 }
 
-/// Walls that end at a vertex and do not contain the edge, for messages.
-std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
+/// Walls that end at a vertex and do not contain the edge.
+std::vector<FaceId> walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
 {
     std::vector<FaceId> walls;
     for (const FaceId wall : volume.faces(Role::wall)) {
@@ -95,7 +93,7 @@ std::string walls_at(const OpenVolume& volume, VertexId vertex, EdgeId edge)
         }
         if (meets && !along) walls.push_back(wall);
     }
-    return names_of(volume.model, walls);
+    return walls;
 }
 
 /// Ends of a pie slice share its axis, where layers have no height; along that axis it can be swept.
@@ -108,17 +106,19 @@ void check_no_shared_edge(const OpenVolume& volume)
     for (const FaceId face : volume.faces(Role::target)) {
         for (const EdgeUse& use : uses_of(model[face])) {
             if (!owner[use.edge.index()].valid()) continue;
-            const std::string from = walls_at(volume, model[use.edge].from, use.edge),
-                              to = walls_at(volume, model[use.edge].to, use.edge);
-            const bool across = !from.empty() && !to.empty() && from != to;
-            throw InvalidInput(
-                "topology.ends_share_edge",
-                "source " + name_of(model, owner[use.edge.index()]) + " and target " + name_of(model, face) +
-                    " share " + name_of(model, use.edge) + ", where layers have no height; " +
-                    (across ? "sweep along that edge, with " + from + " as source and " + to +
-                                  " as target and these two as walls"
-                            : "sweep along that edge: the faces at its two ends are source and "
-                              "target (they may be missing), and these two are walls"));
+            const std::vector<FaceId> from = walls_at(volume, model[use.edge].from, use.edge),
+                                      to = walls_at(volume, model[use.edge].to, use.edge);
+            Message message("topology.ends_share_edge",
+                            "source {} and target {} share {}, where layers have no height",
+                            entity_of(model, owner[use.edge.index()]), entity_of(model, face),
+                            entity_of(model, use.edge));
+            if (from.empty() || to.empty() || from == to)
+                throw InvalidInput(std::move(message).remedy(
+                    "sweep along that edge: the faces at its two ends are source and target (they may be "
+                    "missing), and these two are walls"));
+            throw InvalidInput(std::move(message).remedy(
+                "sweep along that edge, with {} as source and {} as target and these two as walls",
+                entities_of(model, from), entities_of(model, to)));
         }
     }
 }
@@ -135,10 +135,12 @@ void check_ends_apart(const OpenVolume& volume)
         for (const EdgeUse& use : uses_of(model[face])) {
             const VertexId vertex = use_from(model, use);
             if (!owner[vertex.index()].valid()) continue;
-            throw InvalidInput("topology.ends_touch",
-                               "source " + name_of(model, owner[vertex.index()]) + " and target " +
-                                   name_of(model, face) + " meet in " + name_of(model, vertex) +
-                                   "; the ends of a sweep must not touch: choose other faces");
+            throw InvalidInput(
+                Message("topology.ends_touch",
+                        "source {} and target {} meet in {}; the ends of a sweep must not touch",
+                        entity_of(model, owner[vertex.index()]), entity_of(model, face),
+                        entity_of(model, vertex))
+                    .remedy("choose other faces"));
         }
     }
 }
@@ -150,24 +152,29 @@ void check_override(const OpenVolume& volume, const Classification& found)
     const bool source = !volume.faces(Role::source).empty();
     const bool target = !volume.faces(Role::target).empty();
     const bool walls = !volume.faces(Role::wall).empty();
-    const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("topology.class_contradicted",
-                           "the volume cannot be of class " + std::string(to_string(asked)) + ": " + why +
-                               " (found: class " + std::string(to_string(found.value)) + ")");
+    const auto message = [&]<class... Arguments>(Format<sizeof...(Arguments)> format,
+                                                 const Arguments&... arguments) {
+        return Message("topology.class_contradicted", format, arguments...)
+            .about(formatted("the volume cannot be of class {} (found: class {})", to_string(asked),
+                             to_string(found.value)));
+    };
+    const auto refuse = [&]<class... Arguments>(Format<sizeof...(Arguments)> format,
+                                                const Arguments&... arguments) {
+        throw InvalidInput(message(format, arguments...));
     };
     switch (asked) {
     case VolumeClass::closed:
-        refuse(count(found.free_loops.size(), "free loop") + " remain");
+        refuse("{} remain", count(found.free_loops.size(), "free loop"));
         break;
     case VolumeClass::I:
     case VolumeClass::II:
     case VolumeClass::III:
         if (!source || !target)
-            refuse(std::string("it needs a source and a target, but has no ") +
-                   (source ? "target" : "source"));
+            refuse("it needs a source and a target, but has no {}", source ? "target" : "source");
         if (asked == VolumeClass::I && walls)
-            refuse("it must have no walls, but " + count(volume.faces(Role::wall).size(), "wall") +
-                   " are given; leave them out");
+            throw InvalidInput(message("it must have no walls, but {} are given",
+                                       count(volume.faces(Role::wall).size(), "wall"))
+                                   .remedy("leave them out"));
         if (asked != VolumeClass::I && !walls) refuse("it needs at least one wall, but none is given");
         if (asked == VolumeClass::II && found.wall_free_source.empty())
             refuse("every vertex of the source is on a wall");
@@ -175,19 +182,23 @@ void check_override(const OpenVolume& volume, const Classification& found)
             refuse("every vertex of the target is on a wall");
         if (asked == VolumeClass::III &&
             (!found.wall_free_source.empty() || !found.wall_free_target.empty())) {
-            refuse("some vertices are on no wall (source: " + tags_of(volume.model, found.wall_free_source) +
-                   "; target: " + tags_of(volume.model, found.wall_free_target) + ")");
+            std::vector<VertexId> bare = found.wall_free_source;
+            bare.insert(bare.end(), found.wall_free_target.begin(), found.wall_free_target.end());
+            refuse("some vertices are on no wall: {}", entities_of(volume.model, bare));
         }
         break;
     case VolumeClass::IV:
         if (!source) refuse("it needs a source, but none is given");
-        if (target) refuse("its target must be missing, but one is given; leave it out");
+        if (target)
+            throw InvalidInput(
+                message("its target must be missing, but one is given").remedy("leave it out"));
         if (!walls) refuse("it needs all walls, but none is given");
         break;
     case VolumeClass::V:
         if (source || target)
-            refuse(std::string("it must have walls only, but a ") + (source ? "source" : "target") +
-                   " is given; leave it out");
+            throw InvalidInput(
+                message("it must have walls only, but a {} is given", source ? "source" : "target")
+                    .remedy("leave it out"));
         break;
     }
 }
@@ -271,12 +282,13 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
         for (const FaceId face : list) {
             std::optional<Role>& now = given[face.index()];
             if (now == role)
-                throw InvalidInput("topology.face_twice", name_of(model, face) + " is named twice as " +
-                                                              word(role) + "; name it once");
+                throw InvalidInput(Message("topology.face_twice", "{} is named twice as {}",
+                                           entity_of(model, face), word(role))
+                                       .remedy("name it once"));
             if (now) {
-                throw InvalidInput("topology.face_in_two_roles", name_of(model, face) + " is named as " +
-                                                                     word(*now) + " and as " + word(role) +
-                                                                     "; a face has one role");
+                throw InvalidInput("topology.face_in_two_roles",
+                                   "{} is named as {} and as {}; a face has one role", entity_of(model, face),
+                                   word(*now), word(role));
             }
             now = role;
             faces.push_back(face);
@@ -287,7 +299,8 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     take(roles.target, Role::target);
     take(roles.walls, Role::wall);
     if (faces.empty()) {
-        throw InvalidInput("topology.no_faces", "the volume has no faces; name a source, a target or walls");
+        throw InvalidInput(Message("topology.no_faces", "the volume has no faces")
+                               .remedy("name a source, a target or walls"));
     }
     check_cancelled(context);
     volume.model = extract(model, faces);
@@ -315,8 +328,8 @@ Classification classify(const OpenVolume& volume)
     found.wall_free_source = wall_free(volume, Role::source);
     found.wall_free_target = wall_free(volume, Role::target);
     auto& why = found.reasons;
-    why.push_back(count(sources, "source face") + ", " + count(targets, "target face") + ", " +
-                  count(walls, "wall") + " given");
+    why.push_back(formatted("{}, {}, {} given", count(sources, "source face"), count(targets, "target face"),
+                            count(walls, "wall")));
     if (volume.turned_round)
         why.push_back(
             "the target is given and the source is missing: class IV reversed, swept from the target");
@@ -324,8 +337,8 @@ Classification classify(const OpenVolume& volume)
         found.value = VolumeClass::closed;
         why.push_back("every edge is used twice: nothing is missing");
     } else {
-        why.push_back(count(free_edges(volume).size(), "free edge") + " in " +
-                      count(found.free_loops.size(), "free loop"));
+        why.push_back(formatted("{} in {}", count(free_edges(volume).size(), "free edge"),
+                                count(found.free_loops.size(), "free loop")));
         if (sources > 0 && targets > 0 && walls == 0) {
             found.value = VolumeClass::I;
             why.push_back("source and target and no wall between them");
@@ -333,8 +346,9 @@ Classification classify(const OpenVolume& volume)
             const bool both = !found.wall_free_source.empty() && !found.wall_free_target.empty();
             found.value = both ? VolumeClass::II : VolumeClass::III;
             const auto on_no_wall = [&](std::string_view end, const std::vector<VertexId>& list) {
-                why.push_back("vertices of the " + std::string(end) + " on no wall: " +
-                              (list.empty() ? std::string("none") : tags_of(volume.model, list)));
+                const Argument vertices = list.empty() ? Argument("none")
+                                                       : Argument(entities_of(volume.model, list));
+                why.push_back(formatted("vertices of the {} on no wall: {}", end, vertices));
             };
             on_no_wall("source", found.wall_free_source);
             on_no_wall("target", found.wall_free_target);
@@ -348,8 +362,8 @@ Classification classify(const OpenVolume& volume)
     }
     check_override(volume, found);
     if (volume.override_class && *volume.override_class != found.value) {
-        why.push_back("class " + std::string(to_string(*volume.override_class)) +
-                      " by override, instead of " + std::string(to_string(found.value)));
+        why.push_back(formatted("class {} by override, instead of {}", to_string(*volume.override_class),
+                                to_string(found.value)));
         found.value = *volume.override_class;
     }
     return found;

@@ -341,10 +341,11 @@ private:
                     cut = cut || made_.contains(place_between(quad[k], quad[(k + 1) % 4])) ||
                           made_.contains(place_between(quad[k], quad[(k + 2) % 4]));
                 if (!cut) continue;
-                throw InvalidInput("topology.splits_mesh",
-                                   "the cut crosses given quads of " + name_of(model_, FaceId(f)) +
-                                       ", which are kept: move the plane onto mesh lines"
-                                       " of that mesh, or load it with keep_mesh = false");
+                throw InvalidInput(Message("topology.splits_mesh",
+                                           "the cut crosses given quads of {}, which are kept",
+                                           entity_of(model_, FaceId(f)))
+                                       .remedy("move the plane onto mesh lines of that mesh, or load it with "
+                                               "keep_mesh = false"));
             }
         }
     }

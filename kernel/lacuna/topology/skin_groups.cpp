@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/skin_groups.h>
 
+#include <lacuna/core/message.h>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -17,9 +19,10 @@ std::string lower(std::string text)
 /// The name with a suffix that makes it unique.
 std::string free_name(const std::string& name, const std::set<std::string>& taken)
 {
-    int number = 2;
-    while (taken.contains(lower(name + "_" + std::to_string(number)))) ++number;
-    return name + "_" + std::to_string(number);
+    for (int number = 2;; ++number) {
+        std::string numbered = formatted("{}_{}", name, number);
+        if (!taken.contains(lower(numbered))) return numbered;
+    }
 }
 
 /// Whether a name belongs to the face itself: not to its solids, and not a number.
@@ -52,7 +55,7 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const Face& face = volume.model.faces[f];
         const bool made = face.origin == Origin::made_void;
-        const std::string own = (made ? "void:" : "wall:") + std::to_string(face.tag);
+        const std::string own = formatted("{}:{}", made ? "void" : "wall", face.tag);
         std::vector<std::string>& of = groups.emplace_back();
         if (volume.role[f] == Role::wall) {
             of.push_back(own);

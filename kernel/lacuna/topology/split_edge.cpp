@@ -23,11 +23,6 @@ std::vector<FaceId> users_of(const Model& model, EdgeId edge)
     return users;
 }
 
-[[noreturn]] void refuse(const Model& model, EdgeId edge, const std::string& code, const std::string& why)
-{
-    throw InvalidInput("topology." + code, name_of(model, edge) + " cannot be split " + why);
-}
-
 /// The inner point of a chain closest to a running length.
 std::size_t nearest_inner(const std::vector<double>& arc, double at)
 {
@@ -101,8 +96,9 @@ Edge part_of(const Edge& whole, std::size_t first, std::size_t last)
 EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
 {
     if (!(fraction > 0 && fraction < 1)) {
-        refuse(model, id, "split_at_end",
-               "at " + std::to_string(fraction) + " of its length; give a fraction between 0 and 1");
+        throw InvalidInput(Message("topology.split_at_end", "{} cannot be split at {:.6g} of its length",
+                                   entity_of(model, id), found(fraction))
+                               .remedy("give a fraction between 0 and 1"));
     }
     const std::vector<FaceId> users = users_of(model, id);
     const std::vector<double> arc = geometry::arc_lengths(places_at(model, model[id].points));
@@ -112,17 +108,20 @@ EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
     const auto with_mesh = std::find_if(users.begin(), users.end(),
                                         [&](FaceId f) { return !model[f].given_quads.empty(); });
     if (with_mesh != users.end() && !has_inner) {
-        refuse(model, id, "split_kept_mesh",
-               "without changing the given mesh of " + name_of(model, *with_mesh) +
-                   ", which has no node inside the edge; load with keep_mesh = false, or pair "
-                   "the edge's own vertices");
+        throw InvalidInput(Message("topology.split_kept_mesh",
+                                   "{} cannot be split without changing the given mesh of {}, which has no "
+                                   "node inside the edge",
+                                   entity_of(model, id), entity_of(model, *with_mesh))
+                               .remedy("load with keep_mesh = false, or pair the edge's own vertices"));
     }
     const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
     if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
         return divide(model, id, users, nearest);
     if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
-        refuse(model, id, "split_at_end",
-               "at " + std::to_string(fraction) + " of its length, which is within the tolerance of its end");
+        throw InvalidInput("topology.split_at_end",
+                           "{} cannot be split at {:.6g} of its length, which is within the tolerance of its "
+                           "end",
+                           entity_of(model, id), found(fraction));
     }
     const geometry::PolylinePlace place = geometry::place_at(arc, wanted);
     insert_point(model, id, users, place.segment, place.fraction);

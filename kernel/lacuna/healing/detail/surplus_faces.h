@@ -20,7 +20,7 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
 /// Note pairs of free edges that have the same ends and a small gap between them.
 void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, const RunContext& context);
 
-/// Formats a length for messages.
-std::string in_words(double length);
+/// The note about a face that is left out because it is too thin.
+std::string thin_face_note(const topology::Model& model, FaceId face, double tolerance);
 
 } // namespace lacuna::healing

@@ -39,7 +39,7 @@ std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector
 /// there because a face was left out.
 /// @param found  what is detected, for the message, such as "walls".
 /// @throw InvalidInput "cad.face_left_out"  names the face, one of its edges, and a remedy.
-void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, const std::string& found);
+void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, std::string_view found);
 
 /// Sentences that name the faces of the file that are missing next to the given faces of a volume and, after
 /// closing, the void faces that replace them.
