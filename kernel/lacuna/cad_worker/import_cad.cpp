@@ -117,8 +117,7 @@ struct LeftOut {
 };
 
 /// Completes the sentence "face 6 …".
-constexpr const char* kNotCut =
-    "could not be triangulated at any fineness: its boundary intersects itself or is not closed";
+constexpr const char* kNotCut = "could not be triangulated: its boundary crosses itself or is open";
 
 /// Visit the edges of one side of a face in the wire, in order.
 template <class Visit>
