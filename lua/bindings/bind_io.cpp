@@ -228,10 +228,10 @@ const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, con
     std::vector<io::DeckInScale> decks;
     for (const Box<ModelState>& model : arguments.with) {
         if (model->decks.empty())
-            throw InvalidInput("lua.no_deck", "write: with: expected a model that was loaded from a finite "
-                                              "element mesh, found " +
-                                                  (model->model.source.empty() ? "one without a file"
-                                                                               : model->model.source));
+            throw InvalidInput("lua.no_deck",
+                               "write: with: expected a model that was loaded from a finite element mesh, "
+                               "found {}",
+                               model->model.source.empty() ? "one without a file" : model->model.source);
         for (const auto& deck : model->decks) decks.push_back({deck.get(), model->scale});
     }
     if (decks.size() == 1) return *decks.front().deck;
@@ -318,13 +318,11 @@ const io::Format& format_of(const std::string& path, const WriteArguments& argum
     const io::Format& format = io::needed_mesh_format("write", path);
     const char* const idle = idle_option(format, arguments);
     if (idle == nullptr) return format;
-    throw InvalidInput("lua.idle_option",
-                       "write: " + std::string(format.ending) + " files " +
-                           (arguments.with.empty() ? "" : "with = model ") + "have no option '" + idle + "'" +
-                           (idle == std::string_view("ghosts") && format.has_option("ghosts")
-                                ? " without 'partitions'"
-                                : "") +
-                           "; leave it out");
+    const bool unparted = idle == std::string_view("ghosts") && format.has_option("ghosts");
+    throw InvalidInput(Message("lua.idle_option", "write: {} files {}have no option '{}'{}", format.ending,
+                               arguments.with.empty() ? "" : "with = model ", idle,
+                               unparted ? " without 'partitions'" : "")
+                           .remedy("leave it out"));
 }
 
 /// The scaled Jacobian of some cells: as they were proved, where that was kept.
@@ -417,8 +415,8 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
     io::DeckPartition partition;
     if (arguments.partition.parts > 0) {
         if (arguments.msh.version != 4.1)
-            throw InvalidInput("io.partition_version",
-                               "parts are written in MSH version 4.1 alone; leave out the version");
+            throw InvalidInput(Message("io.partition_version", "parts are written in MSH version 4.1 alone")
+                                   .remedy("leave out the version"));
         partition = io::partition_of(deck, parts_of(state), arguments.partition);
         options.partition = &partition;
     }
@@ -546,13 +544,10 @@ std::vector<mesh::CellNodes> hexes_of(const io::Deck& deck)
             }
         }
     }
-    if (hexes.empty())
-        throw InvalidInput("lua.no_hexahedra",
-                           "check: " + deck.path + " holds no hexahedra and no wedges" +
-                               (deck.element_count(3) > 0
-                                    ? ", only " + std::to_string(deck.element_count(3)) + " other solids"
-                                    : ""));
-    return hexes;
+    if (!hexes.empty()) return hexes;
+    const auto others = deck.element_count(3);
+    throw InvalidInput("lua.no_hexahedra", "check: {} holds no hexahedra and no wedges{}", deck.path,
+                       others > 0 ? formatted(", only {} other solids", others) : "");
 }
 
 /// quality = lacuna.check(path): of the hexahedra of a file
@@ -592,9 +587,8 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const io::Format* const format = io::find_format(path.text());
         if (format == nullptr || !format->streamed)
-            throw InvalidInput("lua.not_layered",
-                               "sweep_to: " + path.text() + ": files written a layer at a time end in " +
-                                   io::endings_of([](const io::Format& of) { return of.streamed; }));
+            throw InvalidInput("lua.not_layered", "sweep_to: {}: files written a layer at a time end in {}",
+                               path.text(), io::endings_of([](const io::Format& of) { return of.streamed; }));
         format_of(path.text(), arguments); // refuses options that it has not
     });
     return arguments;
@@ -609,8 +603,9 @@ bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPa
 void refuse_interfaces(const WriteArguments& arguments)
 {
     if (arguments.interfaces)
-        throw InvalidInput("lua.idle_option", "write: meshes of one volume have no option 'interfaces'; "
-                                              "leave it out");
+        throw InvalidInput(
+            Message("lua.idle_option", "write: meshes of one volume have no option 'interfaces'")
+                .remedy("leave it out"));
 }
 
 void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments)
@@ -640,8 +635,9 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
                   const Crew* crew, const RunContext& context)
 {
     if (arguments.quality_given)
-        throw InvalidInput("lua.idle_option", "write: meshes of assemblies are written without 'quality'; "
-                                              "leave it out");
+        throw InvalidInput(
+            Message("lua.idle_option", "write: meshes of assemblies are written without 'quality'")
+                .remedy("leave it out"));
     static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
     count_parts(arguments, path, crew);
     for (const sweep::LeftOut& out : state.left_out)

@@ -33,8 +33,8 @@ const io::OutputPath& push_path(lua_State* L, int index, const char* call, const
     const io::OutputPath& path = push_output_path(L, index, call);
     guard(L, [&] {
         if (io::ending_of(path.text()) != ending)
-            throw InvalidInput("view.ending", std::string(call) + ": expected a file that ends with " +
-                                                  ending + ", found " + path.text());
+            throw InvalidInput("view.ending", "{}: expected a file that ends with {}, found {}", call,
+                               needed(ending), found(path.text()));
     });
     return path;
 }

@@ -37,11 +37,10 @@ void refresh(ModelState& state, const RunContext& context)
     options.tolerance = state.tolerance;
     topology::Model model = healing::split_facets(state.added, options, context);
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
-        throw InvalidInput("lua.face_in_parts", "the " + std::to_string(state.added_faces) +
-                                                    " faces added became " +
-                                                    std::to_string(model.faces.size()) +
-                                                    ": the cells of one do not hang together; "
-                                                    "add each part as a face of its own");
+        throw InvalidInput(Message("lua.face_in_parts",
+                                   "the {} faces added became {}: the cells of one do not hang together",
+                                   needed(state.added_faces), found(model.faces.size()))
+                               .remedy("add each part as a face of its own"));
     put_in_order_of_adding(model, state.added);
     model.source = "faces of the recipe";
     state.model = std::move(model);
@@ -75,16 +74,18 @@ FaceId face_of(const FaceHandle& handle)
 {
     const FaceId face = face_now(handle);
     if (!face.valid())
-        throw InvalidInput("lua.face_grown_over", "this face is part of one that face_from grew since; take "
-                                                  "that one, or pick faces after face_from");
+        throw InvalidInput(
+            Message("lua.face_grown_over", "this face is part of one that face_from grew since")
+                .remedy("take that one, or pick faces after face_from"));
     return face;
 }
 
 Busy::Busy(VolumeState& state, const char* method) : state_(state)
 {
     if (state.busy)
-        throw InvalidInput("lua.busy", std::string(method) + ": this volume is being worked on by its " +
-                                           state.busy + "(); call " + method + " when that is done");
+        throw InvalidInput(
+            Message("lua.busy", "{}: this volume is being worked on by its {}()", method, state.busy)
+                .remedy("call {} when that is done", method));
     state.busy = method;
 }
 

@@ -6,6 +6,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/healing/shared/grow_face.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -267,7 +268,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
-        const std::string begin = "face " + std::to_string(tag) + " ";
+        const std::string begin = formatted("face {} ", tag);
         const auto note = std::ranges::find_if(
             model.notes, [&](const std::string& text) { return text.starts_with(begin); });
         return note == model.notes.end() ? std::string("is not there") : "was not read: " + *note;
@@ -452,14 +453,7 @@ Vec3 mean_normal(const topology::Model& model, FaceId face)
 
 const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces)
 {
-    constexpr std::size_t kMost = 20; // what still reads as a list
-    push_text(L, [&] {
-        std::string names = faces.empty() ? "no faces" : "";
-        for (std::size_t i = 0; i < std::min(kMost, faces.size()); ++i)
-            names += (i ? ", " : "") + topology::name_of(model, faces[i]);
-        if (faces.size() > kMost) names += " and " + std::to_string(faces.size() - kMost) + " more";
-        return names;
-    });
+    push_text(L, [&] { return faces.empty() ? "no faces" : topology::names_of(model, faces); });
     return lua_tostring(L, -1);
 }
 

@@ -14,8 +14,8 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return path;
     if (!host.output_folder)
-        throw InvalidInput("sandbox.no_output",
-                           "the sandbox writes no file; allow it with --output-dir FOLDER");
+        throw InvalidInput(Message("sandbox.no_output", "the sandbox writes no file")
+                               .remedy("allow it with --output-dir FOLDER"));
     return io::OutputPath::below(host.output_folder, path);
 }
 
@@ -26,7 +26,7 @@ void check_input_path(const Host& host, const std::string& path)
     const std::string ending = io::ending_of(path);
     if (ending == ".geo" || ending == ".geo_unrolled")
         throw InvalidInput("sandbox.script",
-                           "the sandbox does not read " + path + ": it is a script, not a file of shapes");
+                           "the sandbox does not read {}: it is a script, not a file of shapes", path);
 }
 
 const io::OutputPath& push_output_path(lua_State* L, int index, const char* call)

@@ -249,8 +249,9 @@ struct LuaSize {
     {
         lua_State* const L = state;
         if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
-            throw Error("lua.size_function", std::string("the function of option '") + option +
-                                                 "' cannot be called here; give a number");
+            throw Error(
+                Message("lua.size_function", "the function of option '{}' cannot be called here", option)
+                    .remedy("give a number"));
         lua_pushvalue(L, function);
         for (const double coordinate : place) lua_pushnumber(L, coordinate);
         if (lua_pcall(L, 3, 1, 0) != LUA_OK) {

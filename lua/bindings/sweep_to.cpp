@@ -78,10 +78,10 @@ void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const 
         const auto held = std::ranges::count_if(
             mesh.swept.parts, [](const sweep::Swept& part) { return !part.layers.has_value(); });
         if (held > 0)
-            mesh.swept.report.push_back(
-                "sweep_to: " + std::to_string(held) + " of " + std::to_string(mesh.swept.parts.size()) +
-                " parts were held in memory, since their nodes are more than placed layers, or the file is "
-                "not written so");
+            mesh.swept.report.push_back(formatted(
+                "sweep_to: {} of {} parts were held in memory, since their nodes are more than placed "
+                "layers, or the file is not written so",
+                held, mesh.swept.parts.size()));
         write_pieces(mesh, *file.path, *file.arguments, lent.crew, context);
         run.report = fill::report(mesh);
     }

@@ -39,7 +39,7 @@ void keep(lacuna_interpreter& handle, ScriptError error) noexcept
 
 ScriptError plain_error(const std::string& code, const std::string& message)
 {
-    ScriptError error(code, message + " [" + code + "]");
+    ScriptError error(code, lacuna::formatted("{} [{}]", message, code));
     error.message = message;
     return error;
 }
@@ -93,8 +93,8 @@ lacuna_status get(lacuna_interpreter* handle, const char* path, T* value, const 
                 return;
             }
         }
-        throw plain_error("lua.no_value", std::string("'") + path + "' must be " + expected + ", found a " +
-                                              interpreter.type_of(path));
+        throw plain_error("lua.no_value", lacuna::formatted("'{}' must be {}, found a {}", path, expected,
+                                                            interpreter.type_of(path)));
     });
 }
 

@@ -208,7 +208,8 @@ struct Interpreter::State {
     void check_free() const
     {
         if (running)
-            throw InvalidInput("lua.busy", "this interpreter is running a recipe; call it when that is done");
+            throw InvalidInput(Message("lua.busy", "this interpreter is running a recipe")
+                                   .remedy("call it when that is done"));
     }
 };
 
@@ -415,8 +416,9 @@ void Interpreter::State::call(int arguments, int results, bool is_run)
         if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
         if (!limited) throw Cancelled();
         ScriptError error("lua.instructions",
-                          "the limit of " + std::to_string(options.instructions) +
-                              " instructions is exceeded; raise the option 'instructions'");
+                          formatted("the limit of {} instructions is exceeded; raise the option "
+                                    "'instructions'",
+                                    options.instructions));
         error.message = error.what();
         throw error;
     }

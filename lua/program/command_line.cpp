@@ -3,6 +3,7 @@
 
 #include "bindings/options.h"
 
+#include <lacuna/core/message.h>
 #include <lacuna/io/formats.h>
 
 #include <algorithm>
@@ -171,7 +172,7 @@ struct Words {
     {
         const std::string& name = value_of(flag);
         if (name.ends_with(".lua"))
-            throw BadUsage(flag + " needs the name of an output file, found the recipe " + name);
+            throw BadUsage(formatted("{} needs the name of an output file, found the recipe {}", flag, name));
         return name;
     }
     int count_of(const std::string& flag)
@@ -179,7 +180,7 @@ struct Words {
         constexpr double kMost = 1024;
         const double value = positive_value_of(flag);
         if (value != std::floor(value) || value > kMost)
-            throw BadUsage(flag + " needs an integer from 1 to 1024, found " + all[next - 1]);
+            throw BadUsage(formatted("{} needs an integer from 1 to 1024, found {}", flag, all[next - 1]));
         return static_cast<int>(value);
     }
     double positive_value_of(const std::string& flag)
@@ -188,7 +189,7 @@ struct Words {
         char* end = nullptr;
         const double value = std::strtod(word.c_str(), &end);
         if (*end != '\0' || !std::isfinite(value) || value <= 0)
-            throw BadUsage(flag + " needs a positive number, found " + word);
+            throw BadUsage(formatted("{} needs a positive number, found {}", flag, word));
         return value;
     }
 };
@@ -236,18 +237,18 @@ void read_command(const Command& command, Words& words, CommandLine& line)
         if (command.option != nullptr && word == command.option)
             line.option = true;
         else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
-            throw BadUsage(std::string(command.name) + " has no option " + word + "; `lacuna " +
-                           command.name + " --help` lists its options");
+            throw BadUsage(formatted("{0} has no option {1}; `lacuna {0} --help` lists its options",
+                                     command.name, word));
         else if (word[0] != '-' || word == "-")
             line.words.push_back(word);
     }
     if (limits)
-        throw BadUsage("write --output-dir, --memory and --seconds before " + std::string(command.name));
-    const std::string wants = std::string(command.name) + " needs " +
-                              (command.count == 1 ? "a file" : "two files") + ", " + command.files;
+        throw BadUsage(formatted("write --output-dir, --memory and --seconds before {}", command.name));
+    const std::string wants = formatted("{} needs {}, {}", command.name,
+                                        command.count == 1 ? "a file" : "two files", command.files);
     if (line.words.size() < command.count) throw BadUsage(wants);
     if (line.words.size() > command.count)
-        throw BadUsage(wants + "; found " + line.words[command.count] + " too");
+        throw BadUsage(formatted("{}; found {} too", wants, line.words[command.count]));
 }
 
 /// Read recipes, each followed by its parameters.
@@ -296,7 +297,8 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
             if (line.command.ends_with(".lua"))
                 line.action = Action::parameters, line.file = std::exchange(line.command, {});
             else if (!find_command(line.command))
-                throw BadUsage("there is no command " + line.command + "; " + like_command(line.command));
+                throw BadUsage(
+                    formatted("there is no command {}; {}", line.command, like_command(line.command)));
         }
     } else if (word == "-i")
         line.action = Action::prompt;
@@ -306,7 +308,7 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
         read_command(*command, words, line);
     else if (word != "-" && word.starts_with("-")) {
         const std::size_t near = nearest_word(word.c_str(), kFlags);
-        throw BadUsage("unknown option " + word + "; the nearest is " + kFlags[near]);
+        throw BadUsage(formatted("unknown option {}; the nearest is {}", word, kFlags[near]));
     } else if (word != "-" && is_misspelt(word)) {
         throw BadUsage(
             "there is no command or file " + word + "; " +

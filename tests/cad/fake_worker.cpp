@@ -28,6 +28,14 @@ LoadReply triangle()
     return reply;
 }
 
+Failure refusal()
+{
+    const Message message = Message("cad.fake", "{} of {{}} has {} sides, not {}",
+                                    NamedEntity{"face", 3, "lid"}, found(7), needed(8))
+                                .remedy("split {}", NamedEntity{"edge", 4, {}, std::pair(1, 2)});
+    return {Failure::invalid_input, message.parts()};
+}
+
 void write_raw(const std::string& bytes)
 {
     if (::write(3, bytes.data(), bytes.size()) < 0) ::_exit(1);
@@ -80,13 +88,14 @@ int main()
             if (how == "form") reply.edges[0].form = {Vec3(0, 0, 0)};
             if (how == "solids") reply.solids = {{-1}};
             if (how == "nan") reply.points[0].x() = std::numeric_limits<double>::quiet_NaN();
-            std::string bytes = encode(reply);
+            const bool refuses = how == "refuses" || (how == "noise" && dice() % 2 == 0);
+            std::string bytes = refuses ? encode(refusal()) : encode(reply);
             if (how == "text") bytes.replace(bytes.find("face") - 8, 8, 8, '\x7f');
             if (how == "noise") {
                 for (int k = 0; k < 1 + int(dice() % 4); ++k) bytes[dice() % bytes.size()] = char(dice());
                 if (dice() % 3 == 0) bytes.resize(dice() % bytes.size());
             }
-            channel.send(Opcode::done, bytes);
+            channel.send(refuses ? Opcode::failed : Opcode::done, bytes);
         }
     } catch (const ProtocolError&) {
     }

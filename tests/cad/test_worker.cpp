@@ -532,6 +532,30 @@ TEST_CASE("a CAD process that lies does no harm")
     CHECK(cad::load({path}).faces.size() == 6);
 }
 
+TEST_CASE("an error of the CAD process names its entities as data")
+{
+    const test::TempFolder folder;
+    const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
+    const Fake fake("refuses");
+    bool refused = false;
+    try {
+        (void)cad::load({path});
+    } catch (const InvalidInput& error) {
+        refused = true;
+        const Message& message = error.message();
+        CHECK(message.text() == "face 3 \"lid\" of {} has 7 sides, not 8; split edge 4 (vertices 1-2)");
+        CHECK(message.code() == "cad.fake");
+        CHECK(message.remedy() == "split edge 4 (vertices 1-2)");
+        REQUIRE(message.entities() ==
+                std::vector<NamedEntity>{{"face", 3}, {"edge", 4}, {"vertex", 1}, {"vertex", 2}});
+        CHECK(message.entities()[0].name == "lid");
+        CHECK(message.entities()[1].ends == std::pair<long long, long long>(1, 2));
+        CHECK(message.found() == std::vector<MessageValue>{7LL});
+        CHECK(message.needed() == std::vector<MessageValue>{8LL});
+    }
+    CHECK(refused);
+}
+
 TEST_CASE("the CAD process survives a host that lies")
 {
     const test::TempFolder folder;

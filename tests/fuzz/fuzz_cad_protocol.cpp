@@ -68,9 +68,9 @@ std::string sample(int which)
     solid.points = model.points;
     solid.edges = {{SolidEdge::lines, -1, 0, {0, 1}, {}},
                    {SolidEdge::spline, -1, 0, {}, {axis, {Vec3(0, 0, 0), Vec3(1, 1, 1)}}}};
-    solid.faces = {{SolidFace::plane, "face 1", -1, 0, {{{0, 1}, {1, 0}}}, {}, {}, 0},
+    solid.faces = {{SolidFace::plane, NamedEntity{"face", 1}, -1, 0, {{{0, 1}, {1, 0}}}, {}, {}, 0},
                    {SolidFace::patches,
-                    "face 2",
+                    NamedEntity{"void face", 2, "lid"},
                     -1,
                     0,
                     {},
@@ -87,7 +87,13 @@ std::string sample(int which)
     case 1:
         return encode(Progress{0.5});
     case 2:
-        return encode(Failure{Failure::backend, "cad.gmsh", "words"});
+        return encode(Failure{Failure::backend,
+                              {"cad.gmsh",
+                               "words",
+                               "try this",
+                               {{"face", 3, "lid"}, {"edge", 4, {}, std::pair(1, 2)}},
+                               {1LL, 0.5},
+                               {"text"}}});
     case 3:
         return encode(LoadRequest{{{LoadFile::step, "a/b.step", {{"b.step"}, {"c"}}}}, 0, 1});
     case 4:

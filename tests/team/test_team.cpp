@@ -185,6 +185,36 @@ TEST_CASE("where one fails all end, the first says who and why, and no file is l
     }
 }
 
+TEST_CASE("an error of one process reaches the others with its entities and remedy")
+{
+    const NamedEntity face{"face", 3, "lid"};
+    std::string told;
+    Team failing;
+    failing.exchange = [&](const std::string& own) {
+        told = own;
+        return std::vector<std::string>{own};
+    };
+    const auto fail = [&] {
+        throw NotSweepable(Message("test.folds", "{} folds", face).remedy("take {} layers", needed(4)));
+    };
+    CHECK_THROWS_AS(do_together(&failing, fail), NotSweepable);
+    Team other;
+    other.exchange = [&](const std::string& own) { return std::vector<std::string>{own, told}; };
+    bool heard = false;
+    try {
+        gather(&other, {});
+    } catch (const TeamFailed& error) {
+        heard = true;
+        CHECK(error.what() == std::string("process 2 of 2: face 3 \"lid\" folds; take 4 layers"));
+        CHECK(error.code() == "test.folds");
+        CHECK(error.message().remedy() == "take 4 layers");
+        REQUIRE(error.message().entities() == std::vector<NamedEntity>{face});
+        CHECK(error.message().entities()[0].name == "lid");
+        CHECK(error.message().needed() == std::vector<MessageValue>{4LL});
+    }
+    CHECK(heard);
+}
+
 TEST_CASE("what each is told does not grow with the layers but for the rims")
 {
     struct Counted {

@@ -18,19 +18,21 @@ constexpr std::size_t kAtOnce = 20'000;
 constexpr double kGrace = 0.3;
 
 /// Ask the process that holds a model for `count` points.
+/// @param doing, entity  as in Task
 template <class Reply, class Make>
-Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, std::string doing,
-                 std::size_t count, const RunContext& context)
+Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, const char* doing,
+                 NamedEntity entity, std::size_t count, const RunContext& context)
 {
-    Task task{source.path(), std::move(doing)};
+    Task task{source.path(), doing};
+    task.entity = std::move(entity);
     task.points = count;
     task.context = &context;
     task.grace = kGrace;
     Reply reply = source.ask<Reply>(opcode, make, task);
     if (reply.points.size() != count)
-        throw BackendError("cad.protocol",
-                           source.path() +
-                               ": the CAD process returned the wrong number of points; load the file again");
+        throw BackendError(
+            Message("cad.protocol", "{}: the CAD process returned the wrong number of points", source.path())
+                .remedy("load the file again"));
     return reply;
 }
 
@@ -55,40 +57,41 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(worker, path_ + " must be read by another CAD process", context);
+    held_ = load_again(worker, Message("cad.file_changed", "{} must be read by another CAD process", path_),
+                       context);
     before.worker->release(before.handle);
     return held_.handle;
 }
 
-void CadSource::renew(const Held& gone, const std::string& why, const RunContext& context) const
+void CadSource::renew(const Held& gone, const Message& why, const RunContext& context) const
 {
     const std::lock_guard lock(mutex_);
     if (held_.worker != gone.worker) return; // another thread has reloaded it
     held_ = load_again(Worker::current(&context, path_), why, context);
 }
 
-CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const std::string& why,
+CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Message& why,
                                       const RunContext& context) const
 {
     RunContext quiet = context; // the progress shown is that of the current stage, not of reloading
     quiet.progress = {};
-    std::string trouble;
+    Message trouble("cad.file_changed", "{} has changed", path_);
     try {
         const CadFiles files = open_cad_files(order_, quiet);
         if (files.digest == digest_) {
             const LoadReply reply = read_cad_files(*worker, order_, files, quiet);
             return {std::move(worker), reply.model};
         }
-        trouble = path_ + " has changed";
     } catch (const Cancelled&) {
         throw;
     } catch (const WorkerGone&) {
         throw;
     } catch (const Error& error) {
-        trouble = error.what();
+        trouble = error.message();
     }
-    throw BackendError("cad.file_changed", why + ", and could not be read again: " + trouble +
-                                               "; load the file again for its exact geometry");
+    throw BackendError(
+        Message("cad.file_changed", "{}, and could not be read again: {}", why.parts(), trouble.parts())
+            .remedy("load the file again for its exact geometry"));
 }
 
 // --- points ---------------------------------------------------------------------------------------------
@@ -104,8 +107,7 @@ void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunCo
             return ProjectRequest{handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}};
         };
         const auto reply = ask_points<ProjectReply>(*source_, Opcode::project, request,
-                                                    "projecting points onto face " + std::to_string(tag_),
-                                                    count, context);
+                                                    "projecting points onto", {"face", tag_}, count, context);
         std::copy(reply.points.begin(), reply.points.end(), some.begin());
         std::copy(reply.uv.begin(), reply.uv.end(), places.begin());
     }
@@ -125,8 +127,8 @@ void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
         const auto request = [&](std::uint64_t handle) {
             return EvaluateRequest{handle, tag_, {some.begin(), some.end()}};
         };
-        const auto reply = ask_points<EvaluateReply>(
-            *source_, Opcode::evaluate, request, "evaluating curve " + std::to_string(tag_), count, context);
+        const auto reply = ask_points<EvaluateReply>(*source_, Opcode::evaluate, request, "evaluating",
+                                                     {"curve", tag_}, count, context);
         std::copy(reply.points.begin(), reply.points.end(),
                   points.begin() + static_cast<std::ptrdiff_t>(from));
     }

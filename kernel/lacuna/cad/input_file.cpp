@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/script.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/load_facets.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ constexpr std::size_t kMostContents = 100;
 
 [[noreturn]] void fail(const std::string& path, int error)
 {
-    throw BackendError("cad.unreadable", path + " cannot be read: " + std::strerror(error));
+    throw BackendError("cad.unreadable", "{} cannot be read: {}", path, std::strerror(error));
 }
 
 /// Write bytes at a place of a file. @param path  for messages
@@ -75,7 +76,8 @@ void add_copy(InputFile& input, const std::string& name, const std::string& path
     struct stat status {};
     if (::fstat(from.get(), &status) != 0) fail(path, errno);
     if (!S_ISREG(status.st_mode))
-        throw InvalidInput("cad.not_a_file", path + " is not a regular file; name a file on a disk");
+        throw InvalidInput(
+            Message("cad.not_a_file", "{} is not a regular file", path).remedy("name a file on a disk"));
     Descriptor copy(::memfd_create("lacuna-cad input", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!copy) fail(path, errno);
     std::vector<char> block(kBlock);
@@ -108,10 +110,10 @@ bool is_iges(const std::string& head)
 LoadFile::Format format_of(const std::string& path, const std::string& head)
 {
     const std::string ending = ending_of(path);
-    const auto checked = [&](bool valid, const std::string& kind, LoadFile::Format format) {
+    const auto checked = [&](bool valid, const char* kind, LoadFile::Format format) {
         if (valid) return format;
-        throw InvalidInput("cad.unreadable", path + " is not a valid " + kind +
-                                                 " file; check the file, or use the ending of its format");
+        throw InvalidInput(Message("cad.unreadable", "{} is not a valid {} file", path, kind)
+                               .remedy("check the file, or use the ending of its format"));
     };
     if (ending == ".step" || ending == ".stp") return checked(is_step(head), "STEP", LoadFile::step);
     if (ending == ".iges" || ending == ".igs") return checked(is_iges(head), "IGES", LoadFile::iges);
@@ -128,14 +130,15 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
 void skip_commands(InputFile& input, const Descriptor& script, const std::string& path, std::string text,
                    const std::vector<SkippedCommand>& commands)
 {
-    std::string named;
-    for (const SkippedCommand& command : commands) {
+    if (commands.empty()) return;
+    for (const SkippedCommand& command : commands)
         for (std::size_t k = command.begin; k < command.end; ++k)
             if (text[k] != '\n') text[k] = ' ';
-        named += (named.empty() ? "" : ", ") + command.word + " (line " + std::to_string(command.line) + ")";
-    }
-    if (named.empty()) return;
-    input.notes.push_back(path + ": only the geometry of the script is read. Skipped commands: " + named);
+    const auto with_line = [](const SkippedCommand& command) {
+        return formatted("{} (line {})", command.word, command.line);
+    };
+    input.notes.push_back(formatted("{}: only the geometry of the script is read. Skipped commands: {}", path,
+                                    short_list(commands, with_line)));
     write_at(script, text, 0, path);
 }
 
@@ -148,7 +151,8 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
         const std::string own = i == 0 ? path : path.substr(0, path.size() - name_of(path).size()) + name;
         std::string text = text_of(input.descriptors[i], kLongestScript + 1);
         if (text.size() > kLongestScript)
-            throw InvalidInput("cad.script", own + " is too long for a script (64 MiB at most)");
+            throw InvalidInput("cad.script", "{} is too long for a script ({} MiB at most)", own,
+                               needed(kLongestScript >> 20));
         const ScriptContent found = look_through_script(own, text);
         if (i > 0 && !found.skipped.empty() && found.skipped.back().word == "Exit")
             throw InvalidInput("cad.script", own + ", line " + std::to_string(found.skipped.back().line) +
@@ -161,9 +165,10 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
             if (known != input.file.contents.end()) continue;
             const std::string beside = path.substr(0, path.size() - name_of(path).size()) + wanted.name;
             if (::access(beside.c_str(), F_OK) != 0 || input.descriptors.size() == kMostContents) {
-                throw InvalidInput("cad.script", own + ", line " + std::to_string(wanted.line) +
-                                                     ": the script includes " + wanted.name +
-                                                     ", which is not in its folder; put it there");
+                throw InvalidInput(Message("cad.script",
+                                           "{}, line {}: the script includes {}, which is not in its folder",
+                                           own, wanted.line, wanted.name)
+                                       .remedy("put it there"));
             }
             add_copy(input, wanted.name, beside, O_NOFOLLOW, context);
         }

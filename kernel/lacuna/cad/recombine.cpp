@@ -109,10 +109,10 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
 {
     const std::size_t sides = side_count(region);
     if (region.loops.empty() || sides % 2 != 0 || sides < 4) {
-        throw NotSweepable(
-            "cad.odd_rim",
-            "a region with " + std::to_string(sides) +
-                " boundary sides cannot be filled with quads; their number must be even and 4 at least");
+        throw NotSweepable(Message("cad.odd_rim",
+                                   "a region with {} boundary sides cannot be filled with quads",
+                                   found(sides))
+                               .remedy("their number must be even and 4 at least"));
     }
     // Gmsh crashes on loops that intersect.
     quads::check(region);
@@ -124,7 +124,7 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
             for (const Index p : loop) box.extend(region.points[index(p)]);
         request.size = size_raster(region, box, context);
     }
-    Task task{"a region of " + std::to_string(sides) + " boundary sides", "filling it with quads"};
+    Task task{formatted("a region of {} boundary sides", sides), "filling it with quads"};
     task.context = &context;
     task.points = sides * sides / 16; // quads of a round region with this number of boundary segments
     const auto fill = [&] {
@@ -134,15 +134,15 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
         } catch (const BackendError& error) {
             if (error.code() != "cad.worker_ended") throw;
             // No input file is involved, so the standard message of a crash does not apply.
-            throw BackendError(error.code(), "Gmsh's quad mesher crashed on " + task.subject +
-                                                 "; use quads = \"paved\", which does not need Gmsh");
+            throw BackendError(Message(error.code(), "Gmsh's quad mesher crashed on {}", task.subject)
+                                   .remedy("use quads = \"paved\", which does not need Gmsh"));
         }
     };
     auto reply = fill();
     if (reply.points.size() < region.points.size() ||
         !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
-        throw BackendError("cad.protocol",
-                           "the CAD process moved boundary nodes of a region; use quads = \"paved\"");
+        throw BackendError(Message("cad.protocol", "the CAD process moved boundary nodes of a region")
+                               .remedy("use quads = \"paved\""));
     return {std::move(reply.points), std::move(reply.quads), "gmsh"};
 }
 
@@ -150,7 +150,8 @@ std::string gmsh_version()
 {
     try {
         const Hello& hello = Worker::current()->hello();
-        return hello.gmsh_version + (hello.missing.empty() ? "" : ", without " + hello.missing);
+        return hello.missing.empty() ? hello.gmsh_version
+                                     : formatted("{}, without {}", hello.gmsh_version, hello.missing);
     } catch (const BackendError&) {
         return "none";
     }

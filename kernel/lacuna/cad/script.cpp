@@ -56,9 +56,9 @@ private:
 
     [[noreturn]] void refuse(const std::string& what) const
     {
-        throw InvalidInput("cad.script",
-                           path_ + ", line " + std::to_string(line_) + ": " + what +
-                               "; a script may make geometry, and include or merge files of its own folder");
+        throw InvalidInput(
+            Message("cad.script", "{}, line {}: {}", path_, line_, what)
+                .remedy("a script may make geometry, and include or merge files of its own folder"));
     }
     void step()
     {
@@ -102,8 +102,8 @@ private:
         // "Print.Background" is an option, and scripts may set options.
         if (at_ < text_.size() && text_[at_] == '.') return;
         for (const Word& refused : kRefused)
-            if (found == refused.word) refuse(std::string(found) + " " + std::string(refused.does));
-        const auto is_one_of = [between = " " + std::string(found) + " "](std::string_view words) {
+            if (found == refused.word) refuse(formatted("{} {}", found, refused.does));
+        const auto is_one_of = [between = formatted(" {} ", found)](std::string_view words) {
             return words.find(between) != std::string_view::npos;
         };
         depth_ += is_one_of(kBegins) ? 1 : is_one_of(kEnds) ? -1 : 0;
@@ -140,7 +140,7 @@ private:
         if (!leaves) return;
         if (at_ < text_.size()) return content_.skipped.push_back({word, line, from, ++at_});
         line_ = line;
-        refuse(word + " has no ';' at its end");
+        refuse(formatted("{} has no ';' at its end", word));
     }
     /// Remove what follows from `from` on: Gmsh does not come to it.
     void end_at(std::size_t from)
@@ -160,9 +160,9 @@ private:
         std::string name;
         if (at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'')) name = quoted();
         if (name.starts_with("./")) name.erase(0, 2);
-        if (name.empty()) refuse(std::string(found) + " needs the name of a file in quotes");
+        if (name.empty()) refuse(formatted("{} needs the name of a file in quotes", found));
         if (name.find_first_of("/\\") != std::string::npos || name == "..")
-            refuse(std::string(found) + " names " + name + ", which is in another folder");
+            refuse(formatted("{} names {}, which is in another folder", found, name));
         content_.files.push_back({name, line});
     }
 

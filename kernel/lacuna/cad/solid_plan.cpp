@@ -83,8 +83,8 @@ public:
             try {
                 plan_.request.faces.push_back(plan(FaceId(f)));
             } catch (const BackendError& error) {
-                throw BackendError("cad.face_failed",
-                                   name_of(model_, FaceId(f)) + " could not be made: " + error.what());
+                throw BackendError("cad.face_failed", "{} could not be made: {}",
+                                   entity_of(model_, FaceId(f)), error.message().parts());
             }
         }
         return std::move(plan_);
@@ -214,7 +214,7 @@ private:
     {
         const Face& face = model_[id];
         SolidFace made;
-        made.name = name_of(model_, id);
+        made.entity = entity_of(model_, id);
         if (exact_face(face, made)) return made;
         const bool is_void = face.origin == Origin::made_void;
         if (is_plane(model_, face)) {
@@ -223,9 +223,10 @@ private:
             return made;
         }
         if (!is_void) {
-            throw InvalidInput("cad.facets_alone",
-                               made.name + " is curved and has only facets, no exact surface for a CAD file; "
-                                           "write the volume with write_facets (.stl, .msh, .obj)");
+            throw InvalidInput(Message("cad.facets_alone",
+                                       "{} is curved and has only facets, no exact surface for a CAD file",
+                                       made.entity)
+                                   .remedy("write the volume with write_facets (.stl, .msh, .obj)"));
         }
         ++plan_.fitted;
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())

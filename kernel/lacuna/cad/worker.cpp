@@ -2,7 +2,6 @@
 #include <lacuna/cad/detail/worker.h>
 
 #include <lacuna/cad/detail/worker_program.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
 
 #include <algorithm>
@@ -71,6 +70,13 @@ std::uint64_t memory_for(const Task& task, std::uint64_t charged)
     if (memory == 0) memory = kMemory + charged;
     if (task.limits.memory == 0) return memory;
     return task.limits.may_raise ? task.limits.memory : std::min(task.limits.memory, memory);
+}
+
+/// What the process does, for messages.
+MessageParts doing(const Task& task)
+{
+    return (task.entity ? Message("", "{} {}", task.doing, *task.entity) : Message("", "{}", task.doing))
+        .parts();
 }
 
 /// Thrown when the time limit is exceeded.
@@ -175,8 +181,8 @@ pid_t spawn(const std::string& program, int socket, int words)
     const int error = ::posix_spawn(&pid, program.c_str(), &actions.files, &actions.attributes,
                                     arguments.data(), environment.data());
     if (error != 0)
-        throw BackendError("cad.no_worker",
-                           "the CAD process " + program + " does not start: " + std::strerror(error));
+        throw BackendError("cad.no_worker", "the CAD process {} does not start: {}", program,
+                           std::strerror(error));
     return pid;
 }
 
@@ -232,7 +238,7 @@ std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::st
     try {
         current.worker = std::shared_ptr<Worker>(new Worker(context));
     } catch (const BackendError& error) {
-        throw BackendError(error.code(), (subject.empty() ? "" : subject + ": ") + error.what());
+        throw BackendError(subject.empty() ? error.message() : error.message().about(subject));
     }
     return current.worker;
 }
@@ -256,8 +262,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     const std::string program = find_worker_program();
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        throw BackendError("cad.no_worker",
-                           std::string("the CAD process does not start: ") + std::strerror(errno));
+        throw BackendError("cad.no_worker", "the CAD process does not start: {}", std::strerror(errno));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
     // Large enough that a large message needs few waits.
     constexpr int kBuffer = 1 << 20;
@@ -277,23 +282,22 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     try {
         const Frame frame = channel_->receive(patience_of(context, kStartSeconds));
         if (frame.opcode == Opcode::failed) {
-            const auto failure = decode<Failure>(frame.bytes);
-            throw BackendError(failure.code, failure.message);
+            throw BackendError(Message(decode<Failure>(frame.bytes).message));
         }
         if (frame.opcode != Opcode::hello) throw ProtocolError("it sent no greeting");
         hello_ = decode<Hello>(frame.bytes);
     } catch (const TimeOver&) {
         end();
-        throw BackendError("cad.no_worker",
-                           program + " did not answer within " + with_digits(kStartSeconds, 3) + " s");
+        throw BackendError("cad.no_worker", "{} did not answer within {:.3g} s", program,
+                           needed(kStartSeconds));
     } catch (const ChannelClosed&) {
         end();
-        throw BackendError("cad.no_worker",
-                           program + " ended while it was started (" + how_it_ended() + last_words() + ")");
+        throw BackendError("cad.no_worker", "{} ended while it was started ({}{})", program, how_it_ended(),
+                           last_words());
     } catch (const ProtocolError& error) {
         end();
-        throw BackendError("cad.no_worker", program + " does not belong to this version of Lacuna: " +
-                                                error.what() + " (" + how_it_ended() + last_words() + ")");
+        throw BackendError("cad.no_worker", "{} does not belong to this version of Lacuna: {} ({}{})",
+                           program, error.what(), how_it_ended(), last_words());
     } catch (...) {
         end();
         throw;
@@ -322,9 +326,9 @@ void Worker::end() noexcept
 
 std::string Worker::how_it_ended() const
 {
-    if (status_ >= 0) return "exit code " + std::to_string(status_);
+    if (status_ >= 0) return formatted("exit code {}", status_);
     const char* name = ::sigabbrev_np(-status_);
-    return std::string("signal SIG") + (name != nullptr ? name : std::to_string(-status_));
+    return name != nullptr ? formatted("signal SIG{}", name) : formatted("signal {}", -status_);
 }
 
 std::string Worker::last_words() const
@@ -347,35 +351,34 @@ void Worker::died(const Task& task)
     for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
     end();
     end_ = "it crashed on " + task.subject;
-    throw BackendError("cad.worker_ended", task.subject + ": the CAD process ended while " + task.doing +
-                                               ": " + how_it_ended() + last_words() +
-                                               ". The file is damaged or Open CASCADE cannot read it; "
-                                               "repair it in the CAD system or export it anew");
+    throw BackendError(Message("cad.worker_ended",
+                               "{}: the CAD process ended while {}: {}{}. The file is damaged or Open "
+                               "CASCADE cannot read it",
+                               task.subject, doing(task), how_it_ended(), last_words())
+                           .remedy("repair it in the CAD system or export it anew"));
 }
 
 void Worker::give_up(const Task& task, const ProtocolError& error)
 {
     end_ = "it broke the protocol on " + task.subject;
     end();
-    throw BackendError("cad.protocol", task.subject + ": the CAD process sent invalid data while " +
-                                           task.doing + ": " + error.what());
+    throw BackendError("cad.protocol", "{}: the CAD process sent invalid data while {}: {}", task.subject,
+                       doing(task), error.what());
 }
 
 std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
 {
     if (owner_ != ::getpid())
-        throw WorkerGone("cad.worker_ended", task.subject +
-                                                 ": the CAD process belongs to the process this one was "
-                                                 "forked from");
+        throw WorkerGone("cad.worker_ended",
+                         "{}: the CAD process belongs to the process this one was forked from", task.subject);
     std::unique_lock lock(busy_, std::defer_lock);
     constexpr auto kTick = std::chrono::milliseconds(50);
     while (!lock.try_lock_for(kTick))
         if (task.context != nullptr) check_cancelled(*task.context);
     notice_end();
-    if (ended_) {
-        const std::string how = end_.empty() ? how_it_ended() : end_;
-        throw WorkerGone("cad.worker_ended", task.subject + ": the CAD process had ended (" + how + ")");
-    }
+    if (ended_)
+        throw WorkerGone("cad.worker_ended", "{}: the CAD process had ended ({})", task.subject,
+                         end_.empty() ? how_it_ended() : end_);
     return lock;
 }
 
@@ -407,11 +410,11 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     } catch (const TimeOver&) {
         end_ = "it exceeded its time limit on " + task.subject;
         end();
-        throw BackendError(
-            "cad.time_limit",
-            task.subject + ": " + task.doing + " took longer than " + with_digits(seconds, 3) +
-                " s of processor time, and the CAD process was ended; repair the file, or allow more "
-                "with LACUNA_CAD_SECONDS");
+        throw BackendError(Message("cad.time_limit",
+                                   "{}: {} took longer than {:.3g} s of processor time, and the CAD process "
+                                   "was ended",
+                                   task.subject, doing(task), needed(seconds))
+                               .remedy("repair the file, or allow more with LACUNA_CAD_SECONDS"));
     } catch (const ChannelClosed&) {
         died(task);
     } catch (const ProtocolError& error) {
@@ -424,19 +427,19 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     spent_ = spent_ || opcode == Opcode::load;
     switch (failure.kind) {
     case Failure::invalid_input:
-        throw InvalidInput(failure.code, failure.message);
+        throw InvalidInput(Message(failure.message));
     case Failure::not_sweepable:
-        throw NotSweepable(failure.code, failure.message);
+        throw NotSweepable(Message(failure.message));
     case Failure::out_of_memory:
         // The process may hold memory of the failed attempt, so it is killed.
         end_ = "it ran out of memory on " + task.subject;
         end();
-        throw BackendError("cad.memory_limit", task.subject + ": " + task.doing + " took more than the " +
-                                                   std::to_string(memory >> 20) +
-                                                   " MiB that the CAD process may use; repair the file, or "
-                                                   "allow more with LACUNA_CAD_MEGABYTES");
+        throw BackendError(Message("cad.memory_limit",
+                                   "{}: {} took more than the {} MiB that the CAD process may use",
+                                   task.subject, doing(task), needed(memory >> 20))
+                               .remedy("repair the file, or allow more with LACUNA_CAD_MEGABYTES"));
     default:
-        throw BackendError(failure.code, failure.message);
+        throw BackendError(Message(failure.message));
     }
 }
 

@@ -40,8 +40,7 @@ std::string find_worker_program()
 {
     if (const char* named = std::getenv("LACUNA_CAD"); named != nullptr && *named != '\0') {
         if (::access(named, X_OK) == 0) return named;
-        throw BackendError("cad.no_worker",
-                           std::string("LACUNA_CAD names ") + named + ", which is not an executable file");
+        throw BackendError("cad.no_worker", "LACUNA_CAD names {}, which is not an executable file", named);
     }
     std::vector<fs::path> places;
     add_around("/proc/self/exe", places);
@@ -54,11 +53,11 @@ std::string find_worker_program()
 #endif
     for (const fs::path& place : places)
         if (::access(place.c_str(), X_OK) == 0) return place.string();
-    throw BackendError("cad.no_worker",
-                       "CAD files are read by the program lacuna-cad, which is not next to this program "
-                       "(" +
-                           places.front().string() +
-                           ") nor in its libexec/lacuna; install it, or name it in LACUNA_CAD");
+    throw BackendError(Message("cad.no_worker",
+                               "CAD files are read by the program lacuna-cad, which is not next to this "
+                               "program ({}) nor in its libexec/lacuna",
+                               places.front().string())
+                           .remedy("install it, or name it in LACUNA_CAD"));
 }
 
 } // namespace lacuna::cad

@@ -6,6 +6,7 @@
 #include <lacuna/closure/close.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/whole_file.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,23 +22,18 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Most free edges that a message names.
-constexpr std::size_t kNamedEdges = 4;
 /// Widest gap that sewing closes, relative to the diagonal: faces farther apart do not belong together.
 constexpr double kWidestGap = 1e-3;
 void check_sealed(const OpenVolume& volume)
 {
     if (closure::is_watertight(volume)) return;
     const std::vector<EdgeId> open = free_edges(volume);
-    std::string which = "its faces enclose no space";
-    if (!open.empty()) {
-        which = std::to_string(open.size()) + (open.size() == 1 ? " edge is free: " : " edges are free: ");
-        for (std::size_t i = 0; i < std::min(open.size(), kNamedEdges); ++i)
-            which += (i > 0 ? ", " : "") + name_of(volume.model, open[i]);
-        if (open.size() > kNamedEdges) which += ", …";
-    }
-    throw InvalidInput("cad.not_sealed", "the volume is not sealed, so it cannot be written as a solid: " +
-                                             which + "; call close() first");
+    constexpr const char* kCode = "cad.not_sealed";
+    Message message = open.empty() ? Message(kCode, "the volume is not sealed: its faces enclose no space")
+                                   : Message(kCode, "the volume is not sealed: {} {} free: {}",
+                                             found(open.size()), open.size() == 1 ? "edge is" : "edges are",
+                                             entities_of(volume.model, open));
+    throw InvalidInput(std::move(message).remedy("call close() before writing it as a solid"));
 }
 
 /// Set the time stamp of a STEP file to a constant.
@@ -78,11 +74,11 @@ std::string bytes_of(const Descriptor& file, bool step)
 void check_options(const WriteCadOptions& options)
 {
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not " +
-                                                std::to_string(options.tolerance));
+        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not {}",
+                           found(options.tolerance));
     if (!(options.deviation > 0))
-        throw InvalidInput("cad.deviation", "the deviation must be a number above 0, not " +
-                                                std::to_string(options.deviation));
+        throw InvalidInput("cad.deviation", "the deviation must be a number above 0, not {}",
+                           found(options.deviation));
 }
 
 /// A solid under construction in the CAD process; released by the destructor.
@@ -101,9 +97,10 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     check_options(options);
     const std::string ending = io::ending_of(path.text());
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
-        throw InvalidInput("cad.unknown_ending", "cannot write a solid to '" + path.text() +
-                                                     "': the ending \"" + ending +
-                                                     "\" is not a CAD format; use .step, .stp or .brep");
+        throw InvalidInput(Message("cad.unknown_ending",
+                                   "cannot write a solid to '{}': the ending \"{}\" is not a CAD format",
+                                   path.text(), ending)
+                               .remedy("use .step, .stp or .brep"));
     }
     check_sealed(volume);
     io::WholeFile file(path);
@@ -127,8 +124,8 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
         {source.get(), all.get(), result.get()});
     const BegunSolid begun{*worker, found.solid};
     if (found.sources.size() != sources.order.size())
-        throw BackendError("cad.protocol",
-                           path.text() + ": the CAD process returned other files than requested");
+        throw BackendError("cad.protocol", "{}: the CAD process returned other files than requested",
+                           path.text());
     SolidPlan plan = plan_solid(volume, sources, found, context);
 
     WrittenCad written;

@@ -108,8 +108,9 @@ void read_curves(CadWire& wire)
         std::vector<int> up, down;
         gmsh::model::getAdjacencies(1, curve.tag, up, down);
         if (down.empty()) {
-            throw BackendError("cad.curve_without_ends", "curve " + std::to_string(curve.tag) +
-                                                             " has no end points; export the file again");
+            throw BackendError(
+                Message("cad.curve_without_ends", "{} has no end points", NamedEntity{"curve", curve.tag})
+                    .remedy("export the file again"));
         }
         curve.from = vertex_of_tag.at(down.front());
         curve.to = vertex_of_tag.at(down.back());

@@ -369,9 +369,8 @@ std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo&
     const std::vector<BorderChain> border = border_of(wire, face, allowed);
     if (border.empty()) {
         throw BackendError(
-            "cad.no_border",
-            "face " + std::to_string(face.tag) +
-                " has no boundary curves; split it in the CAD system, or export the file again");
+            Message("cad.no_border", "{} has no boundary curves", NamedEntity{"face", face.tag})
+                .remedy("split it in the CAD system, or export the file again"));
     }
     CadFacets facets;
     facets.box = box_of(border, face, wire);

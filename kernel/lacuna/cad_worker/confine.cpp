@@ -374,7 +374,7 @@ std::string offer(const std::string& folder, const std::string& name, int descri
         file.descriptor = descriptor;
         return path;
     }
-    throw BackendError("cad.too_many_files", "too many files at once, or a name that is too long: " + name);
+    throw BackendError("cad.too_many_files", "too many files at once, or a name that is too long: {}", name);
 }
 
 void withdraw(const std::string& folder)

@@ -142,9 +142,9 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
 
 [[noreturn]] void fail_projection(const CadSource& source, int tag, const Vec3& point)
 {
-    throw BackendError("cad.projection", source.path + ": the point " + place_with_digits(point, 6) +
-                                             " could not be projected onto face " + std::to_string(tag) +
-                                             "; check the face in the CAD system");
+    throw BackendError(Message("cad.projection", "{}: the point {} could not be projected onto {}",
+                               source.path, place_with_digits(point, 6), NamedEntity{"face", tag})
+                           .remedy("check the face in the CAD system"));
 }
 
 } // namespace

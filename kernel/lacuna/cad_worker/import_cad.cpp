@@ -77,8 +77,8 @@ void import_file(Session& session, const OpenedFile& file)
         });
     } catch (const BackendError& error) {
         const std::string words = output.text();
-        throw InvalidInput("cad.unreadable",
-                           std::string(error.what()) + (words.empty() ? "" : " (" + words + ")"));
+        throw InvalidInput("cad.unreadable", "{}{}", error.message().parts(),
+                           words.empty() ? "" : formatted(" ({})", words));
     }
 }
 
@@ -117,10 +117,7 @@ struct LeftOut {
 };
 
 /// Completes the sentence "face 6 …".
-constexpr const char* kNotCut =
-    "could not be triangulated at any fineness: its boundary intersects itself or is not closed";
-
-std::string not_cut_in_words(int face) { return "face " + std::to_string(face) + " " + kNotCut; }
+constexpr const char* kNotCut = "could not be triangulated: its boundary crosses itself or is open";
 
 /// Visit the edges of one side of a face in the wire, in order.
 template <class Visit>
@@ -163,8 +160,9 @@ void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& p
         wire.faces.erase(face);
     }
     if (wire.faces.empty())
-        throw BackendError("cad.face_failed",
-                           path + ": " + not_cut_in_words(tags.front()) + "; repair it in the CAD system");
+        throw BackendError(
+            Message("cad.face_failed", "{}: {} {}", path, NamedEntity{"face", tags.front()}, kNotCut)
+                .remedy("repair it in the CAD system"));
 }
 
 /// Divide the edges and triangulate the faces. Divide more finely the boundaries that intersect themselves.
@@ -243,8 +241,8 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
     for (const CadFaceInfo& face : gone.faces) {
         const auto place = static_cast<Index>(reply.left_out.size());
         reply.left_out.push_back({face.tag, kNotCut});
-        reply.notes.push_back(not_cut_in_words(face.tag) +
-                              ". It is left out; if it is needed, repair it in the CAD system");
+        reply.notes.push_back(formatted(
+            "face {} {}. It is left out; if it is needed, repair it in the CAD system", face.tag, kNotCut));
         for (const CadFaceInfo::Side& side : face.sides) {
             each_edge(wire, side, [&](std::size_t edge) {
                 std::vector<Index>& faces = of_edge[edge];
@@ -253,9 +251,8 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
         }
     }
     for (const int tag : gone.slivers) {
-        reply.notes.push_back("face " + std::to_string(tag) +
-                              " is narrower than the tolerance and is left out; to keep it, "
-                              "reduce the tolerance");
+        reply.notes.push_back(formatted(
+            "face {} is narrower than the tolerance and is left out; to keep it, reduce the tolerance", tag));
     }
     return of_edge;
 }
@@ -312,9 +309,8 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
     source.model->activate(session); // a script may have created other models
     session.run([&] {
         if (tags_of(2).empty()) {
-            throw InvalidInput("cad.no_faces",
-                               source.path +
-                                   " contains no faces; export surfaces or solids, not only curves");
+            throw InvalidInput(Message("cad.no_faces", "{} contains no faces", source.path)
+                                   .remedy("export surfaces or solids, not only curves"));
         }
         source.scale = scale;
         source.diagonal = diagonal_of_model();

@@ -61,7 +61,7 @@ int main()
     } catch (const Error& error) {
         using namespace cad_protocol;
         try {
-            channel.send(Opcode::failed, encode(Failure{Failure::backend, error.code(), error.what()}));
+            channel.send(Opcode::failed, encode(Failure{Failure::backend, error.message().parts()}));
         } catch (const Error&) { // The connection is closed.
         }
     } catch (...) {

@@ -66,9 +66,9 @@ RecombineReply read_quads(const RecombineRequest& region, int face,
     std::vector<std::size_t> elements, corners;
     gmsh::model::mesh::getElementsByType(2, elements, corners, face);
     if (!elements.empty()) {
-        throw NotSweepable("cad.recombine",
-                           "Gmsh left " + std::to_string(elements.size()) + " triangles in a region of " +
-                               std::to_string(side_count(region)) + " boundary sides; use quads = \"auto\"");
+        throw NotSweepable(Message("cad.recombine", "Gmsh left {} triangles in a region of {} boundary sides",
+                                   found(elements.size()), side_count(region))
+                               .remedy("use quads = \"auto\""));
     }
     gmsh::model::mesh::getElementsByType(3, elements, corners, face);
     double area = 0;

@@ -131,7 +131,7 @@ private:
         if (frame.descriptors.size() != 3) throw ProtocolError("a solid needs three file descriptors");
         BeginSolidReply reply;
         reply.solid = ++last_;
-        auto solid = std::make_unique<Solid>("solid" + std::to_string(last_), request,
+        auto solid = std::make_unique<Solid>(formatted("solid{}", last_), request,
                                              std::move(frame.descriptors));
         for (const SolidSource& source : request.sources)
             reply.sources.push_back(solid->builder.add_source(model(source.model), source));
@@ -164,8 +164,8 @@ void serve(Channel& channel, const std::string& missing)
         } catch (const ProtocolError&) {
             return;
         }
-        const auto failed = [&](Failure::Kind kind, const std::string& code, const std::string& message) {
-            channel.send(Opcode::failed, encode(Failure{kind, code, message}));
+        const auto failed = [&](Failure::Kind kind, const Message& message) {
+            channel.send(Opcode::failed, encode(Failure{kind, message.parts()}));
         };
         // Report progress no more often than a person can see it.
         constexpr auto kPause = std::chrono::milliseconds(20);
@@ -182,17 +182,17 @@ void serve(Channel& channel, const std::string& missing)
         } catch (const ChannelClosed&) {
             return;
         } catch (const ProtocolError& error) {
-            failed(Failure::backend, "cad.protocol", error.what());
+            failed(Failure::backend, Message("cad.protocol", "{}", error.what()));
         } catch (const InvalidInput& error) {
-            failed(Failure::invalid_input, error.code(), error.what());
+            failed(Failure::invalid_input, error.message());
         } catch (const NotSweepable& error) {
-            failed(Failure::not_sweepable, error.code(), error.what());
+            failed(Failure::not_sweepable, error.message());
         } catch (const Error& error) {
-            failed(Failure::backend, error.code(), error.what());
+            failed(Failure::backend, error.message());
         } catch (const std::bad_alloc&) {
-            failed(Failure::out_of_memory, "cad.memory_limit", "out of memory");
+            failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory"));
         } catch (const std::exception& error) {
-            failed(Failure::backend, "cad.gmsh", error.what());
+            failed(Failure::backend, Message("cad.gmsh", "{}", error.what()));
         }
     }
 }

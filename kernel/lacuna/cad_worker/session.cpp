@@ -121,12 +121,12 @@ void Session::fail(const std::string& message) const
         words = errors.empty() ? "it gave no reason" : errors.back();
     }
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text
-    refuse("cad.gmsh", "Gmsh failed: " + words);
+    refuse(Message("cad.gmsh", "Gmsh failed: {}", words));
 }
 
-void Session::refuse(const std::string& code, const std::string& words) const
+void Session::refuse(const Message& message) const
 {
-    throw BackendError(code, (subject_.empty() ? "" : subject_ + ": ") + words);
+    throw BackendError(subject_.empty() ? message : message.about(subject_));
 }
 
 GmshModel::GmshModel(Session& session)
@@ -134,7 +134,7 @@ GmshModel::GmshModel(Session& session)
     static unsigned counter = 0;
     session.run([&] {
         do {
-            name_ = "lacuna:" + std::to_string(++counter);
+            name_ = formatted("lacuna:{}", ++counter);
         } while (model_exists(name_));
         gmsh::model::add(name_);
     });

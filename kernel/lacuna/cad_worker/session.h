@@ -66,8 +66,8 @@ public:
     [[nodiscard]] std::vector<std::string> logged_errors() const;
     /// @throw BackendError always: the subject and the message of Gmsh.
     [[noreturn]] void fail(const std::string& message) const;
-    /// @throw BackendError always: the subject and `words`, with the given code.
-    [[noreturn]] void refuse(const std::string& code, const std::string& words) const;
+    /// @throw BackendError always: the message about the subject.
+    [[noreturn]] void refuse(const Message& message) const;
 
 private:
     template <class Value>

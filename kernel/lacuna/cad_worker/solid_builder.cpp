@@ -144,10 +144,9 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                 const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
                                                    : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
-                    throw BackendError(
-                        "cad.lost", (dim == 2 ? "face " : "curve ") + std::to_string(tag) + " of " +
-                                        source.path +
-                                        " was lost when copied through a file; repair it in the CAD system");
+                    throw BackendError(Message("cad.lost", "{} of {} was lost when copied through a file",
+                                               NamedEntity{dim == 2 ? "face" : "curve", tag}, source.path)
+                                           .remedy("repair it in the CAD system"));
                 matched[tag] = *place;
             }
             return matched;
@@ -243,9 +242,8 @@ int SolidBuilder::plane(const SolidFace& face)
     gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
     const double area = cut.size() == 1 ? mass_of(2, cut.front().second) : 0;
     if (!(std::abs(area - wanted) <= 1e-6 * wanted))
-        throw BackendError(
-            "cad.plane_failed",
-            "the inner loops could not be cut out of a plane; write the facets with write_facets");
+        throw BackendError(Message("cad.plane_failed", "the inner loops could not be cut out of a plane")
+                               .remedy("write the facets with write_facets"));
     forget_removed();
     return cut.front().second;
 }
@@ -309,7 +307,8 @@ cad_protocol::MakeSolidReply SolidBuilder::make(const cad_protocol::MakeSolidReq
             const std::vector<int> tags = session_.run([&] { return make_face(face); });
             faces.insert(faces.end(), tags.begin(), tags.end());
         } catch (const BackendError& error) {
-            throw BackendError("cad.face_failed", face.name + " could not be made: " + error.what());
+            throw BackendError("cad.face_failed", "{} could not be made: {}", face.entity,
+                               error.message().parts());
         }
         progress(static_cast<double>(f + 1) / static_cast<double>(request.faces.size()));
     }

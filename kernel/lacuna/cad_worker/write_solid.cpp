@@ -28,16 +28,16 @@ std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
     const std::vector<int> solids = tags_of(3);
-    if (solids.size() != 1) return std::to_string(solids.size()) + " solids";
+    if (solids.size() != 1) return formatted("{} solids", solids.size());
     const gmsh::vectorpair faces = boundary_of({{3, solids.front()}});
     if (faces.size() != tags_of(2).size())
-        return std::to_string(tags_of(2).size() - faces.size()) + " faces outside the solid";
+        return formatted("{} faces outside the solid", tags_of(2).size() - faces.size());
     std::map<int, int> uses;
     for (const auto& face : faces)
         for (const auto& curve : boundary_of({{2, std::abs(face.second)}})) ++uses[std::abs(curve.second)];
     std::size_t open = 0;
     for (const auto& [curve, count] : uses) open += count == 2 || is_pole(curve, diagonal) ? 0 : 1;
-    return open == 0 ? "" : std::to_string(open) + " open edges";
+    return open == 0 ? "" : formatted("{} open edges", open);
 }
 
 /// A solid sewn from faces of the current model.
@@ -101,9 +101,10 @@ Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest
             return {out.front().second, tolerance};
         gmsh::model::occ::remove(out);
     }
-    session.refuse("cad.not_sewn", "the " + std::to_string(faces.size()) +
-                                       " faces could not be sewn into one solid, with gaps up to " +
-                                       std::to_string(last) + " closed; write the facets with write_facets");
+    session.refuse(Message("cad.not_sewn",
+                           "the {} faces could not be sewn into one solid, with gaps up to {:.6g} closed",
+                           faces.size(), needed(last))
+                       .remedy("write the facets with write_facets"));
 }
 
 /// Write the current model to a file completely. Open CASCADE may not report a failed write, so the size of
@@ -115,8 +116,9 @@ void write_whole(const Session& session, const std::string& path)
         struct stat file {};
         if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || ::stat(path.c_str(), &file) != 0) return;
         if (limit.rlim_cur == RLIM_INFINITY || static_cast<rlim_t>(file.st_size) < limit.rlim_cur) return;
-        session.refuse("cad.file_limit", "the solid takes more than the " + std::to_string(limit.rlim_cur) +
-                                             " bytes allowed for a file; raise the limit (ulimit -f)");
+        session.refuse(Message("cad.file_limit", "the solid takes more than the {} bytes allowed for a file",
+                               needed(limit.rlim_cur))
+                           .remedy("raise the limit (ulimit -f)"));
     };
     try {
         gmsh::write(path);
@@ -153,14 +155,15 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
         import_shapes(files.result, request.format == MakeSolidRequest::brep ? "brep" : "step");
         const std::string faults = faults_of_model(request.diagonal);
         if (!faults.empty())
-            session.refuse("cad.reads_back",
-                           "the file reads back with " + faults +
-                               " instead of one closed solid; write the facets with write_facets");
+            session.refuse(
+                Message("cad.reads_back", "the file reads back with {} instead of one closed solid", faults)
+                    .remedy("write the facets with write_facets"));
         const double volume = mass_of(3, tags_of(3).front());
         if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
-            session.refuse("cad.reads_back", "the file reads back with a volume of " +
-                                                 std::to_string(volume) + " instead of " +
-                                                 std::to_string(expected) + "; write it as .brep");
+            session.refuse(Message("cad.reads_back",
+                                   "the file reads back with a volume of {:.6g} instead of {:.6g}",
+                                   found(volume), needed(expected))
+                               .remedy("write it as .brep"));
         }
         return std::pair(tags_of(2).size(), volume);
     });
@@ -169,11 +172,12 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
 void check_volume(const Session& session, double volume, const MakeSolidRequest& request)
 {
     if (std::abs(volume - request.facet_volume) <= request.deviation * request.facet_volume) return;
-    session.refuse("cad.volume_differs",
-                   "the solid has a volume of " + std::to_string(volume) + ", but the facets enclose " +
-                       std::to_string(request.facet_volume) +
-                       ": a surface fitted to a void face bulges; write the facets with "
-                       "write_facets");
+    session.refuse(
+        Message("cad.volume_differs",
+                "the solid has a volume of {:.6g}, but the facets enclose {:.6g}: a surface fitted "
+                "to a void face bulges",
+                found(volume), needed(request.facet_volume))
+            .remedy("write the facets with write_facets"));
 }
 
 } // namespace

@@ -29,7 +29,16 @@ struct NamedEntity {
 /// A number or a text in a message.
 using MessageValue = std::variant<long long, double, std::string>;
 
-/// An argument of a message: a number, a text, an entity or a list of entities.
+/// The data of a message, as another process or a message that quotes it receives it.
+struct MessageParts {
+    std::string code; ///< "folder.what_went_wrong"; stable, for programs
+    std::string text; ///< without the remedy
+    std::string remedy;
+    std::vector<NamedEntity> entities{}; ///< named in text and remedy, in order, each once
+    std::vector<MessageValue> found{}, needed{};
+};
+
+/// An argument of a message: a number, a text, an entity, a list of entities or another message.
 class Argument {
 public:
     enum class Role { plain, found, needed };
@@ -45,13 +54,15 @@ public:
     Argument(NamedEntity entity) : value_(std::vector<NamedEntity>{std::move(entity)}) {}
     /// Printed as a list of at most six entities and a count of the others.
     Argument(std::vector<NamedEntity> entities) : value_(std::move(entities)) {}
+    /// Prints the text and the remedy; entities and values become those of the message that quotes them.
+    Argument(MessageParts quoted) : value_(std::move(quoted)) {}
     Argument(Role role, const Argument& of) : value_(of.value_), role_(role) {}
 
     [[nodiscard]] const auto& value() const { return value_; }
     [[nodiscard]] Role role() const { return role_; }
 
 private:
-    std::variant<long long, double, std::string, std::vector<NamedEntity>> value_;
+    std::variant<long long, double, std::string, std::vector<NamedEntity>, MessageParts> value_;
     Role role_ = Role::plain;
 };
 
@@ -104,9 +115,12 @@ public:
     /// @param format  the text, with a field for each argument.
     template <class... Arguments>
     Message(std::string code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
-        : code_(std::move(code)), text_(add(format.text(), {Argument(arguments)...}))
     {
+        parts_.code = std::move(code);
+        parts_.text = add(format.text(), {Argument(arguments)...});
     }
+    /// A message of another process, rebuilt from its parts, which are kept as they are.
+    explicit Message(MessageParts parts) : parts_(std::move(parts)) {}
     /// A message whose text is put together elsewhere; its entities are found in the text.
     static Message of_text(std::string code, const std::string& text);
 
@@ -114,7 +128,7 @@ public:
     template <class... Arguments>
     Message&& remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&
     {
-        remedy_ = add(format.text(), {Argument(arguments)...});
+        parts_.remedy = add(format.text(), {Argument(arguments)...});
         return std::move(*this);
     }
     /// Add why an attempt failed; its text is not repeated.
@@ -122,13 +136,15 @@ public:
     /// The same message about a part, a file or a member: "subject: text".
     [[nodiscard]] Message about(std::string_view subject) const;
 
-    [[nodiscard]] const std::string& code() const { return code_; }
+    [[nodiscard]] const std::string& code() const { return parts_.code; }
     [[nodiscard]] std::string text() const;
-    [[nodiscard]] const std::string& remedy() const { return remedy_; }
+    [[nodiscard]] const std::string& remedy() const { return parts_.remedy; }
     /// The entities named in text and remedy, in order, each once.
-    [[nodiscard]] const std::vector<NamedEntity>& entities() const { return entities_; }
-    [[nodiscard]] const std::vector<MessageValue>& found() const { return found_; }
-    [[nodiscard]] const std::vector<MessageValue>& needed() const { return needed_; }
+    [[nodiscard]] const std::vector<NamedEntity>& entities() const { return parts_.entities; }
+    [[nodiscard]] const std::vector<MessageValue>& found() const { return parts_.found; }
+    [[nodiscard]] const std::vector<MessageValue>& needed() const { return parts_.needed; }
+    /// All of it except the failed attempts.
+    [[nodiscard]] const MessageParts& parts() const { return parts_; }
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 
 private:
@@ -136,11 +152,8 @@ private:
     std::string add(std::string_view format, std::initializer_list<Argument> arguments);
     void add(const NamedEntity& entity);
 
-    // In this order: the constructor adds arguments before the texts.
-    std::vector<NamedEntity> entities_;
-    std::vector<MessageValue> found_, needed_;
+    MessageParts parts_;
     std::vector<Message> attempts_;
-    std::string code_, text_, remedy_;
 };
 
 /// Implementation of `formatted()`.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <type_traits>
 
 namespace lacuna {
@@ -16,10 +17,15 @@ namespace {
 
 std::string name_of(const NamedEntity& entity)
 {
-    std::string name = entity.kind + " " + std::to_string(entity.tag);
-    if (!entity.name.empty()) name += " \"" + entity.name + "\"";
+    std::string name = fmt::format("{} {}", entity.kind, entity.tag);
+    if (!entity.name.empty()) name += fmt::format(" \"{}\"", entity.name);
     if (entity.ends) name += fmt::format(" (vertices {}-{})", entity.ends->first, entity.ends->second);
     return name;
+}
+
+std::string text_of(const MessageParts& parts)
+{
+    return parts.remedy.empty() ? parts.text : parts.text + "; " + parts.remedy;
 }
 
 } // namespace
@@ -32,6 +38,8 @@ std::string format_text(std::string_view format, std::span<const Argument> argum
             [&]<class Held>(const Held& value) {
                 if constexpr (std::is_same_v<Held, std::vector<NamedEntity>>)
                     store.push_back(short_list(value, name_of));
+                else if constexpr (std::is_same_v<Held, MessageParts>)
+                    store.push_back(text_of(value));
                 else
                     store.push_back(value);
             },
@@ -42,7 +50,7 @@ std::string format_text(std::string_view format, std::span<const Argument> argum
 Message Message::of_text(std::string code, const std::string& text)
 {
     Message message(std::move(code), "{}", text);
-    message.entities_ = named_entities(text);
+    message.parts_.entities = named_entities(text);
     return message;
 }
 
@@ -55,11 +63,11 @@ Message&& Message::attempt(Message failed) &&
 Message Message::about(std::string_view subject) const
 {
     Message message = *this;
-    message.text_ = std::string(subject) + ": " + text_;
+    message.parts_.text = formatted("{}: {}", subject, parts_.text);
     return message;
 }
 
-std::string Message::text() const { return remedy_.empty() ? text_ : text_ + "; " + remedy_; }
+std::string Message::text() const { return text_of(parts_); }
 
 std::string Message::add(std::string_view format, std::initializer_list<Argument> arguments)
 {
@@ -68,10 +76,14 @@ std::string Message::add(std::string_view format, std::initializer_list<Argument
             [&]<class Held>(const Held& value) {
                 if constexpr (std::is_same_v<Held, std::vector<NamedEntity>>) {
                     for (const NamedEntity& entity : value) add(entity);
+                } else if constexpr (std::is_same_v<Held, MessageParts>) {
+                    for (const NamedEntity& entity : value.entities) add(entity);
+                    std::ranges::copy(value.found, std::back_inserter(parts_.found));
+                    std::ranges::copy(value.needed, std::back_inserter(parts_.needed));
                 } else if (argument.role() == Argument::Role::found) {
-                    found_.emplace_back(value);
+                    parts_.found.emplace_back(value);
                 } else if (argument.role() == Argument::Role::needed) {
-                    needed_.emplace_back(value);
+                    parts_.needed.emplace_back(value);
                 }
             },
             argument.value());
@@ -80,7 +92,8 @@ std::string Message::add(std::string_view format, std::initializer_list<Argument
 
 void Message::add(const NamedEntity& entity)
 {
-    if (std::ranges::find(entities_, entity) == entities_.end()) entities_.push_back(entity);
+    std::vector<NamedEntity>& known = parts_.entities;
+    if (std::ranges::find(known, entity) == known.end()) known.push_back(entity);
     if (!entity.ends) return;
     add(NamedEntity{"vertex", entity.ends->first});
     add(NamedEntity{"vertex", entity.ends->second});

@@ -13,20 +13,19 @@ namespace {
 // The first byte of each exchanged string says whether it is a contribution or an error.
 constexpr char kSaid = 's', kFailed = 'f';
 
-std::string failure(const std::string& code, const std::string& message)
+std::string failure(const Message& message)
 {
     Writer writer;
-    writer(code), writer(message);
+    writer(message.parts());
     return kFailed + std::move(writer).take();
 }
 
 [[noreturn]] void rethrow(std::string_view said, std::size_t rank, std::size_t size)
 {
-    std::string code, message;
+    MessageParts parts;
     Reader reader(said.substr(1));
-    reader(code), reader(message);
-    throw TeamFailed(code,
-                     "process " + std::to_string(rank + 1) + " of " + std::to_string(size) + ": " + message);
+    reader(parts);
+    throw TeamFailed(Message(std::move(parts)).about(formatted("process {} of {}", rank + 1, size)));
 }
 
 } // namespace
@@ -44,9 +43,7 @@ std::vector<std::string> gather(const Team* team, const std::string& own)
 void do_together(const Team* team, const std::function<void()>& work)
 {
     if (team == nullptr) return work();
-    const auto tell = [&](const std::string& code, const std::string& message) {
-        static_cast<void>(team->exchange(failure(code, message)));
-    };
+    const auto tell = [&](const Message& message) { static_cast<void>(team->exchange(failure(message))); };
     try {
         work();
         gather(team, {});
@@ -54,10 +51,10 @@ void do_together(const Team* team, const std::function<void()>& work)
         if (error.code() == Cancelled().code()) throw Cancelled();
         throw;
     } catch (const Error& error) {
-        tell(error.code(), error.what());
+        tell(error.message());
         throw;
     } catch (const std::exception& error) {
-        tell("core.failed", error.what());
+        tell(Message("core.failed", "{}", error.what()));
         throw;
     }
 }

@@ -16,7 +16,7 @@ public:
     {
         // Not collective: if one process cannot open the file, the others need not wait for it.
         check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
-              "; every process must see the folder");
+              "every process must see the folder");
     }
     ~File() override
     {
@@ -34,7 +34,7 @@ public:
                   "");
             int written = 0;
             MPI_Get_count(&status, MPI_BYTE, &written);
-            if (written <= 0) fail("no space left on the disk; free some, or write to another");
+            if (written <= 0) fail("no space left on the disk", "free some, or write to another");
             offset += static_cast<std::uint64_t>(written);
             bytes.remove_prefix(static_cast<std::size_t>(written));
         }
@@ -43,18 +43,19 @@ public:
     void close() override { check(MPI_File_close(&file_), ""); }
 
 private:
-    void check(int code, const char* hint) const
+    void check(int code, const char* remedy) const
     {
         if (code == MPI_SUCCESS) return;
         char text[MPI_MAX_ERROR_STRING];
         int length = 0;
         MPI_Error_string(code, text, &length);
-        fail(std::string(text, static_cast<std::size_t>(length)) + hint);
+        fail({text, static_cast<std::size_t>(length)}, remedy);
     }
-    [[noreturn]] void fail(const std::string& why) const
+    [[noreturn]] void fail(std::string_view why, const char* remedy) const
     {
-        throw BackendError("io.write_failed",
-                           "cannot write '" + name_ + "': " + why + ". Nothing was left behind");
+        throw BackendError(
+            Message("io.write_failed", "cannot write '{}': {}. Nothing was left behind", name_, why)
+                .remedy("{}", remedy));
     }
 
     std::string name_;

@@ -150,7 +150,7 @@ void help(std::string_view task, const std::string& bytes, const Team& team, con
     do_together(&team, [&] {
         if (task == sweep::kLayersTask) return sweep::help_find_in_layers(bytes, team, context);
         if (task == kPartsTask) return help_write_parts(bytes, team, context);
-        if (task != kWriteTask) throw ProtocolError("there is no task '" + std::string(task) + "'");
+        if (task != kWriteTask) throw ProtocolError(formatted("there is no task '{}'", task));
         Reader reader(bytes);
         const Received received = read_mesh(reader, context);
         std::string path;

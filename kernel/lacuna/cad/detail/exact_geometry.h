@@ -45,7 +45,7 @@ public:
                 return held.worker->ask<Reply>(opcode, make(held.handle), task);
             } catch (const WorkerGone& gone) {
                 if (i + 1 == kTries) throw;
-                renew(held, gone.what(), *task.context);
+                renew(held, gone.message(), *task.context);
             }
         }
     }
@@ -63,8 +63,8 @@ private:
         std::uint64_t handle = 0;
     };
     [[nodiscard]] Held now() const;
-    void renew(const Held& gone, const std::string& why, const RunContext& context) const;
-    [[nodiscard]] Held load_again(std::shared_ptr<Worker> worker, const std::string& why,
+    void renew(const Held& gone, const Message& why, const RunContext& context) const;
+    [[nodiscard]] Held load_again(std::shared_ptr<Worker> worker, const Message& why,
                                   const RunContext& context) const;
 
     std::string path_;

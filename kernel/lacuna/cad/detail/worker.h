@@ -27,8 +27,9 @@ struct Task {
     std::uint64_t bytes = 0;  ///< size of the files sent with the request
     std::uint64_t points = 0; ///< number of points sent with the request
     const RunContext* context = nullptr;
-    double grace = 0;       ///< how long the request may continue after it is cancelled [s]
-    const char* stage = ""; ///< stage that is reported as progress
+    double grace = 0;                    ///< how long the request may continue after it is cancelled [s]
+    const char* stage = "";              ///< stage that is reported as progress
+    std::optional<NamedEntity> entity{}; ///< in messages after `doing`: "projecting points onto face 3"
 };
 
 /// The process had ended before the request was sent: nothing was done, so another process can be asked.

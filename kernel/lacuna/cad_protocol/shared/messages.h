@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/shared/bytes.h>
 
 #include <array>
@@ -44,7 +45,7 @@ struct Progress {
 struct Failure {
     enum Kind : std::uint8_t { invalid_input, not_sweepable, backend, out_of_memory, count };
     std::uint8_t kind = backend;
-    std::string code, message;
+    MessageParts message;
 };
 
 /// A file sent with the message as a descriptor.
@@ -179,7 +180,7 @@ struct SolidEdge {
 struct SolidFace {
     enum Kind : std::uint8_t { exact, plane, patches, filling, count };
     std::uint8_t kind = plane;
-    std::string name;                                     ///< for messages
+    NamedEntity entity;                                   ///< for messages
     std::int32_t source = -1, face = 0;                   ///< exact
     std::vector<std::vector<std::array<Index, 2>>> loops; ///< edge number, and 1 if the edge is reversed
     std::vector<SplineSurfaceData> surfaces;              ///< patches

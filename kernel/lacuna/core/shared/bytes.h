@@ -14,6 +14,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 /// Serialisation of values for other processes of the same program, on machines with the same byte order.
@@ -22,7 +23,7 @@ namespace lacuna {
 /// Bytes received from another process do not follow the protocol.
 class ProtocolError : public Error {
 public:
-    explicit ProtocolError(const std::string& what) : Error("core.protocol", what) {}
+    explicit ProtocolError(const std::string& what) : Error("core.protocol", "{}", what) {}
 };
 
 /// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. Not `bool`, of
@@ -45,7 +46,7 @@ static_assert(std::endian::native == std::endian::little, "the wire is little-en
 static_assert(sizeof(Vec2) == 2 * sizeof(double) && sizeof(Vec3) == 3 * sizeof(double));
 
 /// Appends values to a buffer: numbers as they are in memory, arrays and strings preceded by their length,
-/// structs as their members in the order of declaration.
+/// variants by the number of their type, structs as their members in the order of declaration.
 class Writer {
 public:
     template <class T>
@@ -67,6 +68,12 @@ public:
     {
         (*this)(value.has_value());
         if (value) (*this)(*value);
+    }
+    template <class... T>
+    void operator()(const std::variant<T...>& value)
+    {
+        (*this)(static_cast<std::uint8_t>(value.index()));
+        std::visit(*this, value);
     }
     template <class T>
     void operator()(const std::vector<T>& values)
@@ -102,7 +109,12 @@ public:
         else
             each_field(value, *this);
     }
-    void operator()(bool& truth) { truth = *take(1) != 0; }
+    void operator()(bool& truth)
+    {
+        const char byte = *take(1);
+        if (byte != 0 && byte != 1) throw ProtocolError("a truth value is neither 0 nor 1");
+        truth = byte == 1;
+    }
     void operator()(std::string& text)
     {
         const std::size_t size = length(1);
@@ -114,6 +126,15 @@ public:
         bool is_set = false;
         (*this)(is_set);
         if (is_set) (*this)(value.emplace());
+    }
+    template <class... T>
+    void operator()(std::variant<T...>& value)
+    {
+        std::uint8_t wanted = 0;
+        (*this)(wanted);
+        if (wanted >= sizeof...(T)) throw ProtocolError("a value has an unknown type");
+        std::size_t type = 0;
+        ((type++ == wanted ? (*this)(value.template emplace<T>()) : void()), ...);
     }
     template <class T>
     void operator()(std::vector<T>& values)
