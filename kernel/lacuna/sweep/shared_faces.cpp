@@ -211,8 +211,8 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     miss.message =
         Message("assembly.near_miss",
                 "{} of {} and {} of {} are taken for one face, and their rims are {:.2g} apart, more than "
-                "the tolerance, {:.2g}. Their chords may be off the curve by {:.2g}, so coarser facets "
-                "hide a gap or an overlap as wide as that",
+                "the tolerance, {:.2g}. Their chords may be off the curve by {:.2g}, so coarse facets "
+                "hide a gap or an overlap of that width",
                 entity_in(a, faces.face_a), a.region, entity_in(b, faces.face_b), b.region,
                 found(common.apart), tolerance, common.sag)
             .remedy("finer ones tell");
