@@ -155,9 +155,11 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
                                needed(kLongestScript >> 20));
         const ScriptContent found = look_through_script(own, text);
         if (i > 0 && !found.skipped.empty() && found.skipped.back().word == "Exit")
-            throw InvalidInput("cad.script", own + ", line " + std::to_string(found.skipped.back().line) +
-                                                 ": Exit in a file that a script includes ends that script "
-                                                 "too; remove it");
+            throw InvalidInput(
+                Message("cad.script",
+                        "{}, line {}: Exit in a file that a script includes ends that script too", own,
+                        found.skipped.back().line)
+                    .remedy("remove it"));
         skip_commands(input, input.descriptors[i], own, std::move(text), found.skipped);
         for (const ScriptFile& wanted : found.files) {
             const auto known = std::find_if(input.file.contents.begin(), input.file.contents.end(),
