@@ -178,7 +178,7 @@ bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& r
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
-        left_out.push_back({region, error.code(), error.message().about(region).text()});
+        left_out.push_back({region, error.code(), region + ": " + error.what()});
         return false;
     }
 }
@@ -241,7 +241,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     for (const Part& one : all)
         if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
     for (const sweep::LeftOut& out : mesh.left_out)
-        mesh.swept.report.push_back(formatted("left out: {} [{}]", out.message, out.code));
+        mesh.swept.report.push_back("left out: " + out.message + " [" + out.code + "]");
     mesh.left_out.insert(mesh.left_out.end(), mesh.swept.left_out.begin(), mesh.swept.left_out.end());
     return mesh;
 }
