@@ -274,7 +274,7 @@ private:
 /// Loop numbers as in the recipe, from 1.
 std::string numbers(const std::vector<int>& list)
 {
-    return full_list(list, [](int i) { return std::to_string(i + 1); });
+    return full_list(list, [](int i) { return formatted("{}", i + 1); });
 }
 
 /// Whether the other method succeeds where `nearest` failed.
