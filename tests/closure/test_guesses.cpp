@@ -124,7 +124,7 @@ TEST_CASE("named roles do not settle how a missing end bends: it is refused unle
             CAPTURE(missing);
             OpenVolume named = stack.open();
             const std::size_t given = named.model.faces.size();
-            CHECK(test::refusal([&] { test::seal(named); }, {"beside the faces"}) == "closure.shape_open");
+            CHECK(test::refusal([&] { test::seal(named); }, {"beside face "}) == "closure.shape_open");
             CHECK(named.model.faces.size() == given);
             const closure::CloseOptions guess{.take_guess = true}, flat{.cap = closure::Cap::flat};
             for (const closure::CloseOptions& asked : {guess, flat}) {

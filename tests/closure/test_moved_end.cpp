@@ -227,7 +227,7 @@ TEST_CASE("what a rim leaves open is refused, and taken where it is asked for by
         const auto readings = closure::find_readings(prism.model, faces);
         REQUIRE(readings.size() == 1);
         const std::string code = test::refusal([&] { closure::find_reading(prism.model, faces); });
-        CHECK((code == "topology.shape_open") == !readings.front().guess.empty());
+        CHECK((code == "topology.shape_open") == readings.front().guess.has_value());
         CHECK(test::closed_volume(closure::find_reading(prism.model, faces, 1)) ==
               doctest::Approx(prism.facet_volume).epsilon(0.2));
     }

@@ -41,7 +41,7 @@ expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 1 } }",
 expect("s.prism():open_volume { source = 1, target = 1 }", { 'face 1 "source"', "source", "target" })
 expect("s.prism():open_volume { source = 1, target = 2, walls = { 3, 3 } }", { 'face 3 "wall_1"' })
 expect("s.prism():open_volume { faces = 1, source = 1 }", { "source", "'faces'" })
-expect("s.prism():open_volume { faces = 'wall_1' }", { "faces 3", "name the roles" })
+expect("s.prism():open_volume { faces = 'wall_1' }", { "face 3", "name the roles" })
 expect("lacuna.model():open_volume()", { "face" })
 expect("lacuna.model():open_volume { source = 1 }", { "1", "no faces" })
 

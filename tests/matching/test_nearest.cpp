@@ -211,7 +211,7 @@ TEST_CASE("far, turned and concentric ends, which defeat the nearest vertex, are
     // Far: all source vertices are nearest to the same target vertex, and the other way round.
     const auto far = two_ends(square, square, lifted(1, 1, 0.1, {40, 3}));
     CHECK(refusal([&] { matching::match(far, nearest()); },
-                  {"source loop 1", "vertices ", "both nearest to vertex"}) == "matching.nearest_failed");
+                  {"source loop 1", "(vertex ", "both nearest to vertex"}) == "matching.nearest_failed");
     // Concentric: the holes' vertices of a ring that opens are nearest to its outer loop's.
     const Ends thick{polygon(regular(6, 10)), polygon(regular(6, 2))};
     const Ends thin{polygon(regular(6, 2.4)), polygon(regular(6, 2))};

@@ -489,7 +489,8 @@ TEST_CASE("vertices given by hand are obeyed on loops paired by length, and cros
     MatchOptions crossed;
     crossed.vertices = {{1, 6}, {2, 8}, {3, 7}};
     CHECK(refusal([&] { matching::match(volume, crossed); },
-                  {"source loop 1", "1 to 6", "2 to 8", "3 to 7"}) == "matching.vertices_contradict");
+                  {"source loop 1", "vertex 1", "vertex 2", "vertex 3", "vertex 6", "vertex 7",
+                   "vertex 8"}) == "matching.vertices_contradict");
     MatchOptions shared;
     shared.vertices = {{1, 6}, {2, 6}};
     CHECK(refusal([&] { matching::match(volume, shared); }, {"1", "2", "6"}) ==

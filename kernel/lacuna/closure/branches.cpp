@@ -227,19 +227,19 @@ private:
     [[noreturn]] void refuse(const Mouth& mouth, const std::string& why) const
     {
         const Reach own = reach(mouth);
-        const std::string normal = place_with_digits(axis_, 3);
-        throw NotSweepable("closure.branches",
-                           branch_in_words(mouth) + " cannot be cut automatically: " + why +
-                               "; cut by hand with planes on both sides of its mouth, which lies between " +
-                               place_with_digits(on_axis(own.low), 4) + " and " +
-                               place_with_digits(on_axis(own.high), 4) + " with the normal {" +
-                               normal.substr(1, normal.size() - 2) + "}");
+        throw NotSweepable(
+            Message("closure.branches", "the branch of {} on {} cannot be cut automatically: {}",
+                    wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host), why)
+                .remedy(
+                    "cut by hand with planes on both sides of its mouth, which lies between {} and {} with "
+                    "the normal {{{:.3g}, {:.3g}, {:.3g}}}",
+                    place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
+                    axis_.x(), axis_.y(), axis_.z()));
     }
 
-    [[nodiscard]] std::string branch_in_words(const Mouth& mouth) const
+    [[nodiscard]] NamedEntity wall_entity(const Mouth& mouth, std::size_t region) const
     {
-        return "the branch of " + name_of(volume_.model, wall_at(mouth, mouth.branch)) + " on " +
-               name_of(volume_.model, wall_at(mouth, mouth.host));
+        return entity_of(volume_.model, wall_at(mouth, region));
     }
 
     /// The point of the axis at a height along it.
@@ -264,11 +264,13 @@ private:
         for (const FaceId face : found_.faces[mouth.branch]) {
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
             if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
-            throw NotSweepable("closure.branches",
-                               branch_in_words(mouth) +
-                                   " reaches beyond the side of the main body: " + name_of(model, face) +
-                                   " at its mouth faces along the branch instead of across it"
-                                   "; move the branch towards the middle, or make it narrower");
+            throw NotSweepable(
+                Message("closure.branches",
+                        "the branch of {} on {} reaches beyond the side of the main body: {} at its mouth "
+                        "faces along the branch instead of across it",
+                        wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
+                        entity_of(model, face))
+                    .remedy("move the branch towards the middle, or make it narrower"));
         }
     }
 
@@ -300,8 +302,7 @@ private:
         const Vec3 square = way - way.dot(outward) * outward;
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
         if (ends.size() != 2)
-            refuse(mouth, "the main body has " + std::to_string(ends.size()) +
-                              " ends, so its direction is ambiguous");
+            refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
         if (square.norm() < kAlong * way.norm()) refuse(mouth, "it leaves the main body along its axis");
     }
 
@@ -542,7 +543,7 @@ private:
                 Loop loop{half};
                 loop.uses.push_back({dip, use_to(model, half.back()) != model[dip].from});
                 const std::string name = partition_name(model);
-                partition.face = closure::add_void_face(work, fill(work, {loop}, nullptr, name, context_),
+                partition.face = closure::add_void_face(work, fill(work, {loop}, nullptr, {name}, context_),
                                                         Role::wall);
                 model[partition.face].name = name;
                 parted.partitions.push_back(partition);
@@ -570,10 +571,9 @@ private:
         work.role.push_back(Role::wall);
         parted.partitions.insert(parted.partitions.begin(), middle);
         build_loops(model);
-        return pieces_of(parted,
-                         "the cut at the branch of " +
-                             name_of(volume_.model, wall_at(*mouths.front(), mouths.front()->branch)),
-                         context_);
+        return pieces_of(
+            parted, {"the cut at the branch of ", {wall_entity(*mouths.front(), mouths.front()->branch)}},
+            context_);
     }
 
     /// The common rim of the branch and the main body.

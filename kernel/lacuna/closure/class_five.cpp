@@ -36,12 +36,13 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
     for (std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         const std::vector<Rim> open = rims(model, part);
         if (open.size() != 2) {
-            throw NotClosed("closure.tube_loops",
-                            "the walls " + names_of(model, part) + " have " + std::to_string(open.size()) +
-                                (open.size() == 1 ? " free loop" : " free loops") +
-                                "; in class V each connected part of the walls needs two, one at either end: "
-                                "name the source or the target, or the walls "
-                                "that close the others");
+            throw NotClosed(
+                Message(
+                    "closure.tube_loops",
+                    "the walls {} have {} free {}, but in class V each connected part of the walls needs {}",
+                    entities_of(model, part), found(open.size()), open.size() == 1 ? "loop" : "loops",
+                    needed(2))
+                    .remedy("name the source or the target, or the walls that close the others"));
         }
         tubes.push_back({std::move(part),
                          {open[0], open[1]},
@@ -75,10 +76,11 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
         const double apart =
             (geometry::mean_point(first.points[0]) - geometry::mean_point(first.points[1])).norm();
         if (std::abs(as_is - turned) <= 1e-6 * apart) {
-            throw NotClosed("closure.ambiguous_loops",
-                            "the two free loops of " + names_of(model, tube.walls) +
-                                " are equally close to both ends of " + names_of(model, first.walls) +
-                                ", so source and target are ambiguous; name the source");
+            throw NotClosed(Message("closure.ambiguous_loops",
+                                    "the two free loops of {} are equally close to both ends of the walls at "
+                                    "{}, so source and target are ambiguous",
+                                    entities_of(model, tube.walls), entity_of(model, first.walls.front()))
+                                .remedy("name the source"));
         }
         if (turned < as_is) {
             std::swap(tube.rim[0], tube.rim[1]);
@@ -98,11 +100,12 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
         for (std::size_t j = 0; j < tubes.size(); ++j)
             depth += j != i && geometry::lies_inside(flat[j], flat[i].front()) ? 1 : 0;
         if (depth != 1) {
-            throw NotClosed("closure.nested_loops",
-                            "the walls " + names_of(volume.model, tubes[i].walls) +
-                                (depth == 0 ? " stand beside " : " are nested more than once in ") +
-                                names_of(volume.model, tubes.front().walls) +
-                                ": these are several volumes; make an open volume of each");
+            throw NotClosed(Message("closure.nested_loops",
+                                    "the walls {} {} those at {}: these are several volumes",
+                                    entities_of(volume.model, tubes[i].walls),
+                                    depth == 0 ? "stand beside" : "are nested more than once in",
+                                    entity_of(volume.model, tubes.front().walls.front()))
+                                .remedy("make an open volume of each"));
         }
         // With the void between them, the loop of an inner tube runs against that of the outer one.
         const double along =

@@ -14,7 +14,6 @@
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/names_of.h>
@@ -39,17 +38,17 @@ void prove_sealed(const OpenVolume& volume)
     const auto uses = edge_uses(model);
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() == 2 && uses[e][0].reversed != uses[e][1].reversed) continue;
-        throw NotClosed("closure.not_watertight",
-                        name_of(model, EdgeId(e)) + " is used " + std::to_string(uses[e].size()) +
-                            (uses[e].size() == 2 ? " times in the same direction" : " times") +
-                            " after closing instead of twice in opposite directions; check "
-                            "the faces next to it");
+        throw NotClosed(Message("closure.not_watertight",
+                                "{} is used {} times{} after closing instead of twice in opposite directions",
+                                entity_of(model, EdgeId(e)), found(uses[e].size()),
+                                uses[e].size() == 2 ? " in the same direction" : "")
+                            .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
         throw NotClosed("closure.no_volume",
-                        "the sealed faces enclose a volume of " + std::to_string(enclosed_volume(volume)) +
-                            ", which is not positive: source and target coincide, or the faces "
-                            "between them are twisted");
+                        "the sealed faces enclose a volume of {:.3g}, which is not positive: source and "
+                        "target coincide, or the faces between them are twisted",
+                        found(enclosed_volume(volume)));
     }
 }
 
@@ -63,27 +62,29 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
                    const CloseOptions& options)
 {
     if (options.holes != Holes::automatic && holes.empty()) {
-        throw InvalidInput("closure.holes_unused",
-                           "the option holes is for holes of a given end without walls, and there is no "
-                           "such hole; leave the option out");
+        throw InvalidInput(Message("closure.holes_unused", "the option holes is for holes of a given end "
+                                                           "without walls, and there is no such hole")
+                               .remedy("leave the option out"));
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
+        if (value == VolumeClass::closed)
+            throw InvalidInput("closure.void_edges_unused",
+                               "void_edges replace missing walls, and none is missing");
         throw InvalidInput("closure.void_edges_unused",
-                           value == VolumeClass::closed
-                               ? "void_edges replace missing walls, and none is missing"
-                               : "void_edges join a given source and target, but a volume of class " +
-                                     std::string(to_string(value)) + " lacks one");
+                           "void_edges join a given source and target, but a volume of class {} lacks one",
+                           found(to_string(value)));
     }
     if (options.cap == Cap::automatic || value == VolumeClass::IV) return;
     if (value == VolumeClass::V && options.cap == Cap::flat) return;
+    if (value == VolumeClass::V)
+        throw InvalidInput(Message("closure.cap_unused",
+                                   "cap = \"parallel\" moves a given end's shape to the "
+                                   "missing one, and both are missing (class V)")
+                               .remedy("use \"flat\", or name the source"));
     throw InvalidInput("closure.cap_unused",
-                       value == VolumeClass::V
-                           ? "cap = \"parallel\" moves a given end's shape to the missing one, and both are "
-                             "missing (class V); use \"flat\", or name the source"
-                           : "the option cap shapes a missing end, and " +
-                                 name_of(volume.model, volume.faces(Role::source).front()) + " and " +
-                                 name_of(volume.model, volume.faces(Role::target).front()) +
-                                 " are both given");
+                       "the option cap shapes a missing end, and {} and {} are both given",
+                       entity_of(volume.model, volume.faces(Role::source).front()),
+                       entity_of(volume.model, volume.faces(Role::target).front()));
 }
 
 /// Angle between the normals of the two ends, both taken in the direction from source to target [radian].
@@ -128,7 +129,7 @@ bool asks_for_shape(const CloseOptions& options)
 
 /// Note an assumption about walls missing next to a missing end. It matters if a face that bulges over their
 /// rims by a quarter of their width, 4 area / perimeter, would change the volume enough.
-void assume_walls(const OpenVolume& sealed, const char* code, std::string text, Closure& closure)
+void assume_walls(const OpenVolume& sealed, const char* code, const std::string& text, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
     double open = 0;
@@ -139,7 +140,7 @@ void assume_walls(const OpenVolume& sealed, const char* code, std::string text, 
         if (sealed.role[face.index()] == Role::wall)
             open += std::pow(face_area(sealed.model, face), 2) / perimeter;
     }
-    assume(closure, code, text + "; this encloses " + with_digits(taken, 4), open / taken);
+    assume(closure, code, formatted("{}; this encloses {:.4g}", text, taken), open / taken);
 }
 
 /// For each edge of the source's rims, the share of its length without a wall.
@@ -171,9 +172,10 @@ public:
         const bool has_walls = value == VolumeClass::II || value == VolumeClass::III;
         if (has_walls && options.edge_shape != EdgeShape::straight) look_at_walls();
         if (options.edge_shape == EdgeShape::follow && !leads()) {
-            throw NotClosed("closure.nothing_to_follow",
-                            "edge_shape = \"follow\" needs a given wall that joins source and "
-                            "target, and there is none; use \"straight\" or \"smooth\"");
+            throw NotClosed(Message("closure.nothing_to_follow",
+                                    "edge_shape = \"follow\" needs a given wall that "
+                                    "joins source and target, and there is none")
+                                .remedy("use \"straight\" or \"smooth\""));
         }
     }
 
@@ -191,7 +193,7 @@ public:
                 if (!first) first = error;
             }
         }
-        throw NotClosed(first->code(), first->what() + (options_.trial ? std::string() : what_helps(match)));
+        throw options_.trial ? *first : NotClosed(with_what_helps(first->message(), match));
     }
 
     [[nodiscard]] OpenVolume take() { return std::move(sealed_); }
@@ -254,21 +256,23 @@ private:
         if (leads() && !(share > kToBeSaid))
             return; // report inclined ends, but no alternative that only
                     // widens the bore
-        std::string text =
+        const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"
-            : leads() ? "void edges are straight next to given walls that bend"
-                      : "the angle between the ends is " + with_digits(lean * 180 / std::numbers::pi, 3) +
-                            "° and no given wall determines the bend between them: void edges are " +
-                            (straight ? "straight" : "curves that leave both ends square");
-        text += std::string("; close{ edge_shape = \"") + word(other) + "\" } " +
-                (instead ? "encloses " + with_digits(*instead, 4) + " instead of " + with_digits(taken, 4)
-                         : "is the alternative");
+            : leads()
+                ? "void edges are straight next to given walls that bend"
+                : formatted("the angle between the ends is {:.3g}° and no given wall determines the bend "
+                            "between them: void edges are {}",
+                            lean * 180 / std::numbers::pi,
+                            straight ? "straight" : "curves that leave both ends square");
+        const std::string alternative = instead
+                                            ? formatted("encloses {:.4g} instead of {:.4g}", *instead, taken)
+                                            : "is the alternative";
         assume(closure,
                follows   ? "closure.loop_follows"
                : leads() ? "closure.straight_assumed"
                          : "closure.bend_assumed",
-               std::move(text), share);
+               formatted("{}; close{{ edge_shape = \"{}\" }} {}", text, word(other), alternative), share);
     }
 
     /// Note a missing end with missing walls that was closed by several flat faces, void faces whose rim does
@@ -291,8 +295,9 @@ private:
         const Tools tools{way, leads() ? &*follower_ : nullptr, options_.void_edges, context_};
         Closure closure = close_as(sealed, match, value_, tools);
         if (const auto crossing = first_crossing(sealed, context_)) {
-            throw NotClosed("closure.faces_cross", name_of(sealed.model, crossing->first) + " would cross " +
-                                                       name_of(sealed.model, crossing->second));
+            throw NotClosed("closure.faces_cross", "{} would cross {}",
+                            entity_of(sealed.model, crossing->first),
+                            entity_of(sealed.model, crossing->second));
         }
         prove_sealed(sealed);
         closure.watertight = true;
@@ -310,17 +315,20 @@ private:
         }
     }
 
-    /// The option that was found to seal after a failure; options that also failed are not suggested.
-    std::string what_helps(const matching::Match& match)
+    /// A failure with the option that was found to seal; options that also failed are not suggested.
+    Message with_what_helps(const Message& failed, const matching::Match& match)
     {
-        const std::string otherwise = "; give the missing face, or another wall";
-        if (!has_two_ends(value_)) return otherwise;
+        const auto otherwise = [&]() -> Message {
+            if (!failed.remedy().empty()) return failed;
+            return Message(failed).remedy("give the missing face, or another wall");
+        };
+        if (!has_two_ends(value_)) return otherwise();
         if (options_.edge_shape != EdgeShape::automatic) {
             if (value_ != VolumeClass::I) look_at_walls();
             for (const EdgeShape shape : {EdgeShape::straight, EdgeShape::follow, EdgeShape::smooth}) {
                 if (shape == options_.edge_shape || (shape == EdgeShape::follow && !leads())) continue;
                 if (would_seal({shape}, match))
-                    return std::string("; close{ edge_shape = \"") + word(shape) + "\" } seals it";
+                    return Message(failed).remedy("close{{ edge_shape = \"{}\" }} seals it", word(shape));
             }
         }
         matching::MatchOptions turned;
@@ -330,14 +338,14 @@ private:
             const matching::Match other = matching::match(volume_, turned, context_);
             for (const Way& way : wanted(other)) {
                 if (would_seal(way, other))
-                    return "; match{ flip = { " +
-                           full_list(turned.flip, [](int loop) { return std::to_string(loop + 1); }) +
-                           " } } seals it";
+                    return Message(failed).remedy(
+                        "match{{ flip = {{ {} }} }} seals it",
+                        full_list(turned.flip, [](int loop) { return formatted("{}", loop + 1); }));
             }
         } catch (const NotClosed&) {
         } catch (const InvalidInput&) { // the direction is fixed by walls or pairs
         }
-        return otherwise;
+        return otherwise();
     }
 
     const OpenVolume& volume_;
@@ -364,13 +372,12 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseOptions& options)
 {
     if (options.take_guess || asks_for_shape(options)) return;
-    const std::string guess = guess_of_bent(sealed, closure, RolesBy::person);
-    if (guess.empty()) return;
-    throw NotClosed("closure.shape_open",
-                    guess +
-                        "; give the missing face, choose a shape with close{ cap = … } or "
-                        "close{ edge_shape = … }, or accept the assumed shape, which encloses " +
-                        with_digits(enclosed_volume(sealed), 4) + ", with open_volume{ …, reading = 1 }");
+    std::optional<Message> guess = guess_of_bent(sealed, closure, RolesBy::person);
+    if (!guess) return;
+    throw NotClosed(std::move(*guess).remedy(
+        "give the face, choose close{{ cap = … }} or close{{ edge_shape = … }}, or accept the assumed shape, "
+        "which encloses {:.4g}, with open_volume{{ …, reading = 1 }}",
+        enclosed_volume(sealed)));
 }
 
 /// Seal a volume as one of a class, and check it.
@@ -405,9 +412,9 @@ std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptio
     const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
     if (without > std::ssize(holes_without_walls(volume)))
         assume_walls(moved->volume, "closure.end_moved",
-                     "the target and walls next to it are missing; the target is assumed to have the "
-                     "shape of the source " +
-                         name_of(volume.model, moved->from) + ", moved onto the tops of the given walls",
+                     formatted("the target and walls next to it are missing; the target is assumed to have "
+                               "the shape of the source {}, moved onto the tops of the given walls",
+                               entity_of(volume.model, moved->from)),
                      closure);
     volume = std::move(moved->volume);
     return std::move(moved->closure);
@@ -460,16 +467,18 @@ Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, Vol
     return closure;
 }
 
-/// Describe the options for holes without walls, with the enclosed volumes.
-std::string in_words(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
+/// The error about holes without walls: the options, with the enclosed volumes.
+Message holes_message(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
 {
     const auto encloses = [](const std::optional<double>& volume) {
-        return volume ? " encloses " + with_digits(*volume, 7) : std::string(" cannot be sealed");
+        return volume ? formatted("encloses {:.7g}", *volume) : "cannot be sealed";
     };
-    return name_of(model, holes.front().face) + " has " +
-           (holes.size() == 1 ? "a hole" : std::to_string(holes.size()) + " holes") +
-           " without walls: close{ holes = \"cover\" }, with flat faces," + encloses(volumes.covered) +
-           "; close{ holes = \"through\" }, up to the missing end," + encloses(volumes.through);
+    return Message("closure.holes_open", "{} has {} without walls", entity_of(model, holes.front().face),
+                   holes.size() == 1 ? "a hole" : formatted("{} holes", holes.size()))
+        .remedy(
+            "close{{ holes = \"cover\" }}, with flat faces, {}; close{{ holes = \"through\" }}, up to the "
+            "missing end, {}",
+            encloses(volumes.covered), encloses(volumes.through));
 }
 
 /// Seal a volume, including holes without walls in its ends.
@@ -478,9 +487,9 @@ Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const A
 {
     check_cancelled(context);
     if (volume.full_turn)
-        throw NotSweepable("closure.full_turn_whole",
-                           "the volume runs round its whole turn and has no ends to close between; sweep "
-                           "it, or close the pieces that volume:cut() returns");
+        throw NotSweepable(Message("closure.full_turn_whole",
+                                   "the volume runs round its whole turn and has no ends to close between")
+                               .remedy("sweep it, or close the pieces that volume:cut() returns"));
     const VolumeClass whole = classify(volume).value;
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);
@@ -490,11 +499,11 @@ Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const A
     if (whole == VolumeClass::IV && !holes.empty() && options.holes == Holes::automatic && !options.trial)
         volumes = hole_volumes(volume, options, context);
     if (volumes && !options.take_guess && (volumes->covered || volumes->through))
-        throw NotClosed("closure.holes_open", in_words(volume.model, holes, *volumes));
+        throw NotClosed(holes_message(volume.model, holes, *volumes));
     Closure closure = close_rest(volume, match, whole, options, context);
     if (volumes)
         assume(closure, "closure.hole_through",
-               in_words(volume.model, holes, *volumes) + "; here they are extended",
+               formatted("{}; here they are extended", holes_message(volume.model, holes, *volumes).text()),
                share_between(enclosed_volume(volume), volumes->covered));
     return closure;
 }
@@ -503,8 +512,8 @@ Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const A
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    closure.notes.push_back("an end meets " + names_of(model, walls) +
-                            " smoothly; meshed as part of that end, not as walls");
+    closure.notes.push_back(formatted("an end meets {} smoothly; meshed as part of that end, not as walls",
+                                      entities_of(model, walls)));
     closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
 }
 
@@ -545,8 +554,9 @@ void log_notes(const Closure& closure, const RunContext& context)
 {
     for (const std::string& note : closure.notes) {
         const auto assumed = std::ranges::find(closure.assumptions, note, &Assumption::text);
-        log_line(context,
-                 assumed == closure.assumptions.end() ? note : "note: " + note + " [" + assumed->code + "]");
+        log_line(context, assumed == closure.assumptions.end()
+                              ? note
+                              : formatted("note: {} [{}]", note, assumed->code));
     }
 }
 

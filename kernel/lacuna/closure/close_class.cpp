@@ -31,17 +31,19 @@ void note(Closure& closure, const std::string& algorithm)
 
 /// A missing target with the source's shape, moved to the walls' rim by the affine map fitted to the walls'
 /// sections.
-VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const std::string& name,
+VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loops, const Subject& face,
                          const RunContext& context)
 {
     const Model& model = volume.model;
     OpenVolume capped = volume; // the walls define a motion only between two ends
-    add_void_face(capped, fill(volume, loops, nullptr, name, context), Role::target);
+    add_void_face(capped, fill(volume, loops, nullptr, face, context), Role::target);
     const Follower follower(capped, matching::side_lines(capped, context), context);
     if (!follower.leads()) {
-        throw NotClosed("closure.nothing_parallel",
-                        name + " cannot be parallel to the given end: the walls do not determine its motion "
-                               "to their rim; use cap = \"flat\"");
+        throw NotClosed(Message("closure.nothing_parallel",
+                                "{}{} cannot be parallel to the given end: the walls do not determine its "
+                                "motion to their rim",
+                                face.words, face.entity)
+                            .remedy("use cap = \"flat\""));
     }
     std::vector<Vec3> points;
     for (const Vec3& p : model.points) points.push_back(follower.carried(p));
@@ -51,16 +53,16 @@ VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loop
         for (std::size_t i = 0; i < 3; ++i)
             sides += (points[index(t[(i + 1) % 3])] - points[index(t[i])]).norm();
     return fill_as(volume, loops, geometry::FacetTree(points, triangles),
-                   sides / static_cast<double>(3 * triangles.size()), name, context);
+                   sides / static_cast<double>(3 * triangles.size()), face, context);
 }
 
 void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
               const Tools& tools)
 {
-    const std::string name = "void face " + std::to_string(closure.void_faces.size() + 1);
+    const Subject face{"", {{"void face", static_cast<long long>(closure.void_faces.size()) + 1}}};
     VoidFilling filling = role == Role::target && tools.way.cap == Cap::parallel
-                              ? parallel_cap(volume, loops, name, tools.context)
-                              : fill(volume, loops, tools.bending(), name, tools.context);
+                              ? parallel_cap(volume, loops, face, tools.context)
+                              : fill(volume, loops, tools.bending(), face, tools.context);
     note(closure, filling.algorithm);
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
@@ -99,11 +101,11 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
                 match.vertices, [&](const auto& pair) { return pair.first == use_from(volume.model, use); });
         });
         if (!bare || matched) continue;
-        throw NotClosed("closure.unmatched_loop",
-                        "source loop " + std::to_string(l + 1) + ", with " +
-                            name_of(volume.model, rim.front().edge) +
-                            ", has no wall and no vertex matched to the target; pair some by "
-                            "hand with match{ vertices = … }");
+        throw NotClosed(Message("closure.unmatched_loop",
+                                "{}, with {}, has no wall and no vertex matched to the target",
+                                NamedEntity{"source loop", static_cast<long long>(l) + 1},
+                                entity_of(volume.model, rim.front().edge))
+                            .remedy("pair some by hand with match{{ vertices = … }}"));
     }
 }
 
@@ -159,10 +161,11 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     for (const Rim& rim : open) {
         for (const EdgeUse& use : rim.uses) {
             if (volume.role[uses[use.edge.index()].front().face.index()] != Role::source) continue;
-            throw NotClosed("closure.wall_missing",
-                            name_of(model, use.edge) +
-                                " of the source has no wall, and the tops of the walls given do not "
-                                "determine the missing target there; name the wall, or the target");
+            throw NotClosed(Message("closure.wall_missing",
+                                    "{} of the source has no wall, and the tops of the walls given do not "
+                                    "determine the missing target there",
+                                    entity_of(model, use.edge))
+                                .remedy("name the wall, or the target"));
         }
         if (open.size() > wanted && is_hole_of_walls(volume, rim))
             add_face(volume, closure, {reversed(rim)}, Role::wall, tools);
@@ -170,11 +173,11 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             loops.push_back(reversed(rim));
     }
     if (loops.size() != wanted) {
-        throw NotClosed("closure.loop_counts",
-                        "the source has " + std::to_string(wanted) + " loops and the walls leave " +
-                            std::to_string(loops.size()) +
-                            " free loops for the target; a sweep needs the same number on "
-                            "both ends; check the walls, or name the target");
+        throw NotClosed(Message("closure.loop_counts",
+                                "the source has {} loops and the walls leave {} free loops for the target, "
+                                "but a sweep needs the same number on both ends",
+                                needed(wanted), found(loops.size()))
+                            .remedy("check the walls, or name the target"));
     }
     if (tools.way.planes) {
         if (auto filled = fill_missing_end(volume, tools.context)) {
@@ -199,9 +202,9 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
         add_face(volume, closure, end, role, tools);
         for (const FaceId floor : floors) {
             volume.role[floor.index()] = role;
-            closure.notes.push_back(name_of(volume.model, floor) + " lies in the plane of " +
-                                    (role == Role::source ? "the source" : "the target") +
-                                    " and becomes part of it");
+            closure.notes.push_back(formatted("{} lies in the plane of the {} and becomes part of it",
+                                              entity_of(volume.model, floor),
+                                              role == Role::source ? "source" : "target"));
         }
     }
 }

@@ -35,8 +35,6 @@ constexpr std::size_t kAllOrders = 7;
 /// Loops with less area than this share of their squared length enclose nothing. Rule of thumb.
 constexpr double kSlit = 1e-6;
 
-std::string number(double value) { return with_digits(value, 4); }
-
 double signed_area(std::span<const Vec2> loop)
 {
     double twice = 0;
@@ -68,7 +66,7 @@ public:
         parted_.plane = plane_;
         add_partitions(made);
         build_loops(model_);
-        return pieces_of(parted_, "the plane", context_);
+        return pieces_of(parted_, {"the plane"}, context_);
     }
 
 private:
@@ -111,16 +109,19 @@ private:
             }
             if (touches) touched.push_back(face);
         }
-        const std::string where = "the volume lies from " + number(least) + " to " + number(most) +
-                                  " along the normal from the point given";
         if (!touched.empty())
-            throw NotSweepable("closure.cut_misses", "the plane only touches " + names_of(model_, touched) +
-                                                         " and cuts nothing: " + where);
-        if (least < 0 && most > 0)
             throw NotSweepable("closure.cut_misses",
-                               "the plane passes between the faces without crossing any: "
-                               "close the volume first, then its void faces are cut");
-        throw NotSweepable("closure.cut_misses", "the plane misses the volume: " + where);
+                               "the plane only touches {} and cuts nothing: the volume lies from {:.4g} to "
+                               "{:.4g} along the normal from the point given",
+                               entities_of(model_, touched), found(least), found(most));
+        if (least < 0 && most > 0)
+            throw NotSweepable(
+                Message("closure.cut_misses", "the plane passes between the faces without crossing any")
+                    .remedy("close the volume first, then its void faces are cut"));
+        throw NotSweepable("closure.cut_misses",
+                           "the plane misses the volume: the volume lies from {:.4g} to {:.4g} along the "
+                           "normal from the point given",
+                           found(least), found(most));
     }
 
     /// Keep the walks round regions that contain some of the facets.
@@ -145,7 +146,7 @@ private:
         }
         if (kept.empty())
             throw NotSweepable("closure.cut_misses",
-                               "the face is outside the volume; its plane cuts the volume elsewhere");
+                               "the face is outside the volume, and its plane cuts the volume elsewhere");
         walks_ = std::move(kept);
     }
 
@@ -214,11 +215,9 @@ private:
             for (const std::vector<EdgeUse>& line : open) lines.push_back(flat_line(line));
             const std::vector<std::size_t> follower = join(lines);
             if (follower.empty())
-                throw NotSweepable(
-                    "closure.cut_gaps",
-                    "the plane crosses walls with gaps that straight lines do "
-                    "not join to simple loops: close the volume first, then its void faces are "
-                    "cut");
+                throw NotSweepable(Message("closure.cut_gaps", "the plane crosses walls with gaps that "
+                                                               "straight lines do not join to simple loops")
+                                       .remedy("close the volume first, then its void faces are cut"));
             std::vector<char> seen(open.size(), 0);
             for (std::size_t i = 0; i < open.size(); ++i) {
                 if (seen[i] != 0) continue;
@@ -249,10 +248,9 @@ private:
                 partition.face = add_partition(model_, rings, plane_, context_);
             } catch (const InvalidInput& error) {
                 throw NotSweepable(
-                    "closure.cut_touches",
-                    std::string("the plane runs along faces that are nearly in it; move or tilt "
-                                "it a little (") +
-                        error.what() + ")");
+                    Message("closure.cut_touches", "the plane runs along faces that are nearly in it")
+                        .remedy("move or tilt it a little")
+                        .attempt(error.message()));
             }
             parted_.partitions.push_back(std::move(partition));
             parted_.volume.role.push_back(Role::wall);
@@ -325,7 +323,7 @@ public:
         parted_.volume.role.push_back(Role::wall);
         model.faces.push_back(std::move(face));
         build_loops(model);
-        return pieces_of(parted_, name_of(model_, face_), context);
+        return pieces_of(parted_, {"", {entity_of(model_, face_)}}, context);
     }
 
 private:
@@ -409,13 +407,13 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
     if (!own && partition.fits()) return partition.run(context);
     const std::optional<geometry::Plane> plane = plane_of(model, face);
     if (!plane)
-        throw NotSweepable("closure.cut_face",
-                           name_of(model, face) + " is curved" +
-                               (own ? " and one of the volume's own"
-                                    : ", and its rim leaves the volume's edges at " +
-                                          place_with_digits(partition.off(), 4)) +
-                               "; a curved face cuts only if its whole rim is on edges of the volume, "
-                               "a flat one cuts by its plane");
+        throw NotSweepable(
+            Message("closure.cut_face", "{} is curved{}", entity_of(model, face),
+                    own ? " and one of the volume's own"
+                        : formatted(", and its rim leaves the volume's edges at {}",
+                                    place_with_digits(partition.off(), 4)))
+                .remedy("a curved face cuts only if its whole rim is on edges of the volume, a flat one cuts "
+                        "by its plane"));
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);
     return cut_within(volume, *plane, &facets, context);

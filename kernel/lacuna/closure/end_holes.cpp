@@ -44,7 +44,7 @@ std::vector<FaceId> cover_holes(OpenVolume& volume, const std::vector<EndHole>& 
     std::vector<FaceId> covers;
     for (const EndHole& hole : holes) {
         VoidFilling cover = fill(volume, {reversed(hole.rim)}, nullptr,
-                                 "the cover of a hole of " + name_of(volume.model, hole.face), context);
+                                 {"the cover of a hole of ", {entity_of(volume.model, hole.face)}}, context);
         covers.push_back(add_void_face(volume, std::move(cover), hole.end));
     }
     return covers;

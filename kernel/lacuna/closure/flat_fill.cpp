@@ -111,7 +111,7 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     try {
         fill_flat(result, loops->flat, context);
         for (const Loop& loop : loops->bent) {
-            VoidFilling filling = fill(volume, {loop}, nullptr, "the missing wall", context);
+            VoidFilling filling = fill(volume, {loop}, nullptr, {"the missing wall"}, context);
             result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
         }
     } catch (const InvalidInput&) { // a ridge across a notch: its straight edge would be outside the rim

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 namespace lacuna::closure {
@@ -173,11 +174,13 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
 {
     for (std::size_t f = 0; f < volume.role.size(); ++f) {
         if (volume.role[f] != Role::wall)
-            throw InvalidInput("closure.full_turn_ends",
-                               "a volume that runs round its whole turn has no ends, but " +
-                                   name_of(volume.model, FaceId(f)) + " is named as one; name walls only");
+            throw InvalidInput(Message("closure.full_turn_ends",
+                                       "a volume that runs round its whole turn has no ends, but {} is named "
+                                       "as one",
+                                       entity_of(volume.model, FaceId(f)))
+                                   .remedy("name walls only"));
     }
-    std::string why;
+    std::optional<Message> why;
     for (const Candidate& candidate : candidates_of(volume.model, context)) {
         try {
             std::vector<StepPiece> pieces = cut_by_plane(volume, candidate.plane, context);
@@ -187,20 +190,23 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
                 pieces[0].turn_to = pieces[1].turn_from = measured ? first / (first + second) : kHalf;
                 return pieces;
             }
-            if (why.empty())
-                why = "the plane that crosses the walls along the shortest lines cuts off " +
-                      std::to_string(pieces.size()) + " pieces instead of two between two cuts";
+            if (!why)
+                why = Message("closure.full_turn",
+                              "the plane that crosses the walls along the shortest lines cuts off {} pieces "
+                              "instead of two between two cuts",
+                              found(pieces.size()));
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
-            if (why.empty()) why = error.what();
+            if (!why) why = error.message();
         }
     }
-    throw NotSweepable("closure.full_turn",
-                       "no plane through the centre of the walls cuts the ring in two places (" +
-                           (why.empty() ? "none crosses a wall" : why) +
-                           "); name all walls of the ring and no others, or use volume:cut{ plane = … } "
-                           "and lacuna.assembly");
+    Message message =
+        Message("closure.full_turn", "no plane through the centre of the walls cuts the ring in two places")
+            .remedy("name all walls of the ring and no others, or use volume:cut{{ plane = … }} "
+                    "and lacuna.assembly");
+    if (why) throw NotSweepable(std::move(message).attempt(std::move(*why)));
+    throw NotSweepable(std::move(message));
 }
 
 } // namespace lacuna::closure

@@ -257,18 +257,6 @@ bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy
            (is_rim_in_doubt(sealed, enclosed, face, by) && !closes_rough_rim(model, enclosed, face));
 }
 
-/// The tags of some faces; long lists are shortened.
-std::string in_words(const std::set<int>& tags)
-{
-    constexpr std::size_t kMostNamed = 12;
-    std::string text = tags.size() == 1 ? "face " : "the faces ";
-    for (std::size_t i = 0; const int tag : tags) {
-        if (i == kMostNamed) return text + " … (" + std::to_string(tags.size()) + " in all)";
-        text += (i++ == 0 ? "" : ", ") + std::to_string(tag);
-    }
-    return text;
-}
-
 /// The given face with a hole that a void face closes in its plane, if there is one.
 std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
                                       FaceId filler)
@@ -341,7 +329,7 @@ bool bends_untold(const OpenVolume& sealed, const Closure& closure)
     });
 }
 
-std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, RolesBy by)
+std::optional<Message> guess_of_bent(const OpenVolume& sealed, const Closure& closure, RolesBy by)
 {
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
@@ -350,10 +338,12 @@ std::string guess_of_bent(const OpenVolume& sealed, const Closure& closure, Role
         std::set<int> tags;
         for (const FaceId other : faces_beside(model, edge_uses(model), face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
-        return "the shape of the missing face beside " + in_words(tags) +
-               " is ambiguous: its rim is not planar";
+        std::vector<NamedEntity> beside;
+        for (const int tag : tags) beside.push_back({"face", tag});
+        return Message(by == RolesBy::person ? "closure.shape_open" : "topology.shape_open",
+                       "the shape of the missing face beside {} is ambiguous: its rim is not planar", beside);
     }
-    return {};
+    return std::nullopt;
 }
 
 FaceId open_hole(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
@@ -365,10 +355,13 @@ FaceId open_hole(const Model& model, const std::vector<FaceId>& given, const Ope
     return {};
 }
 
-std::string hole_in_words(const Model& model, FaceId face)
+Message guess_of_hole(const Model& model, FaceId face)
 {
-    return "it is ambiguous whether the hole of " + name_of(model, face) +
-           " ends there or goes through: its walls are missing, and so is an opposite end";
+    return {
+        "topology.shape_open",
+        "it is ambiguous whether the hole of {} ends there or goes through: its walls are missing, and so "
+        "is an opposite end",
+        entity_of(model, face)};
 }
 
 void assume(Closure& closure, const char* code, std::string text, double share)
@@ -385,16 +378,19 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
         const bool wall = sealed.role[filler.index()] == Role::wall;
         if (wall == inward) continue;
         const double area = face_area(sealed.model, filler);
-        const std::string hole = "a hole of " + name_of(model, given[round.index()]);
+        const NamedEntity face = entity_of(model, given[round.index()]);
         if (wall)
-            assume(closure, "closure.hole_closed",
-                   hole + " is closed in its plane, which fills any pocket behind it; if there is one, give "
-                          "its faces",
-                   area * std::sqrt(area) / enclosed_volume(sealed));
+            assume(
+                closure, "closure.hole_closed",
+                formatted("a hole of {} is closed in its plane, which fills any pocket behind it; if there "
+                          "is one, give its faces",
+                          face),
+                area * std::sqrt(area) / enclosed_volume(sealed));
         else
             assume(closure, "closure.hole_covered",
-                   hole + " is covered, because the faces face into the void; with it as source, close{ "
-                          "holes = \"through\" } extends the hole to the missing end",
+                   formatted("a hole of {} is covered, because the faces face into the void; with it as "
+                             "source, close{{ holes = \"through\" }} extends the hole to the missing end",
+                             face),
                    area * reach_of_others(sealed.model, closure.void_faces, filler) /
                        enclosed_volume(sealed));
     }
@@ -405,14 +401,17 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : membranes(model, closure.void_faces))
-        assume(closure, "closure.membrane",
-               name_of(model, face) + " is a membrane over a rim that is not planar, so its shape is assumed"
-                                      "; if the face bulges, give it",
-               std::abs(beside_thin_plate(model, face).above) / enclosed);
+        assume(
+            closure, "closure.membrane",
+            formatted("{} is a membrane over a rim that is not planar, so its shape is assumed; if the face "
+                      "bulges, give it",
+                      entity_of(model, face)),
+            std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
-        closure.notes.push_back("the rim of " + name_of(model, face) +
-                                " is rough and is closed by a smooth face; if the face bulges, give it");
+        closure.notes.push_back(
+            formatted("the rim of {} is rough and is closed by a smooth face; if the face bulges, give it",
+                      entity_of(model, face)));
         closure.assumptions.push_back({"closure.rough_rim", closure.notes.back()});
     }
 }

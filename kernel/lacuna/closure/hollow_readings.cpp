@@ -7,7 +7,6 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
@@ -36,9 +35,9 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
                                    : roles.target.empty()             ? VolumeClass::IV
                                                                       : VolumeClass::III;
     reading.classification.reasons.push_back(
-        "the bottom blends smoothly into the walls; it is separated from them " +
-        with_digits(bowl->depth, 4) + " below " + name_of(bowl->volume.model, bowl->mouth) +
-        ", where it bends");
+        formatted("the bottom blends smoothly into the walls; it is separated from them {:.4g} below {}, "
+                  "where it bends",
+                  bowl->depth, entity_of(bowl->volume.model, bowl->mouth)));
     reading.roles.value = reading.classification.value;
     reading.roles.reasons = reading.classification.reasons;
     reading.volume = std::move(bowl->volume);
@@ -70,7 +69,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.closure = sealed->closure;
     reading.enclosed = sealed->enclosed;
     reading.guess = guess_of_bent(sealed->volume, sealed->closure, RolesBy::finding);
-    if (reading.guess.empty()) note_hole(model, {}, faces, *sealed, reading);
+    if (!reading.guess) note_hole(model, {}, faces, *sealed, reading);
     if (low.empty()) {
         for (Role& role : reading.volume.role)
             role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;
@@ -80,8 +79,8 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
         (reading.volume.role[f] == Role::source ? roles.source : roles.walls).push_back(faces[f]);
     reading.classification = class_as_given(model, roles);
     reading.roles.value = reading.classification.value;
-    reading.roles.reasons.push_back(name_of(model, roles.source.front()) +
-                                    " is a floor round a narrower bore, which is closed there");
+    reading.roles.reasons.push_back(formatted("{} is a floor round a narrower bore, which is closed there",
+                                              entity_of(model, roles.source.front())));
     return reading;
 }
 

@@ -115,7 +115,7 @@ public:
                     loop.uses.push_back({use.edge, !use.reversed});
             }
         }
-        VoidFilling filling = fill(volume_, loops, nullptr, "the moved end", context);
+        VoidFilling filling = fill(volume_, loops, nullptr, {"the moved end"}, context);
         made_ = add_void_face(volume_, std::move(filling), Role::target);
     }
 

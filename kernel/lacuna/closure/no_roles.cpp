@@ -11,10 +11,10 @@
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,25 +35,23 @@ constexpr double kParallel = 0.996;
 constexpr double kConcaveEdge = std::numbers::pi / 6;
 /// Number of planes tried for a message. Limits run time, as each is a cut.
 constexpr std::size_t kMostPlanes = 8;
-/// Number of readings offered in a message, the likeliest first.
-constexpr std::size_t kMostOffered = 2;
-/// Digits of coordinates in messages: far below the tolerance, a millionth of the diagonal.
-constexpr int kDigits = 9;
+/// Number of faces that a message lists for a recipe.
+constexpr std::size_t kMostTyped = 6;
 
-/// A list of faces in recipe syntax.
+/// A list of faces in recipe syntax; a long one is left to the user.
 std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
 {
-    return "{ " + full_list(faces, [&](FaceId face) { return std::to_string(model[face].tag); }) + " }";
+    if (faces.size() > kMostTyped) return "{ … }";
+    return formatted("{{ {} }}",
+                     full_list(faces, [&](FaceId face) { return formatted("{}", model[face].tag); }));
 }
 
-std::string plane_in_words(const Model& model, const Vec3& point, const Vec3& normal)
+/// A cut in recipe syntax, with digits far below the tolerance, a millionth of the diagonal.
+std::string cut_in_words(const Model& model, const Vec3& point, const Vec3& normal)
 {
     const Vec3 place = (point.array().abs() < model.tolerance / 1000).select(0.0, point.array());
-    std::string text = "cut{ plane = { " + place_with_digits(place, kDigits) + ", " +
-                       place_with_digits(normal, kDigits) + " } }";
-    std::ranges::replace(text, '(', '{');
-    std::ranges::replace(text, ')', '}');
-    return text;
+    return formatted("cut{{ plane = {{ {{{:.9g}, {:.9g}, {:.9g}}}, {{{:.9g}, {:.9g}, {:.9g}}} }} }}",
+                     place.x(), place.y(), place.z(), normal.x(), normal.y(), normal.z());
 }
 
 /// The plane of a flat face at a concave edge that cuts a volume into pieces with two ends each; empty if
@@ -75,7 +73,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
                 std::vector<StepPiece> pieces = cut_by_plane(volume, *plane, context);
                 read_ends(pieces, context);
                 if (std::ranges::all_of(pieces, walls_run_between_ends, &StepPiece::volume))
-                    return plane_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
+                    return cut_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
             } catch (const NotSweepable&) {
             } catch (const InvalidInput&) { // the plane crosses given quads of a face
             }
@@ -126,34 +124,48 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
 {
     const OpenVolume volume = open_volume(given, {{}, {}, faces}, context);
     const Model& model = volume.model;
-    const std::string tags = in_braces(given, faces), call = "open_volume{ walls = " + tags,
-                      which = "faces " + tags.substr(2, tags.size() - 4);
+    const std::string walls = in_braces(given, faces);
     if (free_edges(volume).empty() && is_ring(volume, context))
-        throw InvalidInput("topology.torus", which +
-                                                 " form a torus and have no ends; sweep them "
-                                                 "round the whole turn: " +
-                                                 call + ", full_turn = true }");
+        throw InvalidInput(Message("topology.torus", "the torus of {} has no ends", entities_of(given, faces))
+                               .remedy("sweep them round the whole turn: open_volume{{ {}full_turn = true }}",
+                                       faces.size() == given.faces.size() ? "" : "walls = " + walls + ", "));
     const auto round = round_shape(model, FaceId(0));
     if (round && round->is_sphere() && model.faces.size() == 1 && free_edges(volume).empty())
-        throw InvalidInput("topology.sphere",
-                           which + " are a whole sphere, which has no ends; cut it in two by " + call +
-                               " }:" + plane_in_words(model, round->centre, Vec3::UnitZ()) +
-                               " and open each piece by piece:model():open_volume()");
+        throw InvalidInput(
+            Message("topology.sphere", "{} is a whole sphere, which has no ends", entities_of(given, faces))
+                .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece by "
+                        "piece:model():open_volume()",
+                        walls, cut_in_words(model, round->centre, Vec3::UnitZ())));
     const std::string cut = cut_at_concave_edge(volume, context);
-    const std::string advice = cut.empty()
-                                   ? "; name the roles: open_volume{ source = …, target = …, walls = … }"
-                                   : "; cut them: " + call + " }:" + cut;
+    const auto advised = [&](Message message) -> Message {
+        if (cut.empty())
+            return std::move(message).remedy(
+                "name the roles: open_volume{{ source = …, target = …, walls = … }}");
+        return std::move(message).remedy("cut them: open_volume{{ walls = {} }}:{}", walls, cut);
+    };
     for (const FaceId face : all_faces(model))
         if (is_cone_to_its_tip(model, face))
-            throw InvalidInput("topology.cone", name_of(model, face) +
-                                                    " is a cone with its apex, where "
-                                                    "layers have no width" +
-                                                    advice);
+            throw InvalidInput(
+                advised(Message("topology.cone", "{} is a cone with its apex, where layers have no width",
+                                entity_of(model, face))));
     if (const EdgeId edge = crossing_of_bores(model); edge.valid())
-        throw InvalidInput("topology.crossing_bores", "bores cross at " + name_of(model, edge) +
-                                                          ", and one sweep cannot follow both" + advice);
-    throw InvalidInput("topology.no_roles",
-                       "no roles of source, target and walls were found for " + which + advice);
+        throw InvalidInput(
+            advised(Message("topology.crossing_bores", "bores cross at {}, and one sweep cannot follow both",
+                            entity_of(model, edge))));
+    std::vector<NamedEntity> tags = entities_of(given, faces);
+    for (NamedEntity& face : tags) face.name.clear(); // keeps the message short
+    throw InvalidInput(advised(
+        Message("topology.no_roles", "no roles of source, target and walls were found for {}", tags)));
+}
+
+std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most)
+{
+    int number = 0;
+    const auto text = [&](const Reading& reading) {
+        return formatted("{} (class {}, volume {:.4g})", ++number, to_string(reading.roles.value),
+                         reading.enclosed);
+    };
+    return short_list(readings, text, most);
 }
 
 void check_tubes(const OpenVolume& volume, const RunContext& context)
@@ -163,20 +175,19 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
     if (part.empty() || has_branches(volume, context)) return;
     if (crossing_of_bores(model).valid()) refuse_without_roles(model, all, context);
     const std::vector<Reading> readings = find_readings(model, all, context);
-    std::string text;
-    for (std::size_t i = 0; i < std::min(kMostOffered, readings.size()); ++i)
-        text += (i == 0 ? "type" : " or") + (" open_volume{ faces = " + in_braces(model, all)) +
-                ", reading = " + std::to_string(i + 1) + " } (class " +
-                std::string(to_string(readings[i].roles.value)) + ", volume " +
-                with_digits(readings[i].enclosed, 4) + ")";
-    if (text.empty()) text = cut_at_concave_edge(volume, context);
-    if (text.starts_with("cut")) text = "cut them by volume:" + text;
-    if (text.empty()) text = "name the source or the target, or the walls that close the others";
     const std::size_t loops = rims(model, part).size();
-    throw NotClosed("closure.tube_loops", name_of(model, part.front()) +
-                                              " and the walls connected to it have " + std::to_string(loops) +
-                                              (loops == 1 ? " free loop" : " free loops") +
-                                              ", and class V needs two, one at either end: " + text);
+    Message message("closure.tube_loops",
+                    "{} and the walls connected to it have {} free {}, and class V needs {}, one at either "
+                    "end",
+                    entity_of(model, part.front()), found(loops), loops == 1 ? "loop" : "loops", needed(2));
+    if (!readings.empty())
+        throw NotClosed(std::move(message).remedy(
+            "type open_volume{{ faces = {}, reading = 1 }}, or another of the readings {}",
+            in_braces(model, all), listed(readings, 2)));
+    if (const std::string cut = cut_at_concave_edge(volume, context); !cut.empty())
+        throw NotClosed(std::move(message).remedy("cut them by volume:{}", cut));
+    throw NotClosed(
+        std::move(message).remedy("name the source or the target, or the walls that close the others"));
 }
 
 std::optional<Reading> read_walls_alone(const Model& model, const std::vector<FaceId>& walls, bool take_guess,
@@ -187,10 +198,11 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
         has_branches(open, context))
         return std::nullopt;
     std::vector<Reading> readings = find_readings(model, walls, context);
-    if (readings.size() != 1 || !(take_guess || readings.front().guess.empty())) return std::nullopt;
+    if (readings.size() != 1 || !(take_guess || !readings.front().guess)) return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
-    log_line(context, "note: the walls, named without ends, are no tube between two missing ends; taken as " +
-                          in_words(model, roles.roles, roles.value));
+    log_line(context, formatted("note: the walls, named without ends, are no tube between two missing ends; "
+                                "taken as {}",
+                                in_words(model, roles.roles, roles.value)));
     return std::move(readings.front());
 }
 

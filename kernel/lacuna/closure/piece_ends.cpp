@@ -335,19 +335,20 @@ void check_ends(const OpenVolume& volume, const std::string& what)
     const std::vector<FaceId> source = volume.faces(Role::source), target = volume.faces(Role::target),
                               walls = volume.faces(Role::wall);
     if (!source.empty() && !target.empty()) return;
-    const std::vector<FaceId>& only = source.empty() ? target : source;
-    const std::string missing = source.empty() ? "source" : "target",
-                      other = source.empty() ? "target" : "source";
+    const char *missing = source.empty() ? "source" : "target", *other = source.empty() ? "target" : "source";
     const bool is_piece = std::ranges::any_of(
         model.faces, [](const Face& face) { return face.origin == Origin::made_void && !face.name.empty(); });
-    throw NotSweepable(
-        "closure.no_ends",
-        what + " is closed by its " + std::to_string(model.faces.size()) + " faces but has no " + missing +
-            ": its " + other + " is " + (only.empty() ? std::string("missing too") : names_of(model, only)) +
-            ", and its walls are " + names_of(model, walls) +
-            "; a sweep needs two ends without a common corner" +
-            (is_piece ? ": move or tilt the plane, or leave the piece out with fallback = \"leave_out\""
-                      : ": name the " + missing + " among them"));
+    Message message = source.empty() && target.empty()
+                          ? Message("closure.no_ends", "{} has neither source nor target: its walls are {}",
+                                    what, entities_of(model, walls))
+                          : Message("closure.no_ends", "{} has no {}: its {} is {}, and its walls are {}",
+                                    what, missing, other,
+                                    entities_of(model, source.empty() ? target : source),
+                                    entities_of(model, walls));
+    if (is_piece)
+        throw NotSweepable(
+            std::move(message).remedy("move or tilt the plane, or set fallback = \"leave_out\""));
+    throw NotSweepable(std::move(message).remedy("name the {} among them", missing));
 }
 
 } // namespace lacuna::closure

@@ -33,10 +33,10 @@ struct Part {
 
 class Parter {
 public:
-    Parter(const PartedVolume& parted, const std::string& what, const RunContext& context)
+    Parter(const PartedVolume& parted, const Subject& tool, const RunContext& context)
         : parted_(parted),
           model_(parted.volume.model),
-          what_(what),
+          tool_(tool),
           context_(context),
           uses_(edge_uses(model_))
     {
@@ -84,10 +84,11 @@ private:
             const FaceId face = parted_.partitions[p].face;
             const std::size_t behind = sets.find(faces + 2 * p), before = sets.find(faces + 2 * p + 1);
             if (behind == before) {
-                throw NotSweepable("closure.cut_apart",
-                                   what_ + " cuts the volume open at " + name_of(model_, face) +
-                                       ", but the volume still hangs together: cut it at "
-                                       "another place too, or choose another cut");
+                throw NotSweepable(
+                    Message("closure.cut_apart",
+                            "{}{} cuts the volume open at {}, but the volume still hangs together",
+                            tool_.words, tool_.entity, entity_of(model_, face))
+                        .remedy("cut it at another place too, or choose another cut"));
             }
             for (const std::size_t root : {behind, before}) {
                 const auto [found, fresh] = number.try_emplace(root, parts_.size());
@@ -237,7 +238,7 @@ private:
 
     const PartedVolume& parted_;
     const Model& model_;
-    const std::string& what_;
+    const Subject& tool_;
     const RunContext& context_;
     std::vector<std::vector<FaceUse>> uses_;
     std::vector<Part> parts_;
@@ -245,10 +246,9 @@ private:
 
 } // namespace
 
-std::vector<StepPiece> pieces_of(const PartedVolume& parted, const std::string& what,
-                                 const RunContext& context)
+std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context)
 {
-    return Parter(parted, what, context).run();
+    return Parter(parted, tool, context).run();
 }
 
 std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces,
@@ -292,7 +292,7 @@ std::string partition_name(const Model& model)
         if (face.name.starts_with("cut_"))
             number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 if it is no number
     }
-    return "cut_" + std::to_string(number);
+    return formatted("cut_{}", number);
 }
 
 FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loops,

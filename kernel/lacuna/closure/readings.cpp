@@ -7,7 +7,6 @@
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -27,10 +26,6 @@ constexpr std::size_t kMostTried = 50;
 /// Cost of closing by flat faces that are not one per free loop; as for no end in
 /// `topology::role_candidates()`. Rule of thumb.
 constexpr double kFilled = 0.1;
-/// Number of readings listed in a message.
-constexpr std::size_t kMostListed = 8;
-
-std::string plain(double value) { return with_digits(value, 4); }
 
 /// Whether a void edge is further from its chord than a half circle.
 bool detours(const Void& v)
@@ -113,42 +108,32 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                      const RunContext& context)
 {
     if (faces.empty())
-        throw InvalidInput("topology.no_faces",
-                           "the model has no faces to find a volume in; load a file that "
-                           "has some, or add_face{ points =, cells = }");
+        throw InvalidInput(Message("topology.no_faces", "the model has no faces to find a volume in")
+                               .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) refuse_without_roles(model, faces, context);
     if (number == 0) {
         if (auto open = leave_holes_open(model, readings, faces, context)) return std::move(*open);
     }
     if (number == 0 && readings.size() == 1) {
-        if (readings.front().guess.empty()) return std::move(readings.front());
-        throw InvalidInput("topology.shape_open",
-                           readings.front().guess +
-                               "; give the missing face, name the roles, or accept the assumed shape, which "
-                               "encloses " +
-                               plain(readings.front().enclosed) +
-                               ", with open_volume{ faces = …, reading = 1 }");
+        if (!readings.front().guess) return std::move(readings.front());
+        throw InvalidInput(
+            Message(*readings.front().guess)
+                .remedy("give the missing face, name the roles, or accept the assumed shape, which encloses "
+                        "{:.4g}, with open_volume{{ faces = …, reading = 1 }}",
+                        readings.front().enclosed));
     }
     const auto place = static_cast<std::size_t>(number);
     if (number >= 1 && place <= readings.size()) return std::move(readings[place - 1]);
-    std::string text;
-    for (std::size_t i = 0; i < std::min(readings.size(), kMostListed); ++i) {
-        text += "\n  " + std::to_string(i + 1) + ": volume " + plain(readings[i].enclosed) + ", " +
-                in_words(model, readings[i].roles.roles, readings[i].roles.value);
-    }
-    if (readings.size() > kMostListed) text += "\n  … (" + std::to_string(readings.size()) + " in all)";
     if (number == 0) {
         throw InvalidInput(
-            "topology.roles_ambiguous",
-            "the faces have several equally likely readings with different volumes; choose one "
-            "with open_volume{ faces = …, reading = 1 }, or name its roles:" +
-                text);
+            Message("topology.roles_ambiguous",
+                    "the faces have equally likely readings with different volumes: {}", listed(readings))
+                .remedy("choose one with open_volume{{ faces = …, reading = 1 }}, or name its roles"));
     }
-    throw InvalidInput("topology.no_such_reading", "there is no reading " + std::to_string(number) +
-                                                       " of the faces; the likely "
-                                                       "ones are:" +
-                                                       text);
+    throw InvalidInput("topology.no_such_reading",
+                       "there is no reading {} of the faces; the likely ones are {}", found(number),
+                       listed(readings));
 }
 
 } // namespace lacuna::closure

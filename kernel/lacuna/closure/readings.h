@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/close.h>
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/auto_roles.h>
 
@@ -36,8 +37,8 @@ struct Reading {
     std::optional<Closure> closure;
     /// Set if `volume` is open: its sealed state, so that it need not be closed again.
     std::optional<SealedVolume> sealed;
-    double enclosed = 0; ///< [model length³]
-    std::string guess;   ///< description of an ambiguous shape, for the user; empty if unambiguous
+    double enclosed = 0;          ///< [model length³]
+    std::optional<Message> guess; ///< the error about an ambiguous shape; empty if unambiguous
     /// A given end with holes without walls that may extend to a missing end; invalid if there is none. An
     /// open volume with this end as source must be closed with `CloseOptions::holes`.
     FaceId holed;

@@ -216,7 +216,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed = {{{}, std::move(one.volume), std::move(one.closure)}, one.enclosed};
-        now.filled = "sealed with the shape of " + name_of(model, one.from) + " at the other end";
+        now.filled = formatted("sealed with the shape of {} at the other end", entity_of(model, one.from));
         now.first.roles.walls = faces; // in the numbering of its volume
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;

@@ -115,8 +115,6 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& why) const { throw NotSweepable("closure.steps", why); }
-
     const geometry::FacetTree& opposite_tree()
     {
         if (tree_) return *tree_;
@@ -166,10 +164,15 @@ private:
             const Vec3 from = model_.at(p);
             const std::optional<Hit> hit = above(from);
             if (!hit || (image.target.valid() && hit->face != image.target)) {
-                refuse("the rim of the step at " + name_of(model_, steps_.parts[hanging.part].front()) +
-                       (hit ? " lies below " + name_of(model_, image.target) + " and " +
-                                  name_of(model_, hit->face) + "; give the opposite end there as one face"
-                            : " does not lie below the opposite end everywhere"));
+                const NamedEntity step = entity_of(model_, steps_.parts[hanging.part].front());
+                if (!hit)
+                    throw NotSweepable(
+                        "closure.steps",
+                        "the rim of the step at {} does not lie below the opposite end everywhere", step);
+                throw NotSweepable(Message("closure.steps", "the rim of the step at {} lies below {} and {}",
+                                           step, entity_of(model_, image.target),
+                                           entity_of(model_, hit->face))
+                                       .remedy("give the opposite end there as one face"));
             }
             image.target = hit->face;
             const auto made = static_cast<Index>(model_.points.size());
@@ -263,8 +266,10 @@ private:
                 made = geometry::triangulate(outline.flat, outline.loops,
                                              {.interior_points = before.kind != "plane"}, context_);
             } catch (const InvalidInput& error) { // the error names loops, not faces
-                refuse(name_of(model_, id) +
-                       " cannot be split along the projected outlines of the steps: " + error.what());
+                throw NotSweepable(Message("closure.steps",
+                                           "{} cannot be split along the projected outlines of the steps",
+                                           entity_of(model_, id))
+                                       .attempt(error.message()));
             }
             Face face = before;
             face.triangles.clear();
@@ -275,7 +280,9 @@ private:
             VoidFilling filling = filling_of(model_, outline, made, [&](std::size_t p) {
                 const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()));
                 if (!hit)
-                    refuse(name_of(model_, id) + " folds back as seen along the sweep and cannot be cut");
+                    throw NotSweepable("closure.steps",
+                                       "{} folds back as seen along the sweep and cannot be cut",
+                                       entity_of(model_, id));
                 uv_.insert_or_assign(first_made + static_cast<Index>(p - outline.flat.size()), hit->uv);
                 return hit->place;
             });
@@ -296,8 +303,9 @@ private:
         }
         for (std::size_t i = 0; i < own.size(); ++i) {
             if (parents[given + i] == rings.size())
-                refuse("the rim of the step at " + name_of(model_, steps_.parts[own[i]->part].front()) +
-                       " does not lie within " + name_of(model_, id));
+                throw NotSweepable("closure.steps", "the rim of the step at {} does not lie within {}",
+                                   entity_of(model_, steps_.parts[own[i]->part].front()),
+                                   entity_of(model_, id));
             own[i]->inside = region[given + i];
             own[i]->outside = region[parents[given + i]];
         }
@@ -355,9 +363,10 @@ private:
         for (const Imprinted& image : images_) {
             const std::size_t outer = part_beyond(image, part_of);
             if (outer == image.part)
-                refuse("the faces on both sides of the step at " +
-                       name_of(model_, steps_.parts[outer].front()) +
-                       " have the same end below, seen along the sweep");
+                throw NotSweepable("closure.steps",
+                                   "the faces on both sides of the step at {} have the same end below, seen "
+                                   "along the sweep",
+                                   entity_of(model_, steps_.parts[outer].front()));
             below[image.part] = outer;
             for (const std::size_t p : {image.part, outer})
                 walls[p].insert(walls[p].end(), image.curtain.begin(), image.curtain.end());
@@ -369,12 +378,15 @@ private:
         std::vector<StepPiece> result;
         for (std::size_t p = 0; p <= none; ++p) {
             if (p == none && opposite[p].empty()) {
-                if (!walls[p].empty()) refuse(name_of(model_, walls[p].front()) + " touches neither end");
+                if (!walls[p].empty())
+                    throw NotSweepable("closure.steps", "{} touches neither end",
+                                       entity_of(model_, walls[p].front()));
                 continue;
             }
             if (opposite[p].empty())
-                refuse("nothing of the opposite end lies over " + name_of(model_, steps_.parts[p].front()) +
-                       ", seen along the sweep");
+                throw NotSweepable("closure.steps",
+                                   "nothing of the opposite end lies over {}, seen along the sweep",
+                                   entity_of(model_, steps_.parts[p].front()));
             Roles own{p == none ? std::vector<FaceId>{} : steps_.parts[p], opposite[p], walls[p]};
             if (stepped_ == Role::target) std::swap(own.source, own.target);
             if (volume_.turned_round) std::swap(own.source, own.target);
@@ -444,16 +456,17 @@ private:
 void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
-    const std::string step = name_of(volume.model,
-                                     volume.model.faces.empty() ? FaceId() : steps.parts.back().front());
+    const NamedEntity step = entity_of(volume.model,
+                                       volume.model.faces.empty() ? FaceId() : steps.parts.back().front());
     if (open.size() != 1)
-        throw NotSweepable("closure.steps",
-                           "the steps at " + step +
-                               " are cut towards the opposite end, which is missing, and " +
-                               std::to_string(open.size()) +
-                               " loops are open instead of one; give its face, or the other missing faces");
-    add_void_face(
-        volume, fill(volume, {reversed(open.front())}, nullptr, "the end opposite " + step, context), other);
+        throw NotSweepable(Message("closure.steps",
+                                   "the steps at {} are cut towards the opposite end, which is missing, and "
+                                   "{} loops are open instead of one",
+                                   step, found(open.size()))
+                               .remedy("give its face, or the other missing faces"));
+    add_void_face(volume,
+                  fill(volume, {reversed(open.front())}, nullptr, {"the end opposite ", {step}}, context),
+                  other);
     build_loops(volume.model);
 }
 
@@ -468,10 +481,12 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                 return cut_by_face(piece, volume.model, face, context);
             } catch (const NotSweepable& error) {
                 if (error.code() != "closure.cut_face") throw;
-                throw NotSweepable("closure.steps",
-                                   "the step at " + name_of(volume.model, face) +
-                                       " is not flat, so it has no plane to cut by, and its rim is not "
-                                       "closed; cut the volume with cut{ plane = … }");
+                throw NotSweepable(
+                    Message("closure.steps",
+                            "the step at {} is not flat, so it has no plane to cut by, and its "
+                            "rim is not closed",
+                            entity_of(volume.model, face))
+                        .remedy("cut the volume with cut{{ plane = … }}"));
             }
         });
     }
@@ -532,7 +547,8 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
         Steps& own = steps[end == Role::source ? 0 : 1];
         if (own.closed.empty()) continue;
         if (round == kRounds)
-            throw NotSweepable("closure.steps", "the volume has too many steps; cut it by planes first");
+            throw NotSweepable(
+                Message("closure.steps", "the volume has too many steps").remedy("cut it by planes first"));
         const Role other = end == Role::source ? Role::target : Role::source;
         if (volume.faces(other).empty()) cap_opposite(volume, other, own, context);
         std::vector<StepPiece> result;
@@ -547,13 +563,13 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const std::vector<std::vector<FaceId>>& parts = steps[end == Role::source ? 0 : 1].parts;
         if (parts.size() < 2) continue;
-        throw NotSweepable("closure.steps", std::string("the ") +
-                                                (end == Role::source ? "source" : "target") +
-                                                " has several separate parts, such as " +
-                                                name_of(volume.model, parts[0].front()) + " and " +
-                                                name_of(volume.model, parts[1].front()) +
-                                                ", and no walls lead from one to the other; make two volumes "
-                                                "of it, or cut it with cut{ plane = … }");
+        throw NotSweepable(
+            Message("closure.steps",
+                    "the {} has several separate parts, such as {} and {}, and no walls lead from one to the "
+                    "other",
+                    end == Role::source ? "source" : "target", entity_of(volume.model, parts[0].front()),
+                    entity_of(volume.model, parts[1].front()))
+                .remedy("make two volumes of it, or cut it with cut{{ plane = … }}"));
     }
     return {{std::move(volume), 0}};
 }

@@ -4,10 +4,11 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -176,11 +177,12 @@ double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, cons
         asked = asked || gap.below.empty() || gap.above.empty();
     }
     if (asked && !(std::abs(lean) > kFacing * length)) {
-        throw NotClosed("closure.no_side",
-                        name_of(model, volume.faces(Role::source).front()) + " and " +
-                            name_of(model, volume.faces(Role::target).front()) +
-                            " do not face each other, so smooth void edges could leave on either side; "
-                            "give one with close{ void_edges = … }");
+        throw NotClosed(
+            Message("closure.no_side",
+                    "{} and {} do not face each other, so smooth void edges could leave on either side",
+                    entity_of(model, volume.faces(Role::source).front()),
+                    entity_of(model, volume.faces(Role::target).front()))
+                .remedy("give one with close{{ void_edges = … }}"));
     }
     return lean < 0 ? -1 : 1;
 }
@@ -201,10 +203,7 @@ std::vector<Vec3> smooth_course(const Model& model, const Gap& gap, const Tangen
 
 // --- given by the user ----------------------------------------------------------------------------------
 
-std::string named(const VoidEdge& edge)
-{
-    return "the void edge from vertex " + std::to_string(edge.from) + " to vertex " + std::to_string(edge.to);
-}
+NamedEntity vertex(int tag) { return {"vertex", tag}; }
 
 VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
                        const std::set<VertexId>& free)
@@ -213,11 +212,10 @@ VertexId vertex_on_rim(const OpenVolume& volume, const VoidEdge& edge, int tag,
     for (const VertexId v : free)
         if (model[v].tag == tag) return v;
     const bool known = std::ranges::find(model.vertices, tag, &Vertex::tag) != model.vertices.end();
-    throw InvalidInput("closure.void_edge_vertex",
-                       named(edge) + ": vertex " + std::to_string(tag) +
-                           (known ? " is not on a free rim" : " is not in the volume") +
-                           "; the vertices of the free rims are " +
-                           full_list(free, [&](VertexId v) { return std::to_string(model[v].tag); }));
+    throw InvalidInput(Message("closure.void_edge_vertex", "the void edge from {} to {}: {} is not {}",
+                               vertex(edge.from), vertex(edge.to), vertex(tag),
+                               known ? "on a free rim" : "in the volume")
+                           .remedy("the vertices of the free rims are {}", entities_of(model, free)));
 }
 
 /// The course of a user's void edge, without its ends if the user gave them too.
@@ -230,14 +228,16 @@ std::vector<Vec3> course_by_hand(const Model& model, const VoidEdge& edge, Verte
         const Vec3& p = edge.points[i];
         if (!p.allFinite())
             throw InvalidInput("closure.void_edge_point",
-                               named(edge) + ": point " + std::to_string(i + 1) + " is not finite");
+                               "the void edge from {} to {}: point {} is not finite", vertex(edge.from),
+                               vertex(edge.to), i + 1);
         const bool at_end = (i == 0 && (p - before).norm() <= model.tolerance) ||
                             (i + 1 == edge.points.size() && (p - last).norm() <= model.tolerance);
         if (at_end) continue;
         if ((p - before).norm() <= model.tolerance || (p - last).norm() <= model.tolerance)
-            throw InvalidInput("closure.void_edge_point",
-                               named(edge) + ": point " + std::to_string(i + 1) +
-                                   " coincides with the previous one or with an end");
+            throw InvalidInput(
+                "closure.void_edge_point",
+                "the void edge from {} to {}: point {} coincides with the previous one or with an end",
+                vertex(edge.from), vertex(edge.to), i + 1);
         points.push_back(p);
         before = p;
     }
@@ -259,10 +259,9 @@ void check_clear(const Model& model, const VoidEdge& edge, const std::vector<Vec
             const geometry::FacetTree::RayHit hit = tree.first_along(way[i] + start * along, along);
             if (hit.triangle < 0 || hit.t > end - start) continue;
             const Vec3 place = way[i] + (start + hit.t) * along;
-            throw InvalidInput("closure.void_edge_crosses",
-                               named(edge) + " crosses " + name_of(model, FaceId(f)) + " at (" +
-                                   std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
-                                   std::to_string(place.z()) + ")");
+            throw InvalidInput("closure.void_edge_crosses", "the void edge from {} to {} crosses {} at {}",
+                               vertex(edge.from), vertex(edge.to), entity_of(model, FaceId(f)),
+                               place_with_digits(place, 6));
         }
     }
 }
@@ -311,19 +310,23 @@ private:
     void check_ends(const VoidEdge& edge, VertexId from, VertexId to) const
     {
         const Model& model = volume_.model;
-        if (from == to) throw InvalidInput("closure.void_edge_ends", named(edge) + " must join two vertices");
+        if (from == to)
+            throw InvalidInput("closure.void_edge_ends", "the void edge from {} to {} must join two vertices",
+                               vertex(edge.from), vertex(edge.to));
         if (pairs_.contains(std::minmax(from, to)))
-            throw InvalidInput("closure.void_edge_twice", named(edge) + " is given twice");
+            throw InvalidInput("closure.void_edge_twice", "the void edge from {} to {} is given twice",
+                               vertex(edge.from), vertex(edge.to));
         for (const Gap& gap : gaps_) {
             if (std::minmax(gap.from, gap.to) == std::minmax(from, to)) return;
         }
         for (const Gap& gap : gaps_) {
             for (const VertexId end : {from, to}) {
                 if (gap.from != end && gap.to != end) continue;
-                throw InvalidInput("closure.void_edge_contradicts",
-                                   named(edge) + ": " + name_of(model, end) + " is paired with " +
-                                       name_of(model, gap.from == end ? gap.to : gap.from) +
-                                       " by the match; pair the vertices with match{ vertices = … }");
+                throw InvalidInput(Message("closure.void_edge_contradicts",
+                                           "the void edge from {} to {}: {} is paired with {} by the match",
+                                           vertex(edge.from), vertex(edge.to), entity_of(model, end),
+                                           entity_of(model, gap.from == end ? gap.to : gap.from))
+                                       .remedy("pair the vertices with match{{ vertices = … }}"));
             }
         }
     }

@@ -14,6 +14,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -251,19 +252,19 @@ std::optional<VoidFilling> fill_between_corners(const Model& model, const std::v
     }
 }
 
-std::string crossing_in_words(const Model& model, const std::vector<Loop>& loops,
-                              const geometry::LoopCrossing& crossing)
+/// The edges of two loops that cross, for messages.
+std::array<Argument, 2> crossing_edges(const Model& model, const std::vector<Loop>& loops,
+                                       const geometry::LoopCrossing& crossing)
 {
-    const auto edge_at = [&](std::size_t loop, std::size_t segment) {
+    const auto edge_at = [&](std::size_t loop, std::size_t segment) -> Argument {
         for (const EdgeUse& use : loops[loop].uses) {
             const std::size_t segments = model[use.edge].points.size() - 1;
-            if (segment < segments) return name_of(model, use.edge);
+            if (segment < segments) return entity_of(model, use.edge);
             segment -= segments;
         }
-        return std::string("an edge");
+        return "an edge";
     };
-    return edge_at(crossing.loop_a, crossing.segment_a) + " and " +
-           edge_at(crossing.loop_b, crossing.segment_b);
+    return {edge_at(crossing.loop_a, crossing.segment_a), edge_at(crossing.loop_b, crossing.segment_b)};
 }
 
 } // namespace
@@ -295,7 +296,7 @@ std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const 
 }
 
 VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const Follower* follower,
-                 const std::string& name, const RunContext& context)
+                 const Subject& face, const RunContext& context)
 {
     check_cancelled(context);
     const Model& model = volume.model;
@@ -313,9 +314,10 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
         try {
             result = fill_transfinite(model, sides, follower, context);
         } catch (const InvalidInput& error) {
-            throw NotClosed("closure.face_folds",
-                            name + ", with " + name_of(model, sides.front().front().edge) +
-                                ", folds when blended between its sides: " + error.what());
+            throw NotClosed(Message("closure.face_folds",
+                                    "{}{}, with {}, folds when blended between its sides", face.words,
+                                    face.entity, entity_of(model, sides.front().front().edge))
+                                .attempt(error.message()));
         }
     } else if (auto patch = flat ? std::nullopt
                                  : fill_between_corners(model, loops, told.has_value() || on.has_value(),
@@ -326,27 +328,30 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     } else if (!crossing) {
         result = fill_on_newell_plane(model, newell, on, context);
     } else {
-        throw NotClosed("closure.outline_crosses",
-                        name +
-                            " cannot be laid out in a plane: " + crossing_in_words(model, loops, *crossing) +
-                            " cross there; give a face for it, or split it by one more wall");
+        const auto [a, b] = crossing_edges(model, loops, *crossing);
+        throw NotClosed(Message("closure.outline_crosses",
+                                "{}{} cannot be laid out in a plane: {} and {} cross there", face.words,
+                                face.entity, a, b)
+                            .remedy("give a face for it, or split it by one more wall"));
     }
     result.loops = loops;
     return result;
 }
 
 VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
-                    const geometry::FacetTree& shape, double facet_size, const std::string& name,
+                    const geometry::FacetTree& shape, double facet_size, const Subject& face,
                     const RunContext& context)
 {
     const Model& model = volume.model;
     const NewellOutline newell = newell_outline(model, loops);
     const Outline& outline = newell.outline;
     if (const auto crossing = geometry::find_crossing(outline.flat, outline.loops)) {
-        throw NotClosed("closure.outline_crosses",
-                        name +
-                            " cannot be projected to a plane: " + crossing_in_words(model, loops, *crossing) +
-                            " cross there, so it cannot be parallel to the given end; use cap = \"flat\"");
+        const auto [a, b] = crossing_edges(model, loops, *crossing);
+        throw NotClosed(Message("closure.outline_crosses",
+                                "{}{} cannot be projected to a plane: {} and {} cross there, so it cannot be "
+                                "parallel to the given end",
+                                face.words, face.entity, a, b)
+                            .remedy("use cap = \"flat\""));
     }
     const geometry::Triangulation flat = fine_facets(outline, facet_size, context);
     std::vector<double> heights;
@@ -354,9 +359,11 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
         check_cancelled(context);
         const auto height = height_of(shape, newell.plane, place, model.tolerance);
         if (!height) {
-            throw NotClosed("closure.cap_folds",
-                            name + " cannot be parallel to the given end, which folds over the plane of the "
-                                   "walls' rim; use cap = \"flat\", or give the face");
+            throw NotClosed(Message("closure.cap_folds",
+                                    "{}{} cannot be parallel to the given end, which folds over the plane of "
+                                    "the walls' rim",
+                                    face.words, face.entity)
+                                .remedy("use cap = \"flat\", or give the face"));
         }
         heights.push_back(*height);
     }

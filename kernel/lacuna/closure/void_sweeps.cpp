@@ -5,7 +5,6 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
@@ -69,10 +68,10 @@ std::vector<FaceId> rising(std::vector<FaceId> faces)
 
 std::string ways_in_words(const Reading& reading)
 {
-    if (reading.ways == 1) return {};
-    return std::to_string(reading.ways) + " readings enclose the same volume, " +
-           with_digits(reading.enclosed, 4) + "; this one is swept, with the fewest irregular nodes, " +
-           std::to_string(reading.roles.irregular) + " or more on its source, and the most even cells";
+    return formatted(
+        "{} readings enclose the same volume, {:.4g}; this one is swept, with the fewest irregular "
+        "nodes, {} or more on its source, and the most even cells",
+        reading.ways, reading.enclosed, reading.roles.irregular);
 }
 
 /// Make the reading an open volume with these roles of the model's faces.
@@ -177,7 +176,7 @@ void note_hole(const Model& model, FaceId through, const std::vector<FaceId>& gi
                Reading& reading)
 {
     reading.holed = through.valid() ? through : open_hole(model, given, sealed.volume, sealed.closure);
-    if (reading.holed.valid()) reading.guess = hole_in_words(model, reading.holed);
+    if (reading.holed.valid()) reading.guess = guess_of_hole(model, reading.holed);
 }
 
 std::optional<Reading> leave_holes_open(const Model& model, const std::vector<Reading>& readings,
@@ -191,9 +190,9 @@ std::optional<Reading> leave_holes_open(const Model& model, const std::vector<Re
                          [&](FaceId face) { return face != holed->holed; });
     roles.value = VolumeClass::IV;
     roles.reasons.push_back(
-        name_of(model, holed->holed) +
-        " has holes without walls, and the opposite end is missing; choose close{ holes = "
-        "\"cover\" } or close{ holes = \"through\" }");
+        formatted("{} has holes without walls, and the opposite end is missing; choose close{{ holes = "
+                  "\"cover\" }} or close{{ holes = \"through\" }}",
+                  entity_of(model, holed->holed)));
     Reading reading;
     reading.holed = holed->holed;
     take_open(model, std::move(roles), reading, context);
@@ -217,7 +216,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     reading.guess = guess_of_bent(found.sealed.volume, found.sealed.closure, RolesBy::finding);
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = all_faces(first.roles);
-    if (reading.guess.empty()) note_hole(model, found.through, names, found.sealed, reading);
+    if (!reading.guess) note_hole(model, found.through, names, found.sealed, reading);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     std::vector<RoleCandidate> sweeps;
     // A void with nothing but two ends was given as such.
@@ -266,10 +265,9 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
                                given_part(reading.roles.roles.walls, names).faces};
         reading.classification = class_as_given(model, reading.roles.roles);
         reading.roles.value = reading.classification.value;
-        const std::string how = !found.filled.empty()
-                                    ? found.filled
-                                    : "sealed as " + in_words(model, first.roles, first.value);
-        reading.roles.reasons.push_back(how + ", and swept between void faces");
+        reading.roles.reasons.push_back(formatted(
+            "{}, and swept between void faces",
+            !found.filled.empty() ? found.filled : "sealed as " + in_words(model, first.roles, first.value)));
     }
     if (reading.ways > 1) reading.roles.reasons.push_back(ways_in_words(reading));
     return reading;

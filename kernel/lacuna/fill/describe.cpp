@@ -87,24 +87,25 @@ std::string pieces_in_words(const Volume& volume, const RunContext& context)
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
-        return std::string("pieces: it is not cut: ") + error.what() + "\n";
+        return formatted("pieces: it is not cut: {}\n", error.what());
     }
     if (pieces.size() < 2) return "";
     std::vector<sweep::AssemblyMember> members;
     for (const closure::StepPiece& piece : pieces) {
-        const std::string name = volume.name.empty() ? "piece" : volume.name;
-        members.push_back({&piece.volume, {}, name + "_" + std::to_string(members.size() + 1)});
+        members.push_back(
+            {&piece.volume,
+             {},
+             formatted("{}_{}", volume.name.empty() ? "piece" : volume.name, members.size() + 1)});
     }
-    std::string text = "pieces: " + std::to_string(pieces.size()) + '\n';
+    std::string text = formatted("pieces: {}\n", pieces.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-        text += "  " + members[p].region + ": class " +
-                std::string(topology::to_string(topology::classify(pieces[p].volume).value)) + ", level " +
-                std::to_string(pieces[p].level) + ", " + std::to_string(pieces[p].volume.model.faces.size()) +
-                " faces\n";
+        text += formatted("  {}: class {}, level {}, {} faces\n", members[p].region,
+                          topology::to_string(topology::classify(pieces[p].volume).value), pieces[p].level,
+                          pieces[p].volume.model.faces.size());
     }
     for (const sweep::SharedFace& face : sweep::shared_faces(members, context)) {
-        text += "  " + members[face.a].region + " and " + members[face.b].region + " share " +
-                topology::name_of(pieces[face.a].volume.model, face.face_a) + '\n';
+        text += formatted("  {} and {} share {}\n", members[face.a].region, members[face.b].region,
+                          entity_of(pieces[face.a].volume.model, face.face_a));
     }
     return text;
 }
@@ -113,11 +114,12 @@ std::string pieces_in_words(const Volume& volume, const RunContext& context)
 
 std::string ends_in_words(const topology::OpenVolume& volume)
 {
-    const auto list = [&](topology::Role role) {
+    const auto list = [&](Role role) -> Argument {
         const std::vector<FaceId> faces = volume.faces(role);
-        return faces.empty() ? "a missing end" : topology::names_of(volume.model, faces);
+        if (faces.empty()) return "a missing end";
+        return topology::entities_of(volume.model, faces);
     };
-    return "from " + list(Role::source) + " to " + list(Role::target);
+    return formatted("from {} to {}", list(Role::source), list(Role::target));
 }
 
 std::string tree(const Volume& volume, const RunContext& context)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/detail/kept_mesh.h>
 
+#include <lacuna/core/message.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -32,7 +34,7 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     remove_name(kept->swept.mesh, name);
     kept->skin = io::skin_of(kept->swept.mesh, context);
     kept->swept.faces = kept->skin.face;
-    kept->swept.report.emplace_back("kept as it came: " + std::to_string(swept.mesh.cell_count()) + " cells");
+    kept->swept.report.emplace_back(formatted("kept as it came: {} cells", swept.mesh.cell_count()));
     return kept;
 }
 
@@ -55,7 +57,7 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunCo
         if (group != "volume") kept.whole = group;
         if (std::ranges::count(mesh.regions, mesh.regions[p]) == 1) continue;
         kept.turn_of = mesh.regions[p];
-        kept.region += "_" + std::to_string(p + 1);
+        kept.region += formatted("_{}", p + 1);
     }
     return all;
 }

@@ -62,9 +62,7 @@ void keep_known_faces(sweep::AssemblyMember& member)
     });
 }
 
-constexpr const char* kWhereFacesAre = "; volume:tree() lists faces";
-
-/// "; the nearest is …", with the most similar face name among the given volumes.
+/// The most similar face name among the given volumes; empty if no face has a name.
 std::string nearest_face_name(const std::vector<Part>& all, const std::string& wanted, const Member* of)
 {
     std::set<std::string> known;
@@ -75,40 +73,41 @@ std::string nearest_face_name(const std::vector<Part>& all, const std::string& w
             known.insert(face.groups.begin(), face.groups.end());
         }
     }
-    if (known.empty()) return kWhereFacesAre;
+    if (known.empty()) return {};
     std::vector<const char*> keys;
     keys.reserve(known.size());
     for (const std::string& name : known) keys.push_back(name.c_str());
-    return "; the nearest is \"" + std::string(keys[nearest_word(wanted.c_str(), keys)]) + "\"";
+    return keys[nearest_word(wanted.c_str(), keys)];
 }
 
 /// Refuse a named face that no volume has or, for an option of one volume, that this volume does not have.
 void check_known_faces(const std::vector<Part>& all)
 {
     std::set<std::tuple<const Member*, std::string, std::string>> seen;
-    const auto check = [&](const Part& by, const std::string& option, bool own, const std::string& what,
+    const auto check = [&](const Part& by, const std::string& option, bool own, const Argument& what,
                            const auto& face) {
         const Member* const of = own ? by.asked : nullptr;
-        if (!seen.emplace(of, option, what).second) return;
+        if (!seen.emplace(of, option, formatted("{}", what)).second) return;
         const bool known = std::ranges::any_of(all, [&](const Part& one) {
             return one.asked != nullptr && (of == nullptr || one.asked == of) &&
                    surface::has_face(one.volume.volume, face);
         });
         if (known) return;
-        std::string advice = kWhereFacesAre;
+        Message message("surface.no_such_face", "sweep: option '{}'{} names {}, which {}", option,
+                        own ? " of " + by.asked_name : "", what,
+                        own ? by.asked_name + " has not" : "no volume of the assembly has");
+        std::string nearest;
         if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
-            advice = nearest_face_name(all, face, of);
-        throw InvalidInput("surface.no_such_face",
-                           "sweep: option '" + option + "'" + (own ? " of " + by.asked_name : "") +
-                               " names " + what + ", which " +
-                               (own ? by.asked_name + " has not" : "no volume of the assembly has") + advice);
+            nearest = nearest_face_name(all, face, of);
+        if (nearest.empty()) throw InvalidInput(std::move(message).remedy("volume:tree() lists faces"));
+        throw InvalidInput(std::move(message).remedy("the nearest is \"{}\"", nearest));
     };
     for (const Part& one : all) {
         if (one.asked == nullptr) continue;
         for_each_names(one.asked->options, [&](const std::string& option, const surface::FaceNames& names) {
             const bool own = option == "intervals" ? one.asked->own_intervals
                                                    : one.asked->own_boundary_layers;
-            for (const int tag : names.tags) check(one, option, own, "face " + std::to_string(tag), tag);
+            for (const int tag : names.tags) check(one, option, own, NamedEntity{"face", tag}, tag);
             for (const std::string& name : names.names) check(one, option, own, '"' + name + '"', name);
         });
     }
@@ -126,14 +125,13 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
     if (share == 1) return;
     if (!layers.heights.empty() || layers.bias != 1)
         throw InvalidInput(
-            "sweep.full_turn_layers",
-            "layers of a full turn have no first and no last: give their count alone, or "
-            "sweep the pieces that volume:cut() gives with 'heights' or a 'bias' of their own");
+            Message("sweep.full_turn_layers", "layers of a full turn have no first and no last")
+                .remedy("give their count alone, or sweep the pieces that volume:cut() gives with 'heights' "
+                        "or a 'bias' of their own"));
     if (layers.count == 0) return;
     if (layers.count < kLeastPerTurn)
-        throw InvalidInput("sweep.full_turn_layers", "a full turn needs " + std::to_string(kLeastPerTurn) +
-                                                         " layers at least; asked for are " +
-                                                         std::to_string(layers.count));
+        throw InvalidInput("sweep.full_turn_layers", "a full turn needs {} layers at least; asked for are {}",
+                           needed(kLeastPerTurn), found(layers.count));
     const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
     layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));
 }
@@ -155,7 +153,7 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     for (closure::StepPiece& piece : closure::cut_into_pieces(volume.volume, context)) {
         const double from = piece.turn_from, to = piece.turn_to;
         Part& part = parts.emplace_back(Part{&asked, name, {}, nullptr});
-        part.volume = piece_of(volume, std::move(piece), name + "_" + std::to_string(++number));
+        part.volume = piece_of(volume, std::move(piece), formatted("{}_{}", name, ++number));
         part.volume.turn_from = from;
         part.volume.turn_to = to;
         if (to - from < 1) part.volume.turn_of = name;
@@ -219,7 +217,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     std::vector<std::string> materials;
     for (std::size_t p = 0; p < all.size(); ++p) {
         Part& part = all[p];
-        const std::string number = "volume_" + std::to_string(p + 1);
+        const std::string number = formatted("volume_{}", p + 1);
         if (part.kept) {
             materials.push_back(part.kept->material);
             members.push_back(member_of(*part.kept, number));
@@ -284,7 +282,7 @@ Filled sweep(std::span<const Member> members, const RunContext& context)
                 parts.push_back({nullptr, {}, {}, std::move(kept)});
         if (member.volume == nullptr) continue;
         const std::string& own = member.volume->name;
-        const std::string name = own.empty() ? "volume_" + std::to_string(m + 1) : own;
+        const std::string name = own.empty() ? formatted("volume_{}", m + 1) : own;
         const auto add = [&] { add_parts(parts, member, name, name, context); };
         if (!do_or_leave_out(left_out, name, member, add))
             parts.push_back({&member, name, *member.volume, nullptr, true});

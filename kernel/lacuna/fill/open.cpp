@@ -23,10 +23,10 @@ using topology::Roles;
 std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunContext& context)
 {
     if (roles.source.empty() && roles.target.empty())
-        throw InvalidInput(
-            "lua.walls_without_ends",
-            "open_volume: walls = \"auto\" finds the walls from the rim of the source or the target; "
-            "name one of them");
+        throw InvalidInput(Message("lua.walls_without_ends",
+                                   "open_volume: walls = \"auto\" finds the walls from "
+                                   "the rim of the source or the target")
+                               .remedy("name one of them"));
     const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
     roles.walls = found.walls;
     std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;
@@ -35,9 +35,8 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
     if (found.of_cavity)
         reasons.emplace_back("the given end lies in a cavity of a solid, whose other faces are the walls");
     for (std::size_t i = 0; i < found.left_out.size(); ++i) {
-        reasons.push_back("no wall: " + topology::name_of(model, found.left_out[i]) +
-                          ", for two faces of the volume have " + topology::name_of(model, found.taken[i]) +
-                          " already");
+        reasons.push_back(formatted("no wall: {}, for two faces of the volume have {} already",
+                                    entity_of(model, found.left_out[i]), entity_of(model, found.taken[i])));
     }
     return reasons;
 }
@@ -102,10 +101,11 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         volume.volume = topology::open_volume(model, roles, context);
     }
     if (volume.closure && request.override_class && *request.override_class != volume.classification.value)
-        throw InvalidInput("lua.class_of_found_roles",
-                           "open_volume: these faces are swept between ends that closing makes, as class " +
-                               std::string(topology::to_string(volume.classification.value)) +
-                               "; to override the class, name the roles");
+        throw InvalidInput(
+            Message("lua.class_of_found_roles",
+                    "open_volume: these faces are swept between ends that closing makes, as class {}",
+                    found(topology::to_string(volume.classification.value)))
+                .remedy("to override the class, name the roles"));
     if (!volume.closure) {
         volume.volume.override_class = request.override_class;
         if (request.override_class) volume.as_read.reset();

@@ -130,15 +130,15 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
         const auto note_failure = [&](const Error& why) {
             if (!first && !volume.others) throw;
             if (!first) first = std::current_exception();
-            failed.push_back("roles: swept " + ends_in_words(now.volume) + " it fails: " + why.what() + " [" +
-                             why.code() + "]");
+            failed.push_back(formatted("roles: swept {} it fails: {} [{}]", ends_in_words(now.volume),
+                                       why.what(), why.code()));
             log_line(context, failed.back());
         };
         try {
             Filled filled = sweep_once(now, pieces, request, context);
             if (!failed.empty())
-                failed.push_back("roles: swept " + ends_in_words(filled.volumes.front().volume) +
-                                 " instead, which encloses the same volume");
+                failed.push_back(formatted("roles: swept {} instead, which encloses the same volume",
+                                           ends_in_words(filled.volumes.front().volume)));
             std::vector<std::string>& report = report_of(filled);
             report.insert(report.begin(), failed.begin(), failed.end());
             return filled;

@@ -63,8 +63,8 @@ void reopen(Volume& volume, const RunContext& context)
 Volume override_class(Volume volume, topology::VolumeClass value)
 {
     if (volume.closure)
-        throw InvalidInput("lua.sealed", "override_class: the volume is sealed already; override its "
-                                         "class before close()");
+        throw InvalidInput(Message("lua.sealed", "override_class: the volume is sealed already")
+                               .remedy("override its class before close()"));
     volume.others.reset();
     volume.as_read.reset();
     volume.volume.override_class = value;
@@ -75,7 +75,8 @@ Volume override_class(Volume volume, topology::VolumeClass value)
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options, const RunContext& context)
 {
     if (volume.closure && (options || !volume.match))
-        throw InvalidInput("lua.sealed", "match: the volume is sealed already; match it before close()");
+        throw InvalidInput(
+            Message("lua.sealed", "match: the volume is sealed already").remedy("match it before close()"));
     if (options) volume.others.reset();
     if (options || !volume.match) match_ends(volume, options.value_or(matching::MatchOptions{}), context);
     return volume;
@@ -136,9 +137,9 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
     if (where.plane || where.model) closure::read_ends(cut, context);
     std::vector<Volume> pieces;
     for (closure::StepPiece& piece : cut) {
-        const std::string number = "_" + std::to_string(pieces.size() + 1);
+        const std::string name = formatted("{}_{}", volume.name, pieces.size() + 1);
         Volume& own = pieces.emplace_back(
-            piece_of(volume, std::move(piece), volume.name.empty() ? "" : volume.name + number));
+            piece_of(volume, std::move(piece), volume.name.empty() ? "" : name));
         own.classification = topology::classify(own.volume);
         own.level = std::max(volume.level, own.level);
     }

@@ -8,8 +8,10 @@
 #include <lacuna/matching/detail/nearest.h>
 #include <lacuna/matching/detail/problem.h>
 #include <lacuna/matching/detail/splits.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -43,15 +45,14 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
     const Model& model = problem.volume.model;
     const auto start_on = [&](const Alignment& alignment) {
         if (problem.paired_by_length(s, t))
-            return std::to_string(std::lround(alignment.offset * 100)) + "% of the target loop's length";
-        return "vertex " + std::to_string(model[problem.target[t].vertices[alignment.shift]].tag);
+            return formatted("{}% of the target loop's length", std::lround(alignment.offset * 100));
+        return formatted("{}", entity_of(model, problem.target[t].vertices[alignment.shift]));
     };
-    match.notes.push_back("source loop " + std::to_string(s + 1) + ": vertex " +
-                          std::to_string(model[problem.source[s].vertices.front()].tag) + " was matched to " +
-                          start_on(best) + ", and " +
-                          (best.shift == second.shift ? "the reverse direction" : start_on(second)) +
-                          " fits about as well; choose with match{ vertices = … }" +
-                          (best.backward == second.backward ? "" : " or match{ flip = … }"));
+    match.notes.push_back(formatted(
+        "{}: {} was matched to {}, and {} fits about as well; choose with match{{ vertices = … }}{}",
+        source_loop(s), entity_of(model, problem.source[s].vertices.front()), start_on(best),
+        best.shift == second.shift ? "the reverse direction" : start_on(second),
+        best.backward == second.backward ? "" : " or match{ flip = … }"));
 }
 
 /// Aligns every loop and pairs its vertices accordingly.
@@ -105,11 +106,17 @@ private:
             found = alignments_of(local, s, t, true, known_);
         }
         if (found.empty()) {
-            throw NotClosed("matching.vertices_contradict",
-                            "no alignment of source loop " + std::to_string(s + 1) + " with target loop " +
-                                std::to_string(t + 1) +
-                                " keeps the vertex pairs fixed by the walls or the recipe" +
-                                fixed_in_words(s));
+            const auto [from, to] = fixed_vertices(s);
+            if (from.empty())
+                throw NotClosed("matching.vertices_contradict",
+                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or the "
+                                "recipe",
+                                source_loop(s), target_loop(t));
+            throw NotClosed(
+                "matching.vertices_contradict",
+                "no alignment of {} with {} keeps the pairs of vertices that walls or recipe fix: "
+                "{} to {}",
+                source_loop(s), target_loop(t), from, to);
         }
         const Alignment& best = chosen_[s] = found.front();
         // A loop reversed by the user does not give the direction of the other loops.
@@ -134,9 +141,9 @@ private:
             found = {other, likeliest};
         }
         if (!differ(problem_, s, t, found.front(), likeliest)) return;
-        match_.notes.push_back(
-            "source loop " + std::to_string(s + 1) +
-            " was aligned so that the given meshes agree; by shape alone another alignment fits better");
+        match_.notes.push_back(formatted("{} was aligned so that the given meshes agree; by shape alone "
+                                         "another alignment fits better",
+                                         source_loop(s)));
     }
 
     /// Set the confidence of an alignment against the next one. One hard pair fixes the whole loop.
@@ -191,9 +198,10 @@ private:
         const ArcLoop low_loop = arc_loop(source), high_loop = arc_loop(high);
         const std::vector<std::pair<VertexId, VertexId>> hard = hard_pairs(s);
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
+            const auto [from, to] = fixed_vertices(s);
             throw NotClosed("matching.vertices_contradict",
-                            "the vertex pairs fixed by the walls or the recipe on source loop " +
-                                std::to_string(s + 1) + " cross" + fixed_in_words(s));
+                            "the pairs of vertices that walls or recipe fix on {} cross: {} to {}",
+                            source_loop(s), from, to);
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
                                            kMostTwist);
@@ -211,12 +219,12 @@ private:
                           high = problem_.target[t].vertices.size();
         if (low == high && splits == 0) return;
         const auto vertices = [](std::size_t n) {
-            return std::to_string(n) + (n == 1 ? " vertex" : " vertices");
+            return formatted("{} {}", n, n == 1 ? "vertex" : "vertices");
         };
         match_.notes.push_back(
-            "source loop " + std::to_string(s + 1) + " has " + vertices(low) + ", target loop " +
-            std::to_string(t + 1) + " has " + vertices(high) + ": paired by arc length" +
-            (splits == 0 ? "" : ", with " + vertices(splits) + " added by splitting edges"));
+            formatted("{} has {}, {} has {}: paired by arc length{}", source_loop(s), vertices(low),
+                      target_loop(t), vertices(high),
+                      splits == 0 ? "" : formatted(", with {} added by splitting edges", vertices(splits))));
     }
 
     void add_pair(VertexId source, VertexId to)
@@ -245,13 +253,15 @@ private:
         return pairs;
     }
 
-    [[nodiscard]] std::string fixed_in_words(std::size_t s) const
+    /// The vertices of `hard_pairs()` on source and target, for messages.
+    [[nodiscard]] std::array<std::vector<NamedEntity>, 2> fixed_vertices(std::size_t s) const
     {
-        const Model& model = problem_.volume.model;
-        const std::string list = full_list(hard_pairs(s), [&](const auto& pair) {
-            return std::to_string(model[pair.first].tag) + " to " + std::to_string(model[pair.second].tag);
-        });
-        return list.empty() ? list : " (vertices " + list + ")";
+        std::array<std::vector<NamedEntity>, 2> fixed;
+        for (const auto& [from, to] : hard_pairs(s)) {
+            fixed[0].push_back(entity_of(problem_.volume.model, from));
+            fixed[1].push_back(entity_of(problem_.volume.model, to));
+        }
+        return fixed;
     }
 
     const Problem& problem_;
@@ -264,12 +274,7 @@ private:
 /// Loop numbers as in the recipe, from 1.
 std::string numbers(const std::vector<int>& list)
 {
-    return full_list(list, [](int i) { return std::to_string(i + 1); });
-}
-
-std::string loops_in_words(std::size_t count)
-{
-    return std::to_string(count) + (count == 1 ? " loop" : " loops");
+    return full_list(list, [](int i) { return formatted("{}", i + 1); });
 }
 
 /// Whether the other method succeeds where `nearest` failed.
@@ -297,14 +302,15 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     result.target_loops = rims(model, volume.faces(Role::target));
     if (result.source_loops.empty() || result.target_loops.empty()) {
         const bool source = result.source_loops.empty();
-        throw NotClosed("matching.no_rim", std::string("the ") + (source ? "source" : "target") +
-                                               " has no rim: it is missing, or it is a closed surface");
+        throw NotClosed("matching.no_rim", "the {} has no rim: it is missing, or it is a closed surface",
+                        source ? "source" : "target");
     }
     if (result.source_loops.size() != result.target_loops.size()) {
-        throw NotClosed("matching.loop_counts",
-                        "the source has " + loops_in_words(result.source_loops.size()) +
-                            " and the target has " + loops_in_words(result.target_loops.size()) +
-                            "; both ends of a sweep need the same number");
+        throw NotClosed(
+            "matching.loop_counts",
+            "the source has {} {} and the target has {}; both ends of a sweep need the same number",
+            found(result.source_loops.size()), result.source_loops.size() == 1 ? "loop" : "loops",
+            found(result.target_loops.size()));
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
@@ -312,30 +318,29 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
             return match_nearest(problem, std::move(result));
         } catch (const NotClosed& error) {
             if (!can_be_aligned(volume, options, context)) throw;
-            throw NotClosed(error.code(),
-                            std::string(error.what()) + "; try method = \"aligned\", which matches them");
+            throw NotClosed(Message(error.message()).remedy("try method = \"aligned\", which matches them"));
         }
     }
 
     choose_how(problem);
-    const std::vector<Arrangement> found = arrange(problem);
-    if (found.empty()) {
+    const std::vector<Arrangement> pairings = arrange(problem);
+    if (pairings.empty()) {
         throw NotClosed("matching.no_pairs",
                         "no pairing of the loops keeps the pairs fixed by walls and recipe");
     }
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)
-        result.loops[s] = {static_cast<int>(s), found.front().target[s], false};
+        result.loops[s] = {static_cast<int>(s), pairings.front().target[s], false};
     const bool open = std::ranges::find(problem.forced, -1) != problem.forced.end();
-    if (open && found.size() > 1) {
-        result.confidence = sureness(found[0].score, found[1].score);
+    if (open && pairings.size() > 1) {
+        result.confidence = sureness(pairings[0].score, pairings[1].score);
         if (result.confidence < kUnsure) {
-            result.notes.push_back("the source loops were paired, in order, with target loops " +
-                                   numbers(found[0].target) + ", and " + numbers(found[1].target) +
-                                   " fits about as well; choose with match{ loops = … }");
+            result.notes.push_back(formatted("the source loops were paired, in order, with target loops {}, "
+                                             "and {} fits about as well; choose with match{{ loops = … }}",
+                                             numbers(pairings[0].target), numbers(pairings[1].target)));
         }
     }
-    LoopAligner(problem, result).run(found.front());
+    LoopAligner(problem, result).run(pairings.front());
     return result;
 }
 

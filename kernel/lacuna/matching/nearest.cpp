@@ -4,7 +4,7 @@
 #include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -180,15 +180,15 @@ private:
             }
             const std::size_t other = std::exchange(claimed[loop_[l]], l);
             if (other != kNone) {
-                refuse_loop(l, "it and source loop " + std::to_string(other + 1) +
-                                   " are both nearest to target loop " + std::to_string(loop_[l] + 1));
+                throw NotClosed("matching.nearest_failed",
+                                "method \"nearest\" cannot match {}: it and {} are both nearest to {}",
+                                source_loop(l), source_loop(other), target_loop(loop_[l]));
             }
             if (source_.count(l) != target_.count(loop_[l])) {
                 throw NotClosed("matching.edge_counts",
-                                "method \"nearest\": source loop " + std::to_string(l + 1) + " has " +
-                                    std::to_string(source_.count(l)) + " edges and target loop " +
-                                    std::to_string(loop_[l] + 1) + " has " +
-                                    std::to_string(target_.count(loop_[l])) + "; it needs as many on both");
+                                "method \"nearest\": {} has {} edges and {} has {}; it needs as many on both",
+                                source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
+                                found(target_.count(loop_[l])));
             }
         }
     }
@@ -282,8 +282,10 @@ private:
         std::vector<Way> found = ways(l, m);
         std::erase_if(found, [&](const Way& other) { return other.backward != backward_; });
         if (found.empty())
-            refuse_loop(l, "no alignment with target loop " + std::to_string(m + 1) +
-                               " keeps its fixed vertex pairs");
+            throw NotClosed("matching.nearest_failed",
+                            "method \"nearest\" cannot match {} ({}): no alignment with {} keeps its fixed "
+                            "vertex pairs",
+                            source_loop(l), vertices_of(l), target_loop(m));
         Way way = best_of(found);
         const auto partner = [&](std::size_t i) {
             return target_.first[m] + partner_place(i, n, way.shift, way.backward);
@@ -293,17 +295,18 @@ private:
         const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
                                          [](std::size_t t) { return t != kNone; });
         if (!settled && static_cast<double>(way.agree) < kShare * static_cast<double>(n)) {
-            refuse_loop(l, "the nearest vertices do not keep the order along the loop" + clashes(l));
+            refuse_clash(l);
+            refuse_loop(l, "the nearest vertices do not keep the order along the loop");
         }
         if (way.agree < n) {
-            std::string list;
-            for (std::size_t i = 0; i < n; ++i) {
-                if (partner_[source_.first[l] + i] != partner(i))
-                    list += (list.empty() ? "" : ", ") + tag(source_.vertex[source_.first[l] + i]);
-            }
-            result_.notes.push_back("source loop " + std::to_string(l + 1) +
-                                    ": the target vertices nearest to vertices " + list +
-                                    " are taken by others; they follow the other vertices of the loop");
+            std::vector<NamedEntity> others;
+            for (std::size_t i = 0; i < n; ++i)
+                if (const std::size_t s = source_.first[l] + i; partner_[s] != partner(i))
+                    others.push_back(entity_of(model_, source_.vertex[s]));
+            result_.notes.push_back(
+                formatted("{}: the target vertices nearest to {} are taken by others; they "
+                          "follow the other vertices of the loop",
+                          source_loop(l), others));
             result_.confidence = std::min(result_.confidence,
                                           static_cast<double>(way.agree) / static_cast<double>(n));
         }
@@ -338,32 +341,36 @@ private:
         return second > 0 ? std::clamp(1 - matched / second, 0.0, 1.0) : 1;
     }
 
-    /// The vertices of a loop that share a nearest target vertex, for messages.
-    [[nodiscard]] std::string clashes(std::size_t l) const
+    /// Refuse a loop if two of its vertices share a nearest target vertex.
+    void refuse_clash(std::size_t l) const
     {
         for (std::size_t a = source_.first[l]; a < source_.first[l + 1]; ++a) {
             for (std::size_t b = 0; b < partner_.size(); ++b) {
                 if (a == b || nearest_to_source_[a] == kNone ||
                     nearest_to_source_[a] != nearest_to_source_[b])
                     continue;
-                return " (vertices " + tag(source_.vertex[a]) + " and " + tag(source_.vertex[b]) +
-                       " are both nearest to vertex " + tag(target_.vertex[nearest_to_source_[a]]) + ")";
+                throw NotClosed(
+                    "matching.nearest_failed",
+                    "method \"nearest\" cannot match {}: the nearest vertices do not keep the order "
+                    "along the loop ({} and {} are both nearest to {})",
+                    source_loop(l), entity_of(model_, source_.vertex[a]),
+                    entity_of(model_, source_.vertex[b]),
+                    entity_of(model_, target_.vertex[nearest_to_source_[a]]));
             }
         }
-        return {};
     }
 
-    [[noreturn]] void refuse_loop(std::size_t l, const std::string& why) const
+    [[noreturn]] void refuse_loop(std::size_t l, const char* why) const
     {
-        const std::span<const VertexId> loop(source_.vertex.data() + source_.first[l],
-                                             source_.first[l + 1] - source_.first[l]);
-        const std::string list = short_list(loop, [&](VertexId v) { return tag(v); });
-        throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match source loop " +
-                                                       std::to_string(l + 1) + " (vertices " + list +
-                                                       "): " + why);
+        throw NotClosed("matching.nearest_failed", "method \"nearest\" cannot match {} ({}): {}",
+                        source_loop(l), vertices_of(l), why);
     }
 
-    [[nodiscard]] std::string tag(VertexId v) const { return std::to_string(model_[v].tag); }
+    /// The source vertices of a loop, for messages.
+    [[nodiscard]] std::vector<NamedEntity> vertices_of(std::size_t l) const
+    {
+        return entities_of(model_, std::span(source_.vertex).subspan(source_.first[l], source_.count(l)));
+    }
 
     const Problem& problem_;
     const Model& model_;

@@ -2,15 +2,14 @@
 #include <lacuna/matching/detail/problem.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/list_text.h>
 #include <lacuna/matching/shared/guides.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <ranges>
 #include <set>
-#include <string>
 
 namespace lacuna::matching {
 
@@ -27,14 +26,12 @@ int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
     return loop == loops.end() ? -1 : static_cast<int>(loop - loops.begin());
 }
 
-void force(Problem& problem, int s, int t, const std::string& because)
+void force(Problem& problem, int s, int t, const Argument& because)
 {
     int& now = problem.forced[static_cast<std::size_t>(s)];
     if (now >= 0 && now != t) {
-        throw NotClosed("matching.loops_contradict", "source loop " + std::to_string(s + 1) +
-                                                         " is paired with target loop " +
-                                                         std::to_string(now + 1) + " and, " + because +
-                                                         ", with target loop " + std::to_string(t + 1));
+        throw NotClosed("matching.loops_contradict", "{} is paired with {} and, by {}, with {}",
+                        source_loop(s), target_loop(now), because, target_loop(t));
     }
     now = t;
 }
@@ -47,7 +44,7 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
     for (const SideLine& line : lines) {
         problem.hard[line.source] = problem.walls[line.source] = line.target;
         force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
-              "by its walls");
+              "its walls");
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::set<int> s, t;
@@ -60,7 +57,7 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
         if (!s.empty() && !t.empty())
             problem.backward = true; // the rims run in opposite directions, as the walls orient them
         if (s.size() == 1 && t.size() == 1)
-            force(problem, *s.begin(), *t.begin(), "by " + name_of(model, part.front()));
+            force(problem, *s.begin(), *t.begin(), entity_of(model, part.front()));
     }
 }
 
@@ -79,16 +76,13 @@ PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lin
     return {std::move(sections.levels.front()), std::move(sections.levels.back())};
 }
 
-VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag,
-                         const std::string& end)
+VertexId vertex_with_tag(const Model& model, const std::vector<LoopShape>& loops, int tag, const char* end)
 {
     const auto vertices = loops | std::views::transform(&LoopShape::vertices) | std::views::join;
     const auto tag_of = [&](VertexId v) { return model[v].tag; };
     if (const auto found = std::ranges::find(vertices, tag, tag_of); found != vertices.end()) return *found;
-    throw InvalidInput("matching.unknown_vertex",
-                       "vertex " + std::to_string(tag) + " is not on the rim of the " + end +
-                           ", whose vertices are " +
-                           full_list(vertices, [&](VertexId v) { return std::to_string(tag_of(v)); }));
+    throw InvalidInput("matching.unknown_vertex", "{} is not on the rim of the {}, whose vertices are {}",
+                       NamedEntity{"vertex", tag}, end, entities_of(model, vertices));
 }
 
 void read_options(Problem& problem)
@@ -96,26 +90,23 @@ void read_options(Problem& problem)
     const Model& model = problem.volume.model;
     for (const int s : problem.options.flip) {
         if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
-        throw InvalidInput("matching.unknown_loop", "flip names source loop " + std::to_string(s + 1) +
-                                                        ": the loops are numbered from 1 to " +
-                                                        std::to_string(problem.source.size()));
+        throw InvalidInput("matching.unknown_loop", "flip names {}: the loops are numbered from 1 to {}",
+                           source_loop(s), needed(problem.source.size()));
     }
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
             t >= static_cast<int>(problem.target.size())) {
-            throw InvalidInput("matching.unknown_loop", "loop pair {" + std::to_string(s + 1) + ", " +
-                                                            std::to_string(t + 1) +
-                                                            "}: the loops are numbered from 1 to " +
-                                                            std::to_string(problem.source.size()));
+            throw InvalidInput("matching.unknown_loop",
+                               "loop pair {{{}, {}}}: the loops are numbered from 1 to {}", found(s + 1),
+                               found(t + 1), needed(problem.source.size()));
         }
-        force(problem, s, t, "by match{ loops = … }");
+        force(problem, s, t, "match{ loops = … }");
         for (int other = 0; other < static_cast<int>(problem.source.size()); ++other) {
             if (other == s || problem.forced[static_cast<std::size_t>(other)] != t) continue;
-            throw NotClosed("matching.loops_contradict",
-                            "source loops " + std::to_string(std::min(s, other) + 1) + " and " +
-                                std::to_string(std::max(s, other) + 1) +
-                                " are both paired with target loop " + std::to_string(t + 1) +
-                                "; give each its own in match{ loops = … }");
+            throw NotClosed(Message("matching.loops_contradict", "{} and {} are both paired with {}",
+                                    source_loop(std::min(s, other)), source_loop(std::max(s, other)),
+                                    target_loop(t))
+                                .remedy("give each its own in match{{ loops = … }}"));
         }
     }
     for (const auto& [s, t] : problem.options.vertices) {
@@ -123,24 +114,21 @@ void read_options(Problem& problem)
         const VertexId to = vertex_with_tag(model, problem.target, t, "target");
         const auto known = problem.hard.find(from);
         if (known != problem.hard.end() && known->second != to) {
-            throw InvalidInput("matching.vertices_contradict",
-                               "vertex " + std::to_string(s) +
-                                   (problem.walls.contains(from) ? " is paired by walls"
-                                                                 : " is paired by match{ vertices = … }") +
-                                   " with vertex " + std::to_string(model[known->second].tag) +
-                                   " and cannot be paired with vertex " + std::to_string(t));
+            throw InvalidInput(
+                "matching.vertices_contradict", "{} is paired by {} with {} and cannot be paired with {}",
+                entity_of(model, from), problem.walls.contains(from) ? "walls" : "match{ vertices = … }",
+                entity_of(model, known->second), entity_of(model, to));
         }
         const auto taken = std::ranges::find_if(
             problem.hard, [&](const auto& pair) { return pair.second == to && pair.first != from; });
         if (taken != problem.hard.end()) {
             throw InvalidInput(
-                "matching.vertices_contradict",
-                "vertices " + std::to_string(model[taken->first].tag) + " and " + std::to_string(s) +
-                    " of the source cannot both be paired with vertex " + std::to_string(t) +
-                    (problem.walls.contains(taken->first) ? ", which walls pair with the first" : ""));
+                "matching.vertices_contradict", "{} and {} of the source cannot both be paired with {}{}",
+                entity_of(model, taken->first), entity_of(model, from), entity_of(model, to),
+                problem.walls.contains(taken->first) ? ", which walls pair with the first" : "");
         }
         problem.hard[from] = to;
-        force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "by its vertices");
+        force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "its vertices");
     }
 }
 

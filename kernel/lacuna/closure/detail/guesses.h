@@ -2,7 +2,9 @@
 #pragma once
 
 #include <lacuna/closure/close.h>
+#include <lacuna/core/message.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,8 @@ enum class RolesBy { person, finding };
 /// @param sealed  includes the entities of `closure`
 bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 
-/// Description of an ambiguous bend in a sealed volume, for the user; empty if there is none. Ambiguous are:
+/// The error about an ambiguous bend in a sealed volume, without a remedy; empty if there is none: code
+/// "closure.shape_open" for a person's roles, otherwise "topology.shape_open". Ambiguous are:
 ///
 /// - A bent void face whose rim does not determine its inside: a membrane, or one with more than four
 ///   corners. If the user named the roles, a membrane is the missing end (Algorithm 4), which closing
@@ -27,7 +30,7 @@ bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 ///
 /// A rough rim is never ambiguous: its points are off a plane by at most a twentieth of its diameter, and
 /// smooth faces over it enclose the same volume to 2 %.
-std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
+std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
 /// A face of `model` with a hole that is closed in its plane although an end away from it is missing too, so
 /// that the hole may extend to that end. Invalid if there is none, or if the faces face the void, as those of
@@ -35,7 +38,8 @@ std::string guess_of_bent(const topology::OpenVolume& sealed, const Closure& clo
 /// @param given  the faces of `model` that come first in the volume
 FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
                  const topology::OpenVolume& sealed, const Closure& closure);
-std::string hole_in_words(const topology::Model& model, FaceId face);
+/// The error "topology.shape_open" about such a hole, without a remedy.
+Message guess_of_hole(const topology::Model& model, FaceId face);
 
 /// Share of the volume above which an assumption is reported as such: as much as a mesh may lose of the
 /// sealed volume.

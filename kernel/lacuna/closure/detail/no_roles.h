@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/closure/readings.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace lacuna::closure {
@@ -13,6 +16,9 @@ namespace lacuna::closure {
 ///        apex), "topology.crossing_bores", otherwise "topology.no_roles". Cancelled.
 [[noreturn]] void refuse_without_roles(const topology::Model& model, const std::vector<FaceId>& faces,
                                        const RunContext& context);
+
+/// The likeliest readings for a message: "1 (class IV, volume 2.1), 2 (class II, volume 3) and 3 more".
+std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most = 6);
 
 /// @throw NotClosed "closure.tube_loops"  a connected part of walls in a volume without ends that does not
 ///        have two free loops; reports a tested way to open or cut it. InvalidInput

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/shared/steps.h>
+#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/open_volume.h>
@@ -30,10 +31,9 @@ struct PartedVolume {
 
 /// The pieces separated by the partitions, with roles as described at `cut_by_plane()`. Loops as by
 /// `build_loops()`.
-/// @param what  the cutting tool, for messages: "the plane".
+/// @param tool  what cuts, for messages: "the plane".
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
-std::vector<StepPiece> pieces_of(const PartedVolume& parted, const std::string& what,
-                                 const RunContext& context);
+std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
 /// Cut every piece that a cut meets; the others stay as they are.
 /// @throw  as `cut`, except "closure.cut_misses".

@@ -3,12 +3,19 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/closure/shared/follow.h>
+#include <lacuna/core/message.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
 #include <string>
 #include <vector>
 
 namespace lacuna::closure {
+
+/// What a message is about: words, and the entity they refer to, as in "the cover of a hole of face 3".
+struct Subject {
+    std::string words;
+    std::vector<NamedEntity> entity{};
+};
 
 /// Facets of a void face, not yet in the model.
 struct VoidFilling {
@@ -36,17 +43,16 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// and its mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
 /// @param follower  null, or the motion that a bent four-sided face follows: the source side moved up along
 ///                  the given walls and the target side moved down, blended, and shifted to meet the sides.
-/// @param name  of the face, in messages.
 /// @throw NotClosed  names the face and the edges that cross.
 VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
-                 const Follower* follower, const std::string& name, const RunContext& context = {});
+                 const Follower* follower, const Subject& face, const RunContext& context = {});
 
 /// Triangulate a missing end with the shape of a given surface: its heights over the Newell plane of the
 /// loops, plus the harmonic extension of the residual at the loops.
 /// @param shape  the given end, moved by the walls to near the loops.
 /// @throw NotClosed  the loops cross in their Newell plane, or the surface folds over it; names the face.
 VoidFilling fill_as(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
-                    const geometry::FacetTree& shape, double facet_size, const std::string& name,
+                    const geometry::FacetTree& shape, double facet_size, const Subject& face,
                     const RunContext& context = {});
 
 /// Add a void edge through new points, or a straight one.

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/matching/detail/loop_shape.h>
 #include <lacuna/matching/match.h>
 
+#include <concepts>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <vector>
 
 namespace lacuna::matching {
+
+/// Loops for a message, numbered from 1 as in the recipe.
+NamedEntity source_loop(std::integral auto loop) { return {"source loop", static_cast<long long>(loop) + 1}; }
+NamedEntity target_loop(std::integral auto loop) { return {"target loop", static_cast<long long>(loop) + 1}; }
 
 /// Corresponding points.
 struct PointPairs {
