@@ -20,7 +20,6 @@ public:
         : Error(Message(std::move(code), format, arguments...))
     {
     }
-    Error(std::string code, const std::string& text) : Error(Message::of_text(std::move(code), text)) {}
 
     [[nodiscard]] const std::string& code() const noexcept { return message_.code(); }
     [[nodiscard]] const Message& message() const noexcept { return message_; }

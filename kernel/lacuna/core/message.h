@@ -121,9 +121,6 @@ public:
     }
     /// A message of another process, rebuilt from its parts, which are kept as they are.
     explicit Message(MessageParts parts) : parts_(std::move(parts)) {}
-    /// A message whose text is put together elsewhere; its entities are found in the text.
-    static Message of_text(std::string code, const std::string& text);
-
     /// Add one thing to try; it follows the text after a semicolon.
     template <class... Arguments>
     Message&& remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&

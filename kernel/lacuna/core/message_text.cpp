@@ -2,7 +2,6 @@
 #include <lacuna/core/message.h>
 
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/core/shared/named_entities.h>
 
 #define FMT_HEADER_ONLY
 #include <fmt/args.h>
@@ -45,13 +44,6 @@ std::string format_text(std::string_view format, std::span<const Argument> argum
             },
             argument.value());
     return fmt::vformat(format, store);
-}
-
-Message Message::of_text(std::string code, const std::string& text)
-{
-    Message message(std::move(code), "{}", text);
-    message.parts_.entities = named_entities(text);
-    return message;
 }
 
 Message&& Message::attempt(Message failed) &&
