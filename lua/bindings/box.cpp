@@ -216,7 +216,7 @@ int index_class(lua_State* L)
 void raise(lua_State* L, const char* code)
 {
     const char* message = lua_tostring(L, -1); // stays on the stack
-    guard(L, [&] { throw InvalidInput(code, message); });
+    guard(L, [&] { throw InvalidInput(code, "{}", message); });
     __builtin_unreachable();
 }
 
