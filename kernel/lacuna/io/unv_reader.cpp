@@ -74,7 +74,7 @@ public:
             // These numbers are a dataset without its first mark if this mark is its last one.
             if (!between.empty() && (head.empty() || head == kMark))
                 cursor_.fail_at(static_cast<std::size_t>(between.data() - whole_.data()),
-                                "expected -1, which begins a dataset, found " + shown(between));
+                                "expected -1, which begins a dataset, found {}", found(shown(between)));
             between = {};
             const auto dataset = cursor_.integer_of(head);
             if (!read_dataset(static_cast<int>(std::clamp<std::int64_t>(dataset, -1, 100000))))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/io/deck_file.h>
 
 #include <lacuna/mesh/mesh_part.h>
