@@ -21,7 +21,7 @@ std::vector<FaceId> by_tag(const topology::Model& model, const std::string& tags
     std::istringstream in(tags);
     for (std::string tag; std::getline(in, tag, ',');) {
         const auto face = std::ranges::find(model.faces, std::stoi(tag), &topology::Face::tag);
-        if (face == model.faces.end()) throw InvalidInput("test.no_face", "there is no face " + tag);
+        if (face == model.faces.end()) throw InvalidInput("test.no_face", "there is no face {}", tag);
         found.emplace_back(static_cast<std::size_t>(face - model.faces.begin()));
     }
     return found;
