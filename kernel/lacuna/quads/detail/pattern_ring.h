@@ -17,8 +17,8 @@ struct RingWidths {
     std::size_t narrowest = 0;  ///< the outer loop's node there
     std::size_t half = 0; ///< nodes from there to where the width is half way to the widest, on the mean
 
-    /// Number of rows of the given height by which the narrow part of the ring should have fewer than the
-    /// rest, so that all rows are about equally high; 0 if `measure_plane()` accepts the heights of plain
+    /// How many rows of the given height the rest of the ring should have more than its narrow part, so that
+    /// all rows are about equally high; 0 if `measure_plane()` accepts the heights of a constant number of
     /// rows.
     [[nodiscard]] int steps(double height) const;
     /// Mean number of rows of the given height, minus one: the rows in which sides may be added or removed.
