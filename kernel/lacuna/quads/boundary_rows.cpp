@@ -15,10 +15,11 @@ namespace {
 
 using namespace paving;
 
-/// A quad of a row with a flatter corner (6°) counts as folded, as in the paver's own rows.
+/// A row quad with a flatter corner (6°) counts as folded, as in the paver's own rows.
 constexpr double kLeastSine = 0.1;
-/// A node may miss the height of the row that ends on it by this share. Nodes are placed along curves, and
-/// heights are measured square to the side. A choice, not a measurement.
+/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves
+/// but heights are measured square to the side, so zero would reject valid input; a larger share accepts more
+/// uneven rows.
 constexpr double kOffHeight = 0.05;
 
 /// A loop while rows are placed along it.
@@ -27,9 +28,10 @@ struct Front {
     std::vector<int> table; ///< of the side from each node to the next
 };
 
-/// Sides of one table in a row, between places of a front where rows begin and end.
+/// Consecutive sides of one table, between places of a front where rows begin and end.
 struct Run {
-    std::size_t first = 0, sides = 0; ///< of the front; as many sides as the front has: all round
+    /// Position in the front and number of sides; as many as the front has: a closed run.
+    std::size_t first = 0, sides = 0;
     bool closed = false;
 };
 
@@ -49,7 +51,7 @@ public:
         }
     }
 
-    /// Lay the rows of all sides. @return false with a finding where they do not fit
+    /// Place the rows of all sides. @return false, with a finding, if they do not fit
     bool lay()
     {
         for (std::size_t f = 0; f < fronts_.size(); ++f) {
@@ -60,7 +62,7 @@ public:
         return true;
     }
 
-    /// What is left inside the rows.
+    /// The region inside the rows.
     [[nodiscard]] RegionWithin core(const SizeField& size) const
     {
         std::vector<Cycle> loops;
@@ -68,7 +70,7 @@ public:
         return region_within(partial_.points, loops, size);
     }
 
-    /// The boundary node with rows that has the least room for them.
+    /// The boundary node with the least room for its rows.
     [[nodiscard]] RowsFinding least_room() const
     {
         const GapFinder gaps(partial_, given_);
@@ -103,13 +105,13 @@ private:
 
     [[nodiscard]] double scale_at(const Vec2& p) const { return rows_.scale ? rows_.scale(p) : 1; }
 
-    /// The boundary node a row's node was laid over, for messages.
+    /// The boundary node below a node of a row, for messages.
     [[nodiscard]] Index foot_of(Index node) const
     {
         return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
-    /// How the front turns at a place. Where it has gone over rows, its angle says that.
+    /// How the front turns at a place. Where the front follows rows, the angle decides.
     [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
     {
         const Index node = front.nodes[i];
@@ -117,7 +119,7 @@ private:
         return corner_angle(partial_.points, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
     }
 
-    /// Whether rows go on past a place of the front.
+    /// Whether rows continue past a place of the front.
     [[nodiscard]] bool goes_on(const Front& front, std::size_t i) const
     {
         const std::size_t n = front.nodes.size();
@@ -146,16 +148,17 @@ private:
         return false;
     }
 
-    /// How the rows of a run end at one of its ends.
+    /// How the rows of a run end at one end of the run.
     struct RunEnd {
-        std::vector<Index> nodes; ///< that rows end on, from the lowest; made when rows end on a side of
-                                  ///< their own
-        std::vector<double> lean; ///< of each row's node, along the run from its end [length]
-        double block = 0;         ///< length from the end within which rows of the side beyond cross these
-        bool own = false;         ///< on a side of its own
+        /// Nodes on which the rows end, from the lowest; new ones if the rows have a side of their own.
+        std::vector<Index> nodes;
+        ///< their own
+        std::vector<double> lean; ///< offset of each row's end node along the run [length]
+        double block = 0;         ///< length from the end within which rows of the adjacent side cross these
+        bool own = false;         ///< whether the rows end on a side of their own
     };
 
-    /// The run's nodes with unit normals inward at each, so long that the height is that over both sides.
+    /// The run's nodes, with inward normals scaled so that a node has the row's height above both sides.
     struct Base {
         std::vector<Index> nodes;
         std::vector<Vec2> normal, along;
@@ -186,7 +189,8 @@ private:
         return base;
     }
 
-    /// The nodes beyond an end of the run, as many as there are rows; where rows end on their own, new ones.
+    /// Find the end nodes of the rows at an end of the run: existing nodes of the adjacent side, or new ones
+    /// if the rows have a side of their own.
     bool make_end(const Front& front, const Run& run, const Base& base, int table, bool last, RunEnd& end)
     {
         const std::size_t n = front.nodes.size(), k = last ? base.nodes.size() - 1 : 0;
@@ -201,7 +205,7 @@ private:
         if (turn == RowTurn::smooth && beyond >= 0 && beyond != table)
             return refuse(RowsFinding::Why::unlike, corner, table, heights.front(), 0);
         end.own = turn != RowTurn::inner;
-        // An own end that rows of the side beyond go on along lies in line with that side.
+        // If rows of the adjacent side continue along the new side, it extends that side's line.
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
@@ -239,8 +243,8 @@ private:
         return partial_.add(p);
     }
 
-    /// How much of an end's lean a node that far from it has: all within the block, then less and less, so
-    /// slowly that nodes keep their order.
+    /// Share of an end's lean for a node at this distance from it: all of it within the block, then
+    /// decreasing so slowly that nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
         constexpr double kSlowly = 3; // of the lean: nodes come no closer than a third; a choice
@@ -299,19 +303,20 @@ private:
         return true;
     }
 
-    /// Rows end at a node on a side of their own: what they leave of its angle tells how the front turns.
+    /// Mark a node where rows end on a side of their own. The angle that they leave tells how the front
+    /// turns.
     void mark_cut(Index node)
     {
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
     }
 
-    /// Rows end on a node, which is now the corner where those of its own side end on the rows.
+    /// Mark a node where rows end, now the corner at which the rows of the adjacent side end on these rows.
     void mark_inner(Index node)
     {
         if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;
     }
 
-    /// The front goes over the rows now.
+    /// Replace the run in the front by the inner side of its rows.
     void replace(Front& front, const Run& run, const std::vector<std::vector<Index>>& level,
                  const RunEnd& start, const RunEnd& end)
     {
@@ -326,10 +331,10 @@ private:
         const std::size_t rows = level.size() - 1, n = front.nodes.size();
         const std::size_t after = run.first + run.sides; // the place of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
-        // What is not covered: from the last node, or from that where the rows end, on round to the first.
+        // The part not covered: from the last node, or from where the rows end, around to the first.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
-            // The rows' own end is a side for the rows of the side beyond.
+            // The rows' end is a side for the rows of the adjacent side.
             for (std::size_t r = rows; r > 0; --r) {
                 next.nodes.push_back(level[r].back());
                 next.table.push_back(after_table);
@@ -368,9 +373,9 @@ private:
     PartialMesh partial_;
     std::vector<Cycle> given_;
     std::vector<RowTurn> turn_;
-    std::vector<bool> is_cut_; ///< boundary nodes at which rows that end there have taken a part of the angle
+    std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows have taken a part of the angle
     std::vector<Front> fronts_;
-    std::vector<Index> foot_; ///< of each node added
+    std::vector<Index> foot_; ///< of each added node
     std::optional<RowsFinding> finding_;
 };
 

@@ -11,14 +11,16 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// A block's first and last quads turn by this from the line between its corners, so that these have 132°:
-/// with the 114° on either side nearly what three quads there share. A choice, not a measurement.
+/// A block's first and last quads turn by this from the line between the block's corners. The corners then
+/// have 132°, which leaves 114° on either side, close to the 120° of three equal quads. A larger bulge
+/// flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
-/// How far the block's corners and the middles of its sides may reach to the boundary. Choices, not
-/// measurements.
+/// Distances of the block's corners and of the middles of its sides, as shares of the distance to the
+/// boundary. Larger values leave less room for the quads around the block, smaller ones make the quads around
+/// it larger than those inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
-/// How far from the centre the boundary is in a direction or beside it, within an eighth of a turn.
+/// Distance from the centre to the boundary in a direction, within an eighth of a turn on either side.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -30,7 +32,7 @@ double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
     return least;
 }
 
-/// An angle of one of four axes at 45°, or nothing where there are no such axes.
+/// The angle of one of four axes at 45°; empty if there are no such axes.
 std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
 {
     constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two axes
@@ -61,7 +63,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         angle += kPi / 4;
         std::swap(free[0], free[1]);
     }
-    // A side's middle is that far out, for corners one away.
+    // Distance of a side's middle if the corners have distance one.
     const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
     const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
     if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;
@@ -70,7 +72,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
 
     CentralBlock block{region, {}, {}};
     const auto first = static_cast<Index>(region.points.size());
-    // The sides bulge: arcs about points beyond the centre, of which a quad's side is a chord.
+    // The sides bulge: they are arcs about points beyond the centre, and each quad's side is a chord.
     const double bulge = kBulge * sides / (sides - 1);
     const double radius = half * reach / std::sin(bulge);
     std::vector<Vec2> rim; // counter-clockwise
@@ -83,7 +85,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
             rim.push_back(about + radius * Vec2(std::cos(turn), std::sin(turn)));
         }
     }
-    // A hole runs clockwise: its nodes are numbered like the rim and gone through backwards.
+    // A hole runs clockwise: its nodes are numbered like the rim but visited in reverse.
     std::vector<Index> hole;
     for (std::size_t i = 0; i < rim.size(); ++i) {
         block.around.points.push_back(rim[i]);

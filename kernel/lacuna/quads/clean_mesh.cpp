@@ -12,10 +12,12 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Right angles that a boundary point may have more or less than quads. A choice, not a measurement.
+/// A boundary point keeps its number of quads if that differs from its angle in right angles by less than
+/// this. Above 0.5, so that both numbers are accepted half way between two; a larger value tolerates more
+/// distorted corners.
 constexpr double kFits = 0.65;
-/// Loss of a quad whose area is off by a factor e from the one asked, and the power of e that a folded one
-/// counts as. Choices, not measurements.
+/// Loss of a quad whose area is off by a factor e, per squared logarithm of e, and the logarithm used for a
+/// folded quad. A larger kSizeLoss favours sizes over shapes.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace
@@ -71,7 +73,7 @@ int CleanMesh::right_angles(Index p) const
         any = true;
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
-    // Half way between two numbers either will do, so the one that is there stays.
+    // Half way between two numbers both are suitable, so the present one is kept.
     const double fit = turn_between(first, last) / kRightAngle;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));

@@ -5,7 +5,8 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Points that are looked at for irregular ones to grow a patch to. A choice, not a measurement.
+/// Limit of points that are visited in the search for irregular ones. A larger value pairs irregular points
+/// over longer distances and takes more time.
 constexpr std::size_t kLookedAt = 900;
 
 } // namespace
@@ -41,7 +42,7 @@ void PatchGrower::look_for_others(Index seed, std::size_t most)
             see(net.to(side));
             last = side;
         });
-        see(net.from(QuadNet::before(last))); // seen already, but on the boundary
+        see(net.from(QuadNet::before(last))); // visited before, except on the boundary
     }
 }
 
@@ -76,7 +77,7 @@ PatchState PatchGrower::close(std::size_t largest)
     }
 }
 
-/// Add quads until no point of the outline is concave. @return false where there are too many
+/// Add quads until no point of the outline is concave. @return false if there are too many
 bool PatchGrower::fill_notches(std::size_t largest)
 {
     for (bool more = true; more;) {
@@ -93,7 +94,7 @@ bool PatchGrower::fill_notches(std::size_t largest)
     return true;
 }
 
-/// Find the point after each on the outline. @return a point the outline passes twice, or -1
+/// Find the successor of each point on the outline. @return a point that the outline passes twice, or -1
 Index PatchGrower::link_sides()
 {
     const QuadNet& net = mesh_.net();
@@ -114,7 +115,7 @@ Index PatchGrower::link_sides()
     return -1;
 }
 
-/// Order the outline and find its corners. @return false where no pattern fills it
+/// Order the outline and find its corners. @return false if no template fills it
 bool PatchGrower::walk_outline()
 {
     const QuadNet& net = mesh_.net();
@@ -125,7 +126,7 @@ bool PatchGrower::walk_outline()
     Index p = start_;
     do {
         const int valence = net.valence(p), inside = count_[p], wanted = mesh_.ideal_valence(p);
-        // On the mesh's boundary a filling may correct the number of quads.
+        // On the mesh's boundary a filling may change the number of quads.
         const bool whole = inside == valence;
         const int corner = whole ? wanted : inside;
         if (corner > 2) return false;

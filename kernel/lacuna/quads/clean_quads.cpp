@@ -17,23 +17,25 @@ namespace cleaning {
 
 namespace {
 
-/// How much is tried before a patch is given up.
+/// Limits of the search before a patch is given up.
 struct SearchLimits {
-    std::size_t growths;  ///< irregular points a patch is grown to
-    std::size_t largest;  ///< patch, in quads
-    std::size_t fillings; ///< of each patch
-    int sweeps;           ///< over a filling, before it is judged the second time
-    double hopeless;      ///< given up then where the loss is so many times what is allowed
+    std::size_t growths;  ///< irregular points to which a patch is grown
+    std::size_t largest;  ///< largest patch, in quads
+    std::size_t fillings; ///< tried for each patch
+    int sweeps;           ///< smoothing sweeps over a filling before its second judgement
+    double hopeless;      ///< a filling is then rejected if its loss exceeds the allowed loss by this factor
 };
-/// Small patches first, where most is won for little; then larger ones, and more thoroughly while the budget
-/// lasts. Choices, not measurements.
+/// Small patches come first: they are cheap and remove most irregular points. Then larger ones follow, with
+/// more effort while the budget lasts. Larger limits remove slightly more irregular points for much more
+/// time.
 constexpr std::array<SearchLimits, 3> kStages{
     {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
-/// Quads that may be tried however small the mesh, with patience and without. The first is a choice. The
-/// second was measured on the named outlines and 40 of the held family (`benchmarks/pave/`): below 1,000
-/// quads more than three times as many remove no more irregular nodes.
+/// Budget of quads in fillings, independent of the mesh's size: for a thorough and for a quick search. The
+/// quick one was measured on the named outlines and 40 of the held family (`benchmarks/pave/`): below 1,000
+/// quads, more than three times as many remove no more irregular nodes. The thorough one allows for larger
+/// meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
-/// Rings of quads around a patch that are smoothed with it. A choice, not a measurement.
+/// Rings of quads around a patch that are smoothed with it. More rings fit fillings better and cost time.
 constexpr int kRings = 2;
 
 class Cleaner {
@@ -45,7 +47,7 @@ public:
                   static_cast<long>(options.effort * static_cast<double>(quads));
     }
 
-    /// Look at everything again, within these limits.
+    /// Visit everything again, within these limits.
     void begin(const SearchLimits& limits)
     {
         if (limits.hopeless > limits_.hopeless) tried_.clear();
@@ -65,9 +67,10 @@ private:
     Trial trial_;
     SearchLimits limits_ = kStages[0];
     long budget_ = 0;
-    std::vector<char> due_;                   ///< points to be looked at, if irregular
-    std::unordered_set<std::uint64_t> tried_; ///< patches that were filled for trial with no less patience
-    std::unordered_set<std::uint64_t> poor_;  ///< fillings of patches that were smoothed to the end in vain
+    std::vector<char> due_;                   ///< points to visit, if irregular
+    std::unordered_set<std::uint64_t> tried_; ///< patches already tried with at least the same effort
+    /// Fillings of patches that were smoothed completely without success.
+    std::unordered_set<std::uint64_t> poor_;
     std::vector<Vec2> loop_;
 };
 
@@ -98,7 +101,7 @@ bool Cleaner::refill(const QuadPatch& patch)
     return false;
 }
 
-/// Grow a patch from an irregular point to one irregular point after the other, until a filling is better.
+/// Grow a patch from an irregular point to further ones, until a filling is better.
 bool Cleaner::improve(Index seed)
 {
     grower_.start(seed, limits_.growths);
@@ -122,7 +125,7 @@ bool Cleaner::pass(const RunContext& context)
         due_[index(p)] = 0;
         if (!improve(p)) continue;
         improved = true;
-        // Points that were looked at in vain before have changed surroundings now.
+        // The surroundings of points that were tried without success have changed.
         for (const Index q : grower_.seen_points()) due_[index(q)] = 1;
     }
     return improved;

@@ -7,15 +7,16 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// What a patch may lose in scaled Jacobian, summed over its quads, for each irregular point less. Measured
-/// on the named outlines, 30 of the held family and 60 generated ones: against 0.15 a sixth fewer irregular
-/// points below 1,000 quads and two fifths fewer from 20,000 on, for 0.0003 of the mean at most; 2.5 costs
-/// 0.002.
+/// Allowed loss of scaled Jacobian, summed over a patch's quads, for each irregular point removed. Measured
+/// on the named outlines, 30 of the held family and 60 generated ones: compared with 0.15, a sixth fewer
+/// irregular points below 1,000 quads and two fifths fewer from 20,000 on, while the mean falls by 0.0003 at
+/// most; at 2.5 it falls by 0.002.
 constexpr double kLossForgiven = 1.2;
-/// The first sweeps over a filling leave at least this share of its loss (of 6,000 fillings from six domains
-/// they left less in one of a hundred).
+/// The first sweeps over a filling leave at least this share of its loss, except for one in a hundred of
+/// 6,000 fillings from six domains.
 constexpr double kLeft = 0.6;
-/// Sweeps over a filling and its surroundings, and rounds over its poor quads. Choices, not measurements.
+/// Sweeps over a filling and its surroundings, and rounds over its poor quads. More of them accept slightly
+/// more fillings and cost time.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace
@@ -57,7 +58,7 @@ Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
     return Verdict::good;
 }
 
-/// Whether the loss of the first quads and of those around, as they are, is larger than `most`.
+/// Whether the present loss of the first quads and of the surroundings exceeds `most`.
 bool Trial::exceeds(std::size_t filled, double most) const
 {
     double loss = loss_around_;
@@ -66,11 +67,11 @@ bool Trial::exceeds(std::size_t filled, double most) const
     return !(loss <= most);
 }
 
-/// Smooth the points of a filling alone; `inner_` has them afterwards. @return false where the loss stays
-/// above `most`
+/// Smooth the points of a filling alone and store them in `inner_`. @return false if the loss stays above
+/// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing lets no quad become worse than the worst: so the worst quad around is put in with the
+    // Smoothing makes no quad worse than the worst one, so the worst surrounding quad is included with the
     // filling.
     points_.clear();
     quads_.clear();
@@ -93,8 +94,8 @@ bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
     return true;
 }
 
-/// Number the points of the loop and around it. Those that stay come first: on the boundary, and those with
-/// quads further out.
+/// Number the points of the loop and the surroundings. Points that stay come first: those on the boundary and
+/// those with quads further out.
 void Trial::number_points()
 {
     const QuadNet& net = mesh_.net();

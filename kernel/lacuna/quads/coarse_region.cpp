@@ -13,8 +13,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Runs with an odd number of sides. From each leads a row of quads that are twice as wide as others, until
-/// they are smoothed. A choice, not a measurement.
+/// Limit of runs with an odd number of sides. From each of them leads a row of quads that are twice as wide
+/// as others until they are smoothed, so a larger limit coarsens more regions at the cost of more stretched
+/// rows.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -25,7 +26,7 @@ void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
     made.next.push_back(next);
 }
 
-/// The points of a run of a loop, but for its last node.
+/// Add the points of a run of a loop, except its last node.
 void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& nodes,
              std::size_t whole)
 {
@@ -57,7 +58,7 @@ std::size_t longest_run(const std::vector<std::size_t>& corners)
     return longest;
 }
 
-/// @param of_longest  whole sides of run `longest`; other odd runs have one each.
+/// @param of_longest  number of whole sides of run `longest`; other odd runs have one each.
 void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& loop,
               const std::vector<std::size_t>& corners, std::size_t longest, std::size_t of_longest)
 {
@@ -68,15 +69,15 @@ void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<
     }
 }
 
-/// A row of quads from a boundary side to another.
+/// A row of quads from one boundary side to another.
 struct Row {
-    Index from = -1, to = -1; ///< those sides
+    Index from = -1, to = -1; ///< these sides
     std::size_t quads = std::numeric_limits<std::size_t>::max();
 };
 
-/// Where the row from a boundary side ends, `visit(a, b)` being told of the two sides of each quad it
-/// crosses.
-/// @return -1 where it ends at a triangle.
+/// Find where the row from a boundary side ends, calling `visit(a, b)` with the two sides of each quad
+/// crossed.
+/// @return -1 if it ends at a triangle.
 template <class Visit>
 Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& opposite, Index side,
                  const Visit& visit)
@@ -90,7 +91,7 @@ Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& oppos
     }
 }
 
-/// Rows between whole sides, each of which is the end of one.
+/// Rows between whole sides; each whole side is the end of one row.
 struct Pairing {
     std::vector<Row> rows;
     std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< of all rows
@@ -98,11 +99,11 @@ struct Pairing {
 
 /// Find the pairing with the fewest quads.
 /// @param between  the shortest row between two runs, at first · runs + second
-/// @param left     whole sides of each run that have no row yet
+/// @param left     number of whole sides of each run that have no row yet
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    std::size_t r = runs; // from the last one on: the outer loop's, which may have many, are the first
+    std::size_t r = runs; // from the last run on: those of the outer loop, which may have many, come first
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {
         if (now.quads < best.quads) best = now;
@@ -123,7 +124,8 @@ void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pa
     ++left[r];
 }
 
-/// Put the points of a run on nodes of the region. @param whole  the places of its points before whole sides
+/// Put the points of a run on nodes of the region. @param whole  positions of its points that precede whole
+/// sides
 void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::size_t>& whole)
 {
     std::size_t place = 0;
@@ -139,7 +141,8 @@ void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::
 
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place)
 {
-    // 20°, so that round holes keep nine nodes at least. A choice, not a measurement.
+    // A node that turns by more than 20° stays, so that round holes keep at least nine nodes. A larger angle
+    // coarsens more and rounds corners off.
     constexpr double kTurnsLeftOut = std::numbers::pi / 9;
     return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
 }
@@ -173,8 +176,8 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
                      takes_all ? odd - own_of_longest : own_of_longest);
             continue;
         }
-        // Its runs are even, so what stays is all at even places or all at odd ones. Where nothing must stay
-        // the first node does, for it is often one of a symmetry.
+        // The runs are even, so the nodes that stay are all at even positions or all at odd ones. If no node
+        // must stay, the first one does, because symmetries often pass through it.
         for (std::size_t i = corners[l].front() % 2; i < loop.size(); i += 2)
             add_point(made, region.points[index(loop[i])], loop[i], loop[(i + 1) % loop.size()]);
     }
@@ -196,7 +199,7 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,
                                                              static_cast<Index>(coarse.points.size()));
-    // A side of the boundary runs from a point of the coarse region, as its loops do.
+    // A side of the boundary runs from a point of the coarse region, in the direction of its loops.
     const auto point_before = [&](Index side) {
         return index(coarse.quads[index(side / 4)][index(side % 4)]);
     };
@@ -241,7 +244,7 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
         result.points.push_back(p);
         return static_cast<Index>(result.points.size() - 1);
     };
-    // Numbered as cells come to them, so that neighbours have near numbers.
+    // Numbered in the order of the cells, so that neighbours have close numbers.
     std::vector<Index> number = made.own, middle(opposite.size(), -1);
     number.resize(coarse.points.size(), -1);
     for (std::size_t q = 0; q < coarse.quads.size(); ++q) {
@@ -265,7 +268,7 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
         }
         if (sides[0] < 0 && sides[1] < 0) {
             result.quads.push_back(corners);
-        } else if (sides[0] < 0 || sides[1] < 0) { // in two, from the first side that is cut to the other
+        } else if (sides[0] < 0 || sides[1] < 0) { // into two, from the first side that is cut to the other
             const std::size_t k = sides[0] < 0 ? 1 : 0;
             result.quads.push_back({corners[k], sides[k], sides[k + 2], corners[(k + 3) % 4]});
             result.quads.push_back({sides[k], corners[k + 1], corners[k + 2], sides[k + 2]});

@@ -11,7 +11,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// The region with as many sides on every segment as it is to have.
+/// The region after dividing every segment into its number of sides.
 PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, std::span<const int> counts)
 {
     PlanarRegion made;
@@ -20,7 +20,7 @@ PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, s
     for (const std::vector<Index>& loop : region.loops) {
         const std::size_t n = loop.size();
         const auto own = [&](std::size_t i) { return segment[index(loop[i % n])]; };
-        // From where a segment starts; a loop that is one segment has its first node there.
+        // Start at the start of a segment; if the loop is one segment, that is its first node.
         std::size_t start = 0;
         while (start < n && own(start) == own(start + n - 1)) ++start;
         if (start == n) start = 0;
@@ -41,8 +41,9 @@ PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, s
 std::optional<double> score_of_counts(const PlanarRegion& region, std::span<const int> segment,
                                       std::span<const int> counts, double asked)
 {
-    // A quarter more quads or less than asked is worth so much of a score, and the square of that beyond it:
-    // more than a mean scaled Jacobian hardly ever differs by. A choice, not a measurement.
+    // Penalty for the number of quads: kWorth for a quarter more or fewer than asked, growing with the square
+    // of the deviation. That is more than mean scaled Jacobians usually differ by, so a larger kWorth lets
+    // the number of quads decide alone.
     constexpr double kQuarter = 0.25, kWorth = 0.2;
     PlanarRegion made = divided(region, segment, counts);
     const std::vector<PlanarQuads> meshes = fill_patterns(made);

@@ -16,7 +16,7 @@ void add(CountedLoop& loop, CountedRun& run, int by)
     advance(loop.excess, run.quarter, by);
 }
 
-/// Whether a run may have `count` sides, where its segment has `now` in all.
+/// Whether a run may have `count` sides if its segment now has `now` in all.
 bool may_be(const CountTask& task, int now, const CountedRun& run, int count, const CountRange& range)
 {
     const BoundarySegment& own = task.segments[run.segment];
@@ -41,7 +41,7 @@ double area_of(const PlanarRegion& region, const std::vector<Index>& loop)
     return twice / 2;
 }
 
-/// The runs that a loop's headings divide its segments into.
+/// The runs into which a loop's headings divide its segments.
 std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, double share)
 {
     std::vector<CountedRun> runs;
@@ -126,7 +126,7 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
         if (!task.segments[run.segment].fixed)
             add(counted, run, std::max(1, static_cast<int>(std::lround(run.wanted))) - run.count);
     }
-    // Rounding may have left a segment of several runs with fewer than it needs.
+    // Rounding may have left a segment of several runs with fewer sides than its minimum.
     for (CountedRun& run : counted.runs) {
         const BoundarySegment& own = task.segments[run.segment];
         if (!own.fixed && sides_of(counted, run.segment) < own.least) add(counted, run, 1);
@@ -151,7 +151,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
-            if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue; // nowhere to turn
+            // A single run: no turn to move.
+            if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue;
             for (const int by : {1, -1}) {
                 if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;
                 const double cost = cost_of(run, run.count + by) - cost_of(run, run.count);
@@ -163,7 +164,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
                     best_by = by;
                     continue;
                 }
-                // A given number of sides that turn: the turn moves.
+                // The segment's number of sides is given, so the turn within it moves.
                 for (CountedRun& next : loop.runs) {
                     if (next.segment != run.segment || &next == &run || next.count - by < 1) continue;
                     const double both = cost + cost_of(next, next.count - by) - cost_of(next, next.count);

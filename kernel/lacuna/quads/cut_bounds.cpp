@@ -8,16 +8,16 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kRight = kPi / 2;
-/// More than a bound is off by for the polynomial of `angle_of()` and single precision: an angle is off by a
-/// ten thousandth, and so are four terms that change by 2.5 a radian.
+/// Upper bounds on the errors of a cost bound and of an angle due to the polynomial of `angle_of()` and
+/// single precision: an angle is off by up to 1e-4, and so are four terms that change by 2.5 per radian.
 constexpr float kSlack = 4e-3F, kAngleSlack = 1e-3F;
 
-// All that follows has no branches, so that a compiler makes vector code of the loop over lines.
+// The following code has no branches, so that compilers vectorise the loop over lines.
 
-/// One of two numbers, both worked out.
+/// Select one of two numbers, both already computed.
 inline float choose(bool first, float a, float b) { return first ? a : b; }
 
-/// The direction of a vector, off by 1e-4 at most: arctan by a polynomial of degree 7 up to 45°.
+/// The direction of a vector, with an error of at most 1e-4: arctan by a polynomial of degree 7 up to 45°.
 inline float angle_of(float x, float y)
 {
     const float wide = std::abs(x), high = std::abs(y);
@@ -40,9 +40,9 @@ inline float whole_turn(float angle)
 }
 
 struct Fit {
-    float quads;    ///< that suit an angle
-    float off;      ///< of the angle from theirs, in half right angles, squared
-    float in_doubt; ///< 1 where the number may be another
+    float quads;    ///< suitable number of quads for an angle
+    float off;      ///< squared deviation of the angle from theirs, in half right angles
+    float in_doubt; ///< 1 if rounding errors may change the number
 };
 
 inline Fit fit_of(float angle)
@@ -54,7 +54,7 @@ inline Fit fit_of(float angle)
     return {quads, off * off, choose(std::abs(off) > kNear, 1.0F, 0.0F)};
 }
 
-/// At least the cost of a line that divides an angle.
+/// Lower bound on the cost of a line that divides an angle.
 inline float end_bound(const Fit& whole, float angle, float part, float corners, float by_added)
 {
     const Fit one = fit_of(part), other = fit_of(angle - part);
@@ -63,12 +63,12 @@ inline float end_bound(const Fit& whole, float angle, float part, float corners,
     return corners * ((one.off + other.off) * 0.5F + by_added * added);
 }
 
-/// What is the same for all lines from one place.
+/// The data common to all lines from one place.
 struct From {
     float x, y, arc, heading, angle, gain, firm;
 };
 
-/// The bounds of the lines from one place to others; infinite where there can be no line.
+/// Compute the bounds of the lines from one place to others; infinite if no line is possible.
 void bound_from(const From& from, const CutPlaces& to, std::size_t first, const CutWeights& weights,
                 float most, float room, float whole, float* bound)
 {

@@ -19,10 +19,10 @@
 namespace lacuna::quads {
 namespace {
 
-/// A coordinate round a ring, from 0 up to the period.
+/// A coordinate around a ring, from 0 up to the period.
 int wrapped(int along, int period) { return ((along % period) + period) % period; }
 
-/// The lines of a grid that goes round a hole, from the outer loop across to it: one for every side along.
+/// The lines of a grid around a hole, from the outer loop to the hole: one for every side along the ring.
 class Spokes {
 public:
     /// @param outer, inner  closed: `outer` runs once along the first axis, `inner` once back.
@@ -32,10 +32,10 @@ public:
         turn_inner();
     }
 
-    /// How far the inner loop's positions must be moved along.
+    /// Offset of the inner loop's positions along the ring.
     [[nodiscard]] int shift() const { return shift_; }
 
-    /// Rows between the loops, so that they are as high as asked.
+    /// Number of rows between the loops for the height asked.
     [[nodiscard]] int rows(const SizeField& size) const
     {
         double sum = 0;
@@ -49,7 +49,7 @@ public:
         return std::max(least, static_cast<int>(std::lround(sum / static_cast<double>(outer_.size()))));
     }
 
-    /// Grid coordinates at a point between the loops; nothing where it lies on no spoke.
+    /// Grid coordinates at a point between the loops; empty if it lies on no spoke.
     [[nodiscard]] std::optional<Vec2> position(const Vec2& p, int rows) const
     {
         const std::size_t n = outer_.size();
@@ -84,7 +84,7 @@ private:
         int row = 0;
     };
 
-    /// The node of a loop at each place along; of several that farthest into the region.
+    /// The node of a loop at each place along the ring; of several, the one farthest into the region.
     static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
                                     bool outer)
     {
@@ -100,11 +100,12 @@ private:
         return ends;
     }
 
-    /// Turn the inner loop to where the spokes are shortest.
+    /// Shift the inner loop to where the spokes are shortest.
     void turn_inner()
     {
         const std::size_t n = outer_.size();
-        // Sides looked at for one place of the inner loop: all of a small one. For the time.
+        // For large loops, only some sides are evaluated for a place of the inner loop; for a small loop, all
+        // of them.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
         double least = std::numeric_limits<double>::infinity();
         std::size_t best = 0;
@@ -120,7 +121,7 @@ private:
         shift_ = -static_cast<int>(best);
     }
 
-    /// Which side of spoke u a point lies on: > 0 on the side the grid runs to.
+    /// On which side of spoke u a point lies: > 0 on the side towards which the grid runs.
     [[nodiscard]] double side_of(std::size_t u, const Vec2& p) const
     {
         const Vec2 across = inner_[u].at - outer_[u].at;
@@ -131,11 +132,11 @@ private:
     int shift_ = 0;
 };
 
-/// Far above what interpolation is off by [edges of the grid]. A choice, not a measurement.
+/// Far above interpolation errors and far below a grid edge [edges of the grid].
 constexpr double kRounding = 1e-6;
 
-/// The nearest whole number. What lies half way goes down, also where it is off by rounding, so that holes
-/// that are images of each other all go the same way.
+/// The nearest integer. Half-way values are rounded down, even with rounding errors, so that holes that are
+/// images of each other all move in the same direction.
 int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kRounding)); }
 
 void move(GridLoop& loop, int along, int across, int period)
@@ -148,15 +149,15 @@ void move(GridLoop& loop, int along, int across, int period)
 
 /// One way to fill a region.
 struct FacePattern {
-    std::size_t about = 0; ///< the loop that the grid goes round; 0: none, its lines are straight
-    int rows = 1;          ///< between a loop and the corners that the grid has along its round parts
+    std::size_t about = 0; ///< the loop that the grid follows; 0: none, its lines are straight
+    int rows = 1;          ///< between a loop and the grid's corners along its round parts
     int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
     int corners = 0;       ///< nodes at which rows of a ring change their number of sides
     TurnStyle style = TurnStyle::soft;
 };
 
-/// Where quads fold, move inner nodes to the middle of their neighbours a few times, if that leaves the worst
-/// quad better: the smoother's own way of untangling takes far longer from rows that lie over each other.
+/// If quads fold, move inner nodes to the middle of their neighbours a few times, and keep this if the worst
+/// quad improves: the smoother's own untangling takes far longer for rows that overlap.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr int kSweeps = 20; // a choice, not a measurement
@@ -183,7 +184,7 @@ void spread_folds(PlanarQuads& mesh, std::size_t fixed)
     if (least_scaled_jacobian(points, mesh.quads) > before) mesh.points = std::move(points);
 }
 
-/// A mesh with smooth inner nodes and rows of right heights; nothing where it has a fault.
+/// The mesh with smoothed inner nodes and corrected row heights; empty if it has a fault.
 std::optional<PlanarQuads> smoothed(PlanarQuads mesh, const PlanarRegion& region, const SizeField& size,
                                     const RunContext& context)
 {
@@ -211,13 +212,13 @@ public:
         return smoothed(std::move(mesh), region_, size_, context);
     }
 
-    /// Soft turns, over all loops.
+    /// Number of soft turns of all loops.
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
 
-    /// By how many sides the outer loop has more than the hole that the grid goes round, where both are loops
-    /// of a ring.
+    /// How many sides the outer loop has more than the hole that the grid follows, if both are loops of a
+    /// ring.
     [[nodiscard]] int more_sides() const { return more_sides_; }
-    /// Whether the rows of a ring may change their number of sides along one of its loops.
+    /// Whether the rows of a ring may change their number of sides along either loop.
     [[nodiscard]] bool may_change() const { return may_change_; }
 
 private:
@@ -262,7 +263,7 @@ private:
         return true;
     }
 
-    /// Mean distance from a loop's grid coordinates to a goal for each of its nodes.
+    /// Mean offset from a loop's grid coordinates to the goal of each node.
     static Vec2 way_to(const std::vector<Vec2>& goal, const GridLoop& grid)
     {
         Vec2 sum = Vec2::Zero();
@@ -271,9 +272,9 @@ private:
         return sum / static_cast<double>(goal.size());
     }
 
-    /// Move a hole to where its grid coordinates are nearest to a goal. Where that is between two lines both
-    /// ways, a round hole trades a column for a row and so comes to lie on them.
-    /// @return false where it is nowhere in the grid.
+    /// Move a hole to the grid position nearest to its goal. If that is between two lines in both directions,
+    /// a round hole trades a column for a row, which places it on lines.
+    /// @return false if it has no position in the grid.
     bool settle(std::size_t l, const std::vector<Vec2>& goal)
     {
         const auto off = [](const Vec2& by) {
@@ -315,7 +316,7 @@ private:
         return true;
     }
 
-    /// Bring the two loops of a ring to the same number of sides along, as the pattern says.
+    /// Give the two loops of a ring the same number of sides along it, as the pattern requires.
     bool make_alike(PatternLoop& outer, PatternLoop& inner)
     {
         more_sides_ = along(outer) + along(inner);
@@ -338,7 +339,7 @@ private:
         return period_ == -along(inner);
     }
 
-    /// How many more sides run along heading 0 than back.
+    /// Number of sides along heading 0 minus those back.
     static int along(const PatternLoop& loop)
     {
         int sum = 0;
@@ -346,7 +347,7 @@ private:
         return sum;
     }
 
-    /// A hole beside the one that the grid goes round.
+    /// Place a hole other than the one that the grid follows.
     bool place_beside(std::size_t l, const Spokes& spokes, int rows)
     {
         const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
@@ -376,12 +377,12 @@ private:
     bool may_change_ = false;
 };
 
-/// The ways to fill a ring whose outer loop has more sides than the other, or fewer, those with the fewest
-/// irregular nodes first.
+/// The ways to fill a ring whose loops have different numbers of sides, those with the fewest irregular nodes
+/// first.
 std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
-    // With more, a straight grid has as few irregular nodes: four for each loop.
+    // With more corners, a straight grid has as few irregular nodes: four for each loop.
     constexpr int kMostCorners = 4;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double height = size(region.points[index(region.loops[about].front())]);
@@ -397,8 +398,8 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
     return patterns;
 }
 
-/// Whether all quads of a mesh are nearly square and of the size asked, and rows along the boundary as high.
-/// Choices, not measurements.
+/// Whether nearly all quads of a mesh are square and of the size asked, and the boundary rows of the height
+/// asked. Higher bounds continue the search more often, for a better mesh in more time.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
     constexpr double kMean = 0.92, kSizes = 0.95;
@@ -406,7 +407,7 @@ bool is_fine(const PlaneQuality& quality, double least, double rows)
            quality.size_share() > kSizes && quality.row_share() >= rows;
 }
 
-/// The corners of a region's only loop, where all of them suit one quad and nothing bends otherwise.
+/// The corners of a region's only loop, if each of them suits one quad and no other node bends.
 std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 {
     std::vector<std::size_t> corners;
@@ -418,7 +419,7 @@ std::vector<std::size_t> lone_corners(const PlanarRegion& region)
     return corners;
 }
 
-/// Tries ways to fill a region, the likeliest first, for as long as there is something to gain.
+/// Tries ways to fill a region, the most promising first, as long as the result can improve.
 class PatternTrial {
 public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
@@ -438,8 +439,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes: without holes, or where ends of 135° were a choice, those with as many quads as asked for,
-    /// if there are any.
+    /// The meshes. Without holes, or if ends of 135° were tried both ways, only those with the number of
+    /// quads asked for, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -450,7 +451,7 @@ public:
     }
 
 private:
-    /// With lines round a hole.
+    /// With lines around a hole.
     void try_round(std::size_t about)
     {
         const PatternFiller like = fill({about, 1});
@@ -473,7 +474,7 @@ private:
         }
     }
 
-    /// Rows that suit the soft turns of all loops in a straight grid.
+    /// Number of rows that suits the soft turns of all loops in a straight grid.
     [[nodiscard]] int fitting_rows(TurnStyle style) const
     {
         const LoopFrame frame = straight_frame(region_);
@@ -509,8 +510,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // With the first no ends of 135° or other changing rows are tried, with the others nothing more:
-        // discs get no better than that, and the share of rows is what is promised.
+        // Bounds at which the search ends: above kSquare no other ends of 135° or changing rows are tried;
+        // above kFine with the share kRows of good rows nothing else is. Discs get no better than kFine, and
+        // kRows is the promised share.
         constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
@@ -533,10 +535,10 @@ private:
     const RunContext& context_;
     const paving::BoundarySizes sizes_;
     std::vector<PlanarQuads> made_;
-    std::vector<char> fits_; ///< whether each has as many quads as asked for, where that decides
+    std::vector<char> fits_; ///< whether each mesh has the number of quads asked for, if that decides
     const bool has_half_ends_;
-    bool is_square_ = false; ///< some mesh has nearly square quads
-    bool is_fine_ = false;   ///< and good rows as well
+    bool is_square_ = false; ///< whether some mesh has nearly square quads
+    bool is_fine_ = false;   ///< and good rows too
 };
 
 } // namespace

@@ -17,7 +17,7 @@ namespace {
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
-/// @param first, second  the angles wanted at the ends of the side
+/// @param first, second  ideal angles at the ends of the side
 bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height,
                  double first, double second)
 {
@@ -38,7 +38,7 @@ bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t sid
     return true;
 }
 
-/// Boundary nodes whose number of quads is not that of the right angles in their corner.
+/// Number of boundary nodes whose number of quads does not fit their angle.
 std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<double>& angles,
                                const std::vector<Index>& valence)
 {
@@ -52,7 +52,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     return count;
 }
 
-/// Corners that are points, four different ones in each quad.
+/// Find a corner that is no point, or occurs twice in a quad.
 std::string find_bad_corner(const PlanarQuads& mesh)
 {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
@@ -68,7 +68,7 @@ std::string find_bad_corner(const PlanarQuads& mesh)
     return {};
 }
 
-/// Sides used right, those used once being the loops'. Counts the sides in `edges`.
+/// Find a side that is used wrongly; sides used once must be those of the loops. Counts the sides in `edges`.
 std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, std::size_t& edges)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
@@ -233,7 +233,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
     const std::vector<Index> valence = valences(mesh.quads, mesh.points.size());
     const auto unused = std::ranges::find(valence, 0);
     if (unused != valence.end()) return formatted("point {} has no quad", unused - valence.begin());
-    // Euler: a disc with holes, in one piece and nowhere pinched.
+    // Euler: a disc with holes, connected and not pinched.
     const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
     if (euler != 2 - static_cast<long>(region.loops.size()))
         return formatted(

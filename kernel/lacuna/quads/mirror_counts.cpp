@@ -15,8 +15,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Counts for a part of a region, between mirror axes: in the range that is promised or, of few quads, where
-/// no grid fills it so, in a ring's.
+/// Counts for a part of a region between mirror axes, within the promised range. For few quads, if no grid
+/// fills the part, within the range of a ring.
 std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const int> segment,
                                      std::span<const BoundarySegment> segments, bool few,
                                      const RunContext& context)
@@ -27,12 +27,12 @@ std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const i
     return counts || !few ? counts : straight_counts(task, {kRingSegment, true, few});
 }
 
-/// A region with nodes where mirror axes cross sides that are not given.
+/// A region with additional nodes where mirror axes cross sides whose numbers are not given.
 struct Halved {
     PlanarRegion region;
     std::vector<int> segment;   ///< of the side from each node to the next
-    std::vector<Index> next;    ///< node of each node's loop
-    std::vector<double> weight; ///< that side in sides of the region: 1 or ½
+    std::vector<Index> next;    ///< successor of each node in its loop
+    std::vector<double> weight; ///< length of that side in sides of the region: 1 or ½
     [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
 };
 
@@ -71,7 +71,7 @@ Halved halve_crossed(const CountTask& task)
     return halved;
 }
 
-/// The segment that the side from a node of a part to the next is mapped to.
+/// The segment onto which the side after a node of a part is mapped.
 std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetry& image, Index p)
 {
     Index a = part.whole[index(p)];
@@ -79,11 +79,11 @@ std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetr
     return index(halved.segment_at(image.to[index(a)]));
 }
 
-/// The segments of a part: pieces of axes and of the whole region's segments.
+/// The segments of a part: pieces of axes and of the segments of the whole region.
 struct PartSegments {
     std::vector<int> own; ///< of the side from each node of the part to the next
     std::vector<BoundarySegment> all;
-    std::vector<Index> starts; ///< the side that each begins with, by the whole region's node; -1: an axis
+    std::vector<Index> starts; ///< first side of each segment, by the whole region's node; -1: an axis
 };
 
 PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
@@ -125,7 +125,7 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
     return made;
 }
 
-/// The sides wanted of each segment, rounded: to an even number where it mirrors itself.
+/// The wanted sides of each segment, rounded; to an even number if the segment is its own mirror image.
 std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std::vector<SegmentPair>& pairs)
 {
     std::vector<int> counts;
@@ -138,13 +138,13 @@ std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std
     return counts;
 }
 
-/// Counts for all images of one part; of infinite cost where no grid fills it.
+/// Counts for all images of one part; the cost is infinite if no grid fills it.
 Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorPart& part, bool few)
 {
     const PartSegments segments = segments_of(task, halved, part);
     std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few, task.context);
     const std::vector<SegmentPair> pairs = mirrored_segments(part.region, segments.own);
-    // What is symmetric about more axes is so with numbers that fit them, if no grid.
+    // If the part itself is symmetric, only numbers that respect its symmetry are accepted from a grid.
     if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
     const std::vector<int> sides = counts ? counts->sides : rounded(segments.all, pairs);
     std::vector<int> sum(task.segments.size(), 0);
@@ -171,7 +171,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
     if (symmetries.empty()) return std::nullopt;
     SizeField asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
-    // Few quads do not change their size as slowly as many.
+    // For few quads the size asked is tried first, because they leave no room to grade sizes.
     std::vector<SizeField> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
     return cheapest_of_parts(halved.region, symmetries, sizes, [&](const MirrorPart& part) {
@@ -181,7 +181,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
 
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context)
 {
-    // Given sides between corners are segments of their own, for no corner may move.
+    // Given sides between corners are segments of their own, because no corner may move.
     std::vector<int> segment(part.region.points.size());
     std::vector<BoundarySegment> segments;
     std::vector<std::size_t> of_axis(part.wanted.size());
@@ -207,7 +207,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     if (counts) {
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
-    // Quads alone take an even number of sides.
+    // A mesh of quads only needs an even number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
     return counts ? counts->cost : std::numeric_limits<double>::infinity();

@@ -13,13 +13,13 @@ namespace lacuna::quads {
 /// A region of the plane to be filled with quads.
 struct PlanarRegion {
     std::vector<Vec2> points; ///< boundary nodes; kept, in this order, as the first nodes of the mesh
-    /// Node cycles with the region on their left, the outer one first; of an even number of nodes in sum.
+    /// Node cycles with the region on their left, the outer one first. Their total number of nodes is even.
     std::vector<std::vector<Index>> loops;
     std::function<double(const Vec2&)> size;         ///< target edge length in the plane; may be empty
-    std::function<double(const Vec2&)> row_height{}; ///< of rows along the loops; empty: none are asked for
+    std::function<double(const Vec2&)> row_height{}; ///< height of rows along the loops; empty: no rows
 };
 
-/// Whether a region can be filled at all, before any work is done.
+/// Check whether a region can be filled at all, before any work is done.
 /// @throw InvalidInput  "surface.pave_loops": no loop, one of fewer than three nodes, loops that cross, touch
 ///                      or run the wrong way; "surface.pave_parity": an odd number of boundary sides.
 void check(const PlanarRegion& region);
@@ -28,11 +28,11 @@ void check(const PlanarRegion& region);
 struct PlanarQuads {
     std::vector<Vec2> points; ///< the region's own first, then those added inside
     std::vector<Quad> quads;  ///< counter-clockwise
-    std::string how{};        ///< how they were made, for a note: "mapped", "paved"; may be empty
+    std::string how{};        ///< how the mesh was made, for a note: "mapped", "paved"; may be empty
 };
 
 /// A mesher that fills a planar region with quads alone and keeps its boundary nodes.
-/// @throw NotSweepable  where it cannot.
+/// @throw NotSweepable  if it cannot fill the region.
 using PlanarQuadMesher = std::function<PlanarQuads(const PlanarRegion&, const RunContext&)>;
 
 } // namespace lacuna::quads

@@ -12,42 +12,42 @@
 
 namespace lacuna::quads::cleaning {
 
-/// How far from good a quad is.
+/// How far a quad is from ideal.
 struct QuadLoss {
     double jacobian = 1; ///< scaled
-    double loss = 0;     ///< 1 - jacobian; where a size is asked, more the more the area is off
+    double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a size is asked
 };
 
 QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options);
 
-/// Quads with their neighbours, and what is known of each point and quad.
+/// Quads with their neighbours, ideal valences of points and cached losses of quads.
 class CleanMesh {
 public:
     /// @param options  kept by reference
     CleanMesh(const PlanarQuads& mesh, std::size_t fixed, const CleanOptions& options);
 
-    /// Whether every point has its quads in one fan, and only the fixed points lie on the boundary.
+    /// Whether the quads of every point form one fan, and only fixed points lie on the boundary.
     [[nodiscard]] bool is_sound() const;
-    /// The points and quads that are left, the fixed points first.
+    /// The remaining points and quads, the fixed points first.
     [[nodiscard]] PlanarQuads result() const;
 
     [[nodiscard]] const QuadNet& net() const { return net_; }
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
     [[nodiscard]] const Vec2& at(Index p) const { return points_[index(p)]; }
-    /// Quads a point should have: four, on the boundary as many as right angles fit in.
+    /// Ideal number of quads at a point: four inside; on the boundary, as many as right angles fit in.
     [[nodiscard]] int ideal_valence(Index p) const { return ideal_[index(p)]; }
     [[nodiscard]] bool is_irregular(Index p) const
     {
         return net_.is_used(p) && net_.valence(p) != ideal_valence(p);
     }
     [[nodiscard]] const QuadLoss& loss(Index q);
-    /// A number for a quad that no later quad gets.
+    /// An identifier of a quad that no later quad gets.
     [[nodiscard]] std::uint64_t name(Index q) const
     {
         return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;
     }
 
-    /// Remove doublets: merge the two quads at every interior point that has no more.
+    /// Remove doublets: merge the two quads at every interior point of valence two.
     void remove_doublets();
     Index add_point(const Vec2& position);
     void move(Index p, const Vec2& position);
@@ -62,9 +62,9 @@ private:
     QuadNet net_;
     std::size_t fixed_;
     std::vector<int> ideal_;
-    std::vector<QuadLoss> loss_;         ///< of each quad, where it is known
+    std::vector<QuadLoss> loss_;         ///< of each quad, if known
     std::vector<char> loss_known_;       ///< of each quad
-    std::vector<std::uint32_t> version_; ///< of each quad, as its number is given again
+    std::vector<std::uint32_t> version_; ///< of each quad; counts how often its number was reused
 };
 
 } // namespace lacuna::quads::cleaning

@@ -10,37 +10,39 @@
 
 namespace lacuna::quads::cleaning {
 
-/// Quads with one outline.
+/// A patch of quads with one outline.
 struct QuadPatch {
     std::vector<Index> quads;
-    std::vector<Index> touched;       ///< points, in the order they came in
-    std::vector<Index> loop;          ///< points around it, the patch on the left
-    std::vector<std::size_t> corners; ///< places in the loop
-    int irregular = 0;                ///< points inside, and on the mesh's boundary, that a filling changes
+    std::vector<Index> touched;       ///< points, in the order in which they were added
+    std::vector<Index> loop;          ///< points of the outline, the patch on the left
+    std::vector<std::size_t> corners; ///< positions in the loop
+    /// Irregular points inside, and on the mesh's boundary, that a filling may change.
+    int irregular = 0;
 };
 
-/// Whether a template may fill a patch.
+/// Whether a template can fill a patch.
 enum class PatchState { fine, hopeless, too_large };
 
-/// Grows one patch after the other, each from an irregular point over others near it.
+/// Grows patches one at a time, each from an irregular point to others nearby.
 class PatchGrower {
 public:
-    /// @param mesh  kept by reference; it may change between `start()`s
+    /// @param mesh  kept by reference; it may change between calls of `start()`
     explicit PatchGrower(const CleanMesh& mesh) : mesh_(mesh) {}
 
-    /// Start with the star of an irregular point, and look for so many others near it.
+    /// Start with the star of an irregular point and search for up to `others` further irregular points
+    /// nearby.
     void start(Index seed, std::size_t others);
     /// Irregular points near the seed, the nearest first.
     [[nodiscard]] const std::vector<Index>& others() const { return others_; }
-    /// All points near the seed that were looked at.
+    /// All points near the seed that the search visited.
     [[nodiscard]] const std::vector<Index>& seen_points() const { return seen_points_; }
-    /// Add the stars of the points from `other` to the seed. @return false where it was inside already
+    /// Add the stars of the points from `other` to the seed. @return false if `other` is inside already
     bool grow_to(Index other);
-    /// Add quads until no point of the outline is concave and none is passed twice.
-    /// @return hopeless where the patch has a hole, or a point of the mesh's boundary that should have three
-    ///         quads or more; too large where it takes more than `largest` quads.
+    /// Add quads until no point of the outline is concave and none occurs twice.
+    /// @return hopeless if the patch has a hole, or contains a point of the mesh's boundary that should have
+    ///         three quads or more; too large if it needs more than `largest` quads.
     PatchState close(std::size_t largest);
-    /// Quads around the patch, in so many rings.
+    /// Quads around the patch, in `layers` rings.
     const std::vector<Index>& rings(int layers);
 
     [[nodiscard]] const QuadPatch& patch() const { return patch_; }
@@ -55,8 +57,8 @@ private:
     const CleanMesh& mesh_;
     QuadPatch patch_;
     Marks in_patch_, in_rings_, passed_;
-    Numbers count_;         ///< quads of the patch at each point
-    Numbers parent_;        ///< of points seen: the next on the way back to the seed
+    Numbers count_;         ///< number of the patch's quads at each point
+    Numbers parent_;        ///< of visited points: the next on the way back to the seed
     Numbers next_;          ///< of points on the outline
     Index start_ = -1;      ///< a point on the outline
     std::size_t sides_ = 0; ///< of the outline

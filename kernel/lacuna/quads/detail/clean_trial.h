@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Trial of fillings for patches.
+/// Trying out fillings of patches.
 
 #include <lacuna/quads/detail/clean_patch.h>
 #include <lacuna/quads/detail/patch_template.h>
@@ -12,29 +12,30 @@
 
 namespace lacuna::quads::cleaning {
 
-/// What became of a filling.
+/// Result of a trial.
 enum class Verdict {
-    hopeless, ///< given up early
-    poor,     ///< smoothed with its surroundings, and not good
-    good      ///< put into the mesh; the patch is gone
+    hopeless, ///< rejected early
+    poor,     ///< smoothed with its surroundings, but not good enough
+    good      ///< put into the mesh; the patch no longer exists
 };
 
-/// Smooths fillings of one patch after the other with their surroundings, and puts the good ones into the
+/// Smooths fillings of one patch with their surroundings, one after the other, and puts a good one into the
 /// mesh.
 class Trial {
 public:
     /// @param mesh, options  kept by reference
     Trial(CleanMesh& mesh, const CleanOptions& options);
 
-    /// Set the patch the next fillings are for, and the quads around it that are smoothed with it.
-    /// Both are kept by reference.
+    /// Set the patch that the next fillings are for, and the surrounding quads to smooth with it. Both are
+    /// kept by reference.
     void set_patch(const QuadPatch& patch, std::span<const Index> around);
 
-    /// Put a filling in the patch's place if it is good.
+    /// Replace the patch by a filling if that is good.
     ///
-    /// It is judged three times: as it is, after a few sweeps over its own points, and smoothed together with
-    /// its surroundings.
-    /// @param hopeless  given up in the first two where the loss is more than so many times the allowed one
+    /// The filling is judged three times: as it is, after a few smoothing sweeps over its own points, and
+    /// after smoothing together with its surroundings.
+    /// @param hopeless  the first two judgements reject a filling whose loss exceeds this multiple of the
+    ///                  allowed loss
     Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);
 
 private:
@@ -47,18 +48,18 @@ private:
     CleanMesh& mesh_;
     const CleanOptions& options_;
     SmoothPlaneOptions smoothing_;
-    // Of the patch.
+    // For the patch.
     const QuadPatch* patch_ = nullptr;
     std::span<const Index> around_;
     double loss_ = 0, loss_around_ = 0;
-    double least_ = 1; ///< scaled Jacobian of the patch and around
-    Index worst_ = -1; ///< quad around
-    // Of the filling.
+    double least_ = 1; ///< least scaled Jacobian of the patch and its surroundings
+    Index worst_ = -1; ///< the worst quad of the surroundings
+    // For the filling.
     std::vector<Vec2> points_, inner_;
     std::vector<Quad> quads_;
-    Marks in_reach_;                      ///< quads of the patch and around
+    Marks in_reach_;                      ///< quads of the patch and its surroundings
     Numbers number_;                      ///< in `points_`
-    std::vector<Index> staying_, moving_; ///< points of the patch's loop and around
+    std::vector<Index> staying_, moving_; ///< points of the patch's loop and its surroundings
 };
 
 } // namespace lacuna::quads::cleaning

@@ -9,57 +9,59 @@
 
 namespace lacuna::quads::paving {
 
-/// Whether a loop turns so much at its node at `place` that the node is not left out.
+/// Whether a loop turns too sharply at its node at `place` for the node to be left out.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
-/// A part of a loop between two nodes that stay, or a whole loop, some of whose sides stay whole: an odd
-/// number where it has an odd number of sides.
+/// A run: the part of a loop between two nodes that stay, or a whole loop without such nodes. Some of its
+/// sides are kept whole (not merged in pairs); their number is odd if the run has an odd number of sides.
 struct WholeRun {
-    std::vector<Index> nodes; ///< of the region, the last one too
-    Index first;              ///< of its points in the coarse region, which follow each other
-    std::size_t whole;        ///< sides, > 0
+    std::vector<Index> nodes; ///< of the region, including the last one
+    Index first;              ///< first of its points in the coarse region, which are numbered consecutively
+    std::size_t whole;        ///< number of sides kept whole, > 0
 
-    /// How many those points are: two of its other sides become one.
+    /// Number of these points: each pair of the other sides becomes one side.
     [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }
 };
 
-/// Where the runs of a loop begin, rising, and behind them where the last one ends: the first place once
-/// more, counted on. They run from node that stays to node that stays; a loop without such nodes is one run.
+/// Places at which the runs of a loop begin, ascending, followed by the end of the last run, which is the
+/// first place counted on around the loop. Each run reaches from one node that stays to the next; a loop
+/// without such nodes is one run.
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
-/// A region with every other node of its loops. Sides of some runs are whole: sides of the coarse region as
-/// they are. Until `choose_whole_sides()` says which, the points of such a run lie evenly along it.
+/// A region with every other node of its loops. Whole sides of some runs are sides of the coarse region too.
+/// Until `choose_whole_sides()` selects them, the points of such a run are spaced evenly along it.
 struct CoarseRegion {
-    PlanarRegion region;        ///< of twice the size; may have an odd number of boundary sides
-    std::vector<Index> own;     ///< its points in the region it was made of
-    std::vector<Index> next;    ///< there: the node left out after each of its points; -1: the side is whole
-    std::vector<WholeRun> runs; ///< with whole sides, an even number in all
+    PlanarRegion region;    ///< with twice the size; may have an odd number of boundary sides
+    std::vector<Index> own; ///< number of each of its points in the fine region
+    /// In the fine region, the node left out after each point; -1: the side is whole.
+    std::vector<Index> next;
+    std::vector<WholeRun> runs; ///< runs with whole sides; the total number of whole sides is even
 };
 
-/// Who has whole sides beside runs with an odd number of sides.
+/// Which runs get whole sides besides those with an odd number of sides.
 enum class WholeSides {
-    of_odd_runs, ///< nobody; those have one each
-    of_outline,  ///< the longest run of the outer loop has as many as all others
+    of_odd_runs, ///< no others; odd runs have one whole side each
+    of_outline,  ///< the longest run of the outer loop has as many as all others together
 };
 
 /// Leave every other boundary node out.
-/// @return nothing where the region has an odd number of boundary sides, or many odd runs.
+/// @return empty if the region has an odd number of boundary sides, or too many odd runs.
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
                                           WholeSides sides = WholeSides::of_odd_runs);
 
-/// Choose the whole sides of every run that has some: so that from each a row of quads leads to that of
-/// another run, the shortest rows in all. Without such runs there is nothing to choose.
+/// Select the whole sides of every run that has any, so that a row of quads leads from each of them to one of
+/// another run and the rows are shortest in sum. Without such runs there is nothing to select.
 /// @param coarse  quads and triangles of the coarse region, its points first.
-/// @return for each side of those (`mesh::opposite_sides()`), whether it is whole: those that these rows
-///         cross. Nothing where no rows lead so.
+/// @return for each side of these cells (`mesh::opposite_sides()`), whether it stays whole, which holds for
+///         the sides that the rows cross. Empty if there are no such rows.
 std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const PlanarQuads& coarse);
 
-/// Cut every cell of a mesh of the coarse region into four quads, a triangle into three, through the nodes
-/// that were left out; one between whole sides into two. Other nodes are put half way between their
-/// neighbours.
-/// @param fine    the region that the coarse one was made of; its points come first.
+/// Cut every cell of a mesh of the coarse region through the nodes that were left out: a quad into four
+/// quads, a triangle into three, a quad between whole sides into two. The other new nodes are placed half way
+/// between their neighbours.
+/// @param fine    the region from which the coarse one was made; its points come first.
 /// @param coarse  quads and triangles (`mesh::is_triangle()`), the coarse region's points first.
-/// @param whole   sides that stay whole, as `choose_whole_sides()` has them
+/// @param whole   sides that stay whole, from `choose_whole_sides()`
 PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, const PlanarQuads& coarse,
                         const std::vector<char>& whole);
 

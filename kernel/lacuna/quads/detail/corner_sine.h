@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The sine of the corners of planar quads, which every part of this folder judges quads by.
+/// The sine of the corners of planar quads, the quality measure of this folder.
 
 #include <lacuna/geometry/shared/plane.h>
 
@@ -15,15 +15,15 @@ using geometry::turn_between;
 
 inline constexpr double kRightAngle = std::numbers::pi / 2;
 
-/// How many quads suit an angle, at least one.
+/// Number of quads that suit an angle, at least one.
 inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }
 
-/// Sine of a corner; 0 where one of its sides has no length.
+/// Sine of a corner; 0 if one of its sides has no length.
 /// @param area     cross product of the two sides
 /// @param lengths  product of their lengths
 inline double corner_sine(double area, double lengths) { return lengths > 0 ? area / lengths : 0.0; }
 
-/// Least sine of the corners of the quad a, b, c, d: 1 for a rectangle, > 0 where it is convex.
+/// Least sine of the corners of the quad a, b, c, d: 1 for a rectangle, > 0 if it is convex.
 inline double least_sine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
 {
     const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Loops whose segments get numbers of sides with which they close in a grid. Only sources of this folder
-/// include it.
+/// Loops whose segments get numbers of sides with which the loops close in a grid. Only sources of this
+/// folder include it.
 
 #include <lacuna/quads/detail/pattern_loop.h>
 #include <lacuna/quads/shared/pattern_counts.h>
@@ -14,7 +14,7 @@
 
 namespace lacuna::quads {
 
-/// What numbers of sides are found for: as for `pattern_counts()`.
+/// The input for finding numbers of sides, as for `pattern_counts()`.
 struct CountTask {
     CountTask(const PlanarRegion& region, std::span<const int> segment,
               std::span<const BoundarySegment> segments, const RunContext& context);
@@ -23,7 +23,7 @@ struct CountTask {
     std::span<const int> segment;
     std::span<const BoundarySegment> segments;
     const RunContext& context;
-    std::vector<int> own; ///< sides that each segment has in the region
+    std::vector<int> own; ///< current number of sides of each segment
 
     [[nodiscard]] std::size_t segment_of(Index p) const { return index(segment[index(p)]); }
 };
@@ -31,35 +31,36 @@ struct CountTask {
 /// The mean of the sizes asked along the boundary [model length].
 double mean_size(const CountTask& task);
 
-/// Quads that the size asks for: that of the region where it has one, else of the sides wanted.
+/// Number of quads that the size asks for: from the region's size if it has one, otherwise from the wanted
+/// sides.
 double quads_asked(const CountTask& task);
 
-/// Shares of the sides wanted that a segment may get.
+/// Range for the number of sides of a segment, relative to the wanted number.
 struct CountRange {
     double least, most;
 };
-/// What a ring's loops may get, and other segments of four sides or more. With the first, rows of a ring are
-/// of the size asked by the measure of `measure_plane()`, edges 0.6 to 1.6 times as long; the second is what
-/// is promised for sizes. Shorter segments may change by one side.
+/// Ranges for the loops of a ring, and for other segments of four sides or more. In the first, edges are 0.6
+/// to 1.6 times as long as asked, so `measure_plane()` counts a ring's rows as of the size asked. The second
+/// is the range that is promised for sizes. Shorter segments may change by one side.
 inline constexpr CountRange kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
-/// Shares by which rounding may take a ring's segments out of that range, so that loops of several segments
-/// still have alike ones: it takes edges along one loop. A choice, not a measurement.
+/// Factor by which rounding may exceed a ring's range, so that repeated segments of a loop still get equal
+/// numbers. A larger value keeps more symmetry, but the edges of one loop then miss the size asked.
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 
-/// Whether a number of sides is within a range of those wanted, or one off.
+/// Whether a number of sides is within a range of the wanted number, or differs from it by one.
 bool is_within(const CountRange& range, double wanted, int sides);
 
-/// (n − wanted)² / n: alike for a given ratio, above and below; infinite for none.
+/// (n − wanted)² / n: equal for equal ratios above and below; infinite for n = 0.
 double cost_of_sides(double wanted, int sides);
 
-/// Numbers of sides of every segment, and what they cost beside those of other parts of a region.
+/// Numbers of sides of every segment, and their cost for comparison with those of other parts of a region.
 struct Counts {
     std::vector<int> sides;
     double cost = 0;
 };
 
-/// The sides of a segment that run one way.
+/// The sides of a segment with the same heading.
 struct CountedRun {
     std::size_t segment = 0;
     int quarter = 0; ///< 0…3
@@ -67,35 +68,35 @@ struct CountedRun {
     int count = 0;
 };
 
-/// The runs of one loop, and how far it is from closing.
+/// The runs of one loop and its excess, which is zero if the loop closes.
 struct CountedLoop {
     std::vector<CountedRun> runs;
-    std::array<int, 2> excess{}; ///< sides one way over those back
-    std::array<int, 2> added{};  ///< sides along headings 0 and 1 that its rows of quads add
-    double wanted = 0;           ///< sides in all
-    int soft = 0;                ///< turns that its rows of quads make
+    std::array<int, 2> excess{}; ///< number of sides in each direction minus those back
+    std::array<int, 2> added{};  ///< sides along headings 0 and 1 that the loop's rows of quads add
+    double wanted = 0;           ///< total number of wanted sides
+    int soft = 0;                ///< turns made by the loop's rows of quads
 };
 
-/// A loop's runs with the numbers wanted, rounded, and its excess once its rows are placed.
-/// @param share  of the sides wanted.
-/// @return  nothing where it fits no grid.
+/// A loop's runs with their wanted numbers, rounded, and its excess after its rows are placed.
+/// @param share  factor for the wanted numbers.
+/// @return  empty if the loop fits no grid.
 std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share = 1);
 
-/// Change runs, the cheapest first, until a loop has no excess. @return false where none may change
+/// Change runs by one side, the cheapest first, until a loop has no excess. @return false if none may change
 /// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 
-/// One side more or one less along a heading and back, whichever costs less; nothing where neither may be.
+/// Add or remove one side along a heading and one back, whichever costs less; nothing if neither is allowed.
 /// @param quarter  0 or 1
 void change_both(const CountTask& task, CountedLoop& loop, int quarter);
 
 /// Σ `cost_of_sides()` over the runs.
 double sum_of_costs(const CountedLoop& loop);
 
-/// Sides of a segment along a loop.
+/// Number of sides of a segment along a loop.
 int sides_of(const CountedLoop& loop, std::size_t segment);
 
-/// The sides of every segment on some loops.
+/// Number of sides of every segment on the given loops.
 std::vector<int> counts_of(const CountTask& task, const std::vector<CountedLoop>& loops);
 
 } // namespace lacuna::quads

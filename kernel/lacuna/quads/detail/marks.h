@@ -12,7 +12,7 @@
 
 namespace lacuna::quads {
 
-/// A table from numbers to numbers that is emptied at no cost.
+/// A table of numbers by index that is cleared in constant time.
 class Numbers {
 public:
     void clear(std::size_t count)
@@ -40,7 +40,8 @@ private:
     unsigned now_ = 0;
 };
 
-/// Hash of a number (the finaliser of splitmix64). Summed, it names a set whatever its order.
+/// Hash of a number (the finaliser of splitmix64). The sum of the hashes identifies a set, whatever its
+/// order.
 inline std::uint64_t mixed(std::uint64_t x)
 {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -10,13 +10,13 @@
 
 namespace lacuna::quads {
 
-/// The symmetries of a region that also map quads onto quads, but the identity: each with the images of all
-/// nodes, also of those inside.
-/// @pre  `find_fault()` finds none.
+/// The symmetries of a region that also map quads onto quads, without the identity, each with the images of
+/// all nodes including inner ones.
+/// @pre  `find_fault()` finds no fault.
 std::vector<Symmetry> mesh_symmetries(const PlanarQuads& mesh, const PlanarRegion& region);
 
-/// `symmetrise()` by symmetries that are known: those of `mesh_symmetries()`.
-/// @param fixed  the first so many nodes stay.
+/// `symmetrise()` with known symmetries, those of `mesh_symmetries()`.
+/// @param fixed  number of nodes that are not moved; they come first.
 std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Symmetry> symmetries);
 
 } // namespace lacuna::quads

@@ -10,29 +10,31 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for the part of a symmetric region between mirror axes, and so for all of its images.
-/// Their cost is infinite where no grid fills the part: they are those wanted, rounded.
-/// @return nothing where no axis may be cut along.
+/// Numbers of sides for the part of a symmetric region between mirror axes, and hence for all of its images.
+/// If no grid fills the part, they are the wanted numbers, rounded, and the cost is infinite.
+/// @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
-/// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does; where
-/// there are none, those of the size with an even number round the part.
-/// @return what the grid costs beside that of other parts; infinite where there is none.
-/// @param few  whether numbers may be as far from those wanted as a ring's, where there is none else.
+/// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does. If
+/// there are none, use those of the size, with an even number around the part.
+/// @return cost of the grid for comparison with other parts; infinite if there is none.
+/// @param few  whether numbers may deviate as far as a ring's if there are no others.
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 
-/// A part's axes are divided by a size that changes slowly away from short given sides; where there are fewer
-/// quads than this, by the size asked first. A choice, not a measurement.
+/// The axes of a part are divided by a size graded away from short given sides. Below this number of quads,
+/// the size asked is tried first, because a graded size would leave too few lines for the whole part.
 inline constexpr double kFewForGrading = 200;
 
-/// Parts between other mirror axes that are looked at. A choice, not a measurement.
+/// Number of parts, between different pairs of mirror axes, that are tried. More cost time for candidates of
+/// lower rank.
 inline constexpr std::size_t kMostChoices = 4;
 
-/// The cheapest of what is made of parts between some axes or others.
-/// @param sizes  that axes are divided by: the last one counts where no grid fills a part with those before.
-/// @param make   makes of a part something with a cost, infinite where no grid fills it.
-/// @return nothing where there are no parts.
+/// The cheapest result over the parts between different pairs of axes.
+/// @param sizes  sizes for dividing the axes; the last one is used only if no grid fills a part with the
+///               others.
+/// @param make   makes a result with a cost from a part; infinite if no grid fills the part.
+/// @return empty if there are no parts.
 template <class Make>
 auto cheapest_of_parts(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
                        const std::vector<SizeField>& sizes, const Make& make)

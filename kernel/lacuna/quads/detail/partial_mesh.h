@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the parts of the paver share: the mesh while it is built, cycles of its nodes, angles along them.
+/// Shared by the parts of the paver: the mesh under construction, cycles of its nodes, angles along them.
 /// Only sources of this folder include it.
 
 #include <lacuna/core/shared/edge_key.h>
@@ -13,32 +13,35 @@
 
 namespace lacuna::quads::paving {
 
-/// A boundary node with a smaller angle is a corner of one quad: half way from a right angle to a straight
-/// one.
+/// A boundary node with a smaller angle is a corner with one quad: half way between a right and a straight
+/// angle.
 inline constexpr double kCornerBelow = 1.5 * kRightAngle;
-/// With a larger one the outline turns inward: half way from a straight angle to a corner of three quads.
+/// With a larger angle the outline turns inward: half way between a straight angle and a corner of three
+/// quads.
 inline constexpr double kBentAbove = 2.5 * kRightAngle;
 
-/// What a cut costs, by weights. No weights are best for all outlines, so small regions are cut by several.
+/// Weights of the terms of a cut's cost. No weights are best for all outlines, so small regions are cut with
+/// several.
 struct CutWeights {
-    double corners = 1;       ///< of angles at its ends that are no right ones
-    double added = 1;         ///< of the quads it adds at its ends
-    double length = 1;        ///< of its length over that of the outline it takes off
+    /// Of the angles at its ends, as far as they are not multiples of a right angle.
+    double corners = 1;
+    double added = 1;         ///< of the quads that it adds at its ends
+    double length = 1;        ///< of its length relative to the outline that it cuts off
     double mismatch = 1;      ///< of parts whose sides do not agree
-    double bent = 0.5;        ///< gained by ending where the outline turns inward
+    double bent = 0.5;        ///< bonus for ending where the outline turns inward
     double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
-    double most_patch = 0.9;  ///< and a large one [-]
+    double most_patch = 0.9;  ///< the same for a large part [-]
 };
 
-/// The mesh while it is built. The first `fixed` points are the region's own.
+/// The mesh under construction. The first `fixed` points are the region's own.
 struct PartialMesh {
     std::vector<Vec2> points;
     std::vector<Quad> quads;
     std::size_t fixed = 0;
     SizeField size;
     double flat = 0; ///< quads with a smaller sine count as folded [-]
-    /// Single edges drawn between nodes that were there before. A second one between the same two nodes would
-    /// make no valid mesh.
+    /// Single edges drawn between existing nodes. A second edge between the same two nodes would make the
+    /// mesh invalid.
     std::unordered_set<std::uint64_t> links{};
     CutWeights weights{};
 

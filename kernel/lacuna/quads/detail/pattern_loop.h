@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Loops of a region with a heading in a grid for every side. Only sources of this folder include it.
+/// Loops of a region with a grid heading for every side. Only sources of this folder include it.
 
 #include <lacuna/quads/detail/submap_grid.h>
 #include <lacuna/quads/region.h>
@@ -13,35 +13,35 @@
 
 namespace lacuna::quads {
 
-/// Directions that headings are counted from, for the nodes of one loop.
+/// Reference directions of the headings, for the nodes of one loop.
 struct LoopFrame {
-    bool polar = false; ///< heading 0 goes counter-clockwise round `centre`; else along `angle`
+    bool polar = false; ///< heading 0 runs counter-clockwise around `centre`; otherwise along `angle`
     Vec2 centre = Vec2::Zero();
     double angle = 0; ///< [radians]
 };
 
-/// That of a region's main direction.
+/// The frame along a region's main direction.
 LoopFrame straight_frame(const PlanarRegion& region);
 
 /// Centre of the area within a loop.
 Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop);
 
-/// The direction that most of the boundary runs along or across; where it has none, that of the lines between
-/// the loops' centres [radians].
+/// The direction that most of the boundary runs along or across; if there is none, the direction of the lines
+/// between the loops' centres [radians].
 double main_angle(const PlanarRegion& region);
 
-/// A loop whose sides run along the lines of a grid.
+/// A loop whose sides follow the lines of a grid.
 ///
-/// Headings are counted in right angles and not taken modulo 4, so that the difference of two neighbours is
-/// the turn at the node between them: 1 at an end, 0 on a side, -1 at a corner, -2 at a reversal. Where the
-/// boundary does not turn like that by itself the turn is soft: it takes place rows of quads further in.
+/// Headings are counted in right angles and not taken modulo 4, so the difference of two neighbours is the
+/// turn at the node between them: 1 at an end, 0 on a side, -1 at a corner, -2 at a reversal. If the boundary
+/// itself does not turn so, the turn is soft: it takes place some rows of quads further inside.
 struct PatternLoop {
     std::vector<Index> nodes;
     std::vector<int> heading;      ///< of the side from each node to the next
     std::vector<double> direction; ///< of the side itself, unwrapped like the headings [right angles]
-    std::vector<int> soft;         ///< rows to be laid before the loop may turn at each node
+    std::vector<int> soft;         ///< number of rows to place before the loop may turn at each node
     std::vector<char> movable;     ///< whether the turn at a node may be moved to a neighbour
-    int turns = 0;                 ///< right angles by which the loop turns in its frame
+    int turns = 0;                 ///< total turn of the loop in its frame, in right angles
 
     [[nodiscard]] std::size_t size() const { return nodes.size(); }
     void push(Index node, int side_heading, double side_direction, int soft_rows, char may_move)
@@ -58,65 +58,65 @@ struct PatternLoop {
     }
 };
 
-/// Where a grid turns. Of ends of 135°, half way to a side, and of what is between a corner and a side.
+/// How the grid turns at ends of 135°, half way to a side, and at angles between a corner and a side.
 enum class TurnStyle {
-    soft,      ///< where the boundary fits best; behind a row, in a node of three quads, where it turns less
-    hard_ends, ///< the same, but one quad has the whole angle of an end of 135°
-    few_soft,  ///< on the boundary where that fits hardly worse: soft turns cost irregular nodes
+    soft,      ///< where the boundary fits best; behind a row, at a node of three quads, if it turns less
+    hard_ends, ///< the same, but one quad takes the whole angle of an end of 135°
+    few_soft,  ///< on the boundary if that fits almost as well: soft turns cost irregular nodes
 };
 
-/// Whether a region's boundary has such ends.
+/// Whether a region's boundary has ends of about 135°.
 bool has_half_ends(const PlanarRegion& region);
 
 /// Give every side of a loop a heading.
 ///
-/// The headings are those of least cost, found by dynamic programming: every side costs the square of its
-/// deviation from its heading, every node that of its angle from its turn.
-/// A row is laid where a turn is soft.
-/// @return nothing where corners are so sharp that no headings suit them.
+/// The headings are those of least cost, by dynamic programming: each side costs the square of its deviation
+/// from its heading, each node that of its angle from its turn. A row is placed at every soft turn.
+/// @return empty if corners are too sharp for any headings.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, TurnStyle style = TurnStyle::soft);
 
-/// Whether `TurnStyle::few_soft` gives some loop other headings in a straight grid than `TurnStyle::soft`.
+/// Whether `TurnStyle::few_soft` gives any loop other headings in a straight grid than `TurnStyle::soft`.
 bool has_doubtful_turns(const PlanarRegion& region);
 
-/// How many rows suit the soft turns where a loop bulges: a third of the radius or so of the widest. 1 where
-/// there are none. Rows are to be laid behind all of them.
+/// Number of rows that suits the soft turns where a loop bulges: about a third of the radius of the widest
+/// turn; 1 if there are none. The rows are placed in front of all soft turns.
 int fitting_rows(const PatternLoop& loop);
 
-/// The numbers of rows worth a trial: one to three, or of deeper turns the fitting one first.
+/// The numbers of rows worth a trial: one to three; for wider turns also larger ones, nearest to the fitting
+/// one first.
 std::vector<int> rows_to_try(int fitting);
 
-/// Lay other numbers of rows before soft turns; no more than three where the loop is bent inward, for holes
-/// have others about them.
-/// @pre  `loop` is as `head_loop()` made it.
+/// Set the number of rows before soft turns; at most three where the loop is bent inward, because holes have
+/// other loops around them.
+/// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Whether a grid may go round along a loop: it has no soft turns, and does not run straight on where the
-/// boundary has an end, a corner that one quad would suit and two would have to share.
-/// @pre  `loop` is as `head_loop()` made it in a polar frame.
+/// Whether a grid can follow a loop all round: it has no soft turns, and does not continue straight past an
+/// end of the boundary, a corner that suits one quad and would be shared by two.
+/// @pre  `loop` is unchanged since `head_loop()`, in a polar frame.
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 
-/// Lay rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
+/// Place rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
-/// A part ends at nodes that turn by themselves. At an end (one quad) the row ends on the neighbouring side;
-/// at corners and reversals it gets an edge of its own. Where an end is the only such node, the row goes
-/// round the whole loop and one quad has that corner.
-/// @return false where rows would use a side twice.
+/// A part ends at nodes where the boundary itself turns. At an end (one quad) the row stops on the
+/// neighbouring side; at corners and reversals it gets an edge of its own. If an end is the only such node,
+/// the row runs around the whole loop and one quad has that corner.
+/// @return false if rows would use a side twice.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
                       const SizeField& height);
 
-/// How far a loop is from closing, of its sides along headings 0 and 1 over those back; 0 where it closes.
+/// How far a loop is from closing, from its excess of sides along headings 0 and 1; 0 if it closes.
 inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
 
-/// Move the turns that may be moved, by as little as possible, until the loop closes in the grid: as many
-/// sides one way as back.
-/// @param period  by which the sides along heading 0 exceed those back.
-/// @return false where that cannot be.
+/// Move the movable turns, by as little as possible, until the loop closes in the grid: as many sides in each
+/// direction as back.
+/// @param period  excess of sides along heading 0 that counts as closed, for a grid around a hole.
+/// @return false if that is impossible.
 bool close_pattern_loop(PatternLoop& loop, int period);
 
-/// Make a round loop that is closed one column narrower and one row higher in the grid.
-/// @return false where its turns may not move so.
+/// Make a closed round loop one column narrower and one row higher in the grid.
+/// @return false if its turns cannot be moved so.
 bool trade_column_for_row(PatternLoop& loop);
 
 /// The loop's positions in the grid, from (0, 0).

@@ -13,72 +13,72 @@
 
 namespace lacuna::quads::paving {
 
-/// How good quads are, to choose between two attempts; higher is better, 3.325 at most.
+/// Quality score for choosing between two attempts; higher is better, 3.325 at most.
 ///
-/// The sum of the mean and the least scaled Jacobian, the shares of right sizes and of right row heights,
-/// less the share of irregular nodes, those on the boundary among them. The least one counts double up to
-/// kGood, for a sweep repeats the worst quad and makes it worse, and half up to kBest, above which smoothing
-/// gets it anyway. The outline, not the number of quads, says how many irregular nodes there must be: below
-/// kFewNodes their share is taken of that many. The weights are choices.
+/// The sum of the mean and the least scaled Jacobian and the shares of right sizes and right row heights,
+/// minus the share of irregular nodes, including those on the boundary. Up to kGood the least scaled Jacobian
+/// counts double, because a sweep repeats the worst quad and makes it worse; from there to kBest it counts
+/// half; above, smoothing reaches it anyway. The outline, not the number of quads, determines how many
+/// irregular nodes there must be, so below kFewNodes their share is taken of kFewNodes. A larger weight
+/// favours that term at the cost of the others.
 double score_of(const PlaneQuality& quality);
 
-/// A place for a message: "(0.5, 1.25)".
+/// A place as text for a message: "(0.5, 1.25)".
 std::string position_text(const Vec2& p);
 
-/// Paves a region in several ways and keeps the best attempt by measure.
+/// Paves a region in several ways and keeps the attempt of best measured quality.
 class AttemptChooser {
 public:
     /// @param region, context  kept by reference.
-    /// @param cut  whether a symmetric region may be filled by images of a part of it.
+    /// @param cut  whether images of a part may fill a symmetric region.
     AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context,
                    bool cut = true);
 
-    /// All of the below, for as long as there is something to gain.
+    /// Run all steps below until a further one cannot improve the result.
     void run();
-    /// The grid of a region of right angles. Then, unless that is good, few quads by weights of their own
-    /// without rows, and with rows. Then, unless that is good, rows in every style that is worth a trial,
-    /// with the default weights.
+    /// Try the grid of a region of right angles. Unless that is good, pave a small number of quads with
+    /// weights of their own without rows, and with rows. Unless that is good, try every promising style of
+    /// rows with the default weights.
     void try_default_weights();
-    /// The score of a style with other weights of the cuts; nothing is kept.
+    /// The score of a style with other cut weights; the attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
-    /// The rows of `cut_weight_rows()`, as long as the region is small and there is something to gain; few
-    /// quads only where they are poor.
+    /// Try the rows of `cut_weight_rows()` while the region is small and the score can still improve; for few
+    /// quads only if they are poor.
     void try_all_weights();
-    /// Triangles, where nothing else fills the region well.
+    /// Try triangles if nothing else fills the region well.
     void try_triangles();
 
     [[nodiscard]] const Attempt& best() const { return best_; }
     [[nodiscard]] Attempt take_best() { return std::move(best_); }
-    /// Of the best attempt: see `score_of()`; -2 before there is one.
+    /// Score of the best attempt, see `score_of()`; -2 before there is one.
     [[nodiscard]] double score() const { return best_score_; }
-    /// Quads with a smaller sine count as folded.
+    /// Quads with a smaller sine count as folded [-].
     [[nodiscard]] double flat() const { return setting_.flat; }
-    /// Whether nothing else need be tried.
+    /// Whether no further attempt is needed.
     [[nodiscard]] bool is_done() const { return is_good_grid_; }
 
 private:
     void consider(Attempt made);
-    /// The grid of a region of right angles; unless that is good, images of a part between mirror axes and
-    /// the grids of `fill_patterns()`, whichever are likelier to be good first.
+    /// Try the grid of a region of right angles. Unless that is good, try images of a part between mirror
+    /// axes and the grids of `fill_patterns()`, the more promising first.
     void try_grids();
-    /// Keep quads of a coarser region, each cut in four, where they are good.
-    /// @return whether nothing else need be tried.
+    /// Keep the quads of a coarser region, each cut in four, if they are good.
+    /// @return whether no further attempt is needed.
     bool try_coarse();
-    /// Keep images of a part about a block in the middle, where they are good and score no less than what is
-    /// kept already. @return whether they were kept
+    /// Keep images of a part around a central block if they are good and score at least as high as the best
+    /// attempt. @return whether they were kept
     bool try_blocks();
-    /// Those about one block, smoothed with it.
+    /// Images of a part around one block, smoothed together with the block.
     [[nodiscard]] Attempt fill_about(const CentralBlock& block) const;
-    /// The part between mirror axes, where there are any, with nodes on them.
+    /// The part between mirror axes, with nodes on them; empty if there are no axes.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
-    /// Keep images of a part where they are good, else add them to the grids.
-    /// @param few  whether given sides decide the sizes of quads.
-    /// @return whether they were kept.
+    /// Keep images of a part if they are good; otherwise add them to the grids.
+    /// @param few  whether the given sides determine the sizes of quads.
     bool try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids);
-    /// Images of that part's quads.
+    /// Images of the quads of a part.
     [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;
     void try_few_weights();
-    /// Finish an attempt that was begun, unless an equal one was before, and consider it.
+    /// Finish an attempt and compare it with the best, unless an equal one was finished before.
     void finish(Attempt begun);
     void pave_in(RowStyle style);
     [[nodiscard]] Attempt begin(RowStyle style, const CutWeights& weights = {}) const;
@@ -86,7 +86,7 @@ private:
     void complete(Attempt& attempt) const;
     struct Judged {
         double score;
-        PlaneQuality quality; ///< not measured of quads that count as folded
+        PlaneQuality quality; ///< not measured if quads count as folded
     };
     /// The score of an attempt; one with a fault is marked as such.
     Judged judge_score(Attempt& made) const;
@@ -95,26 +95,26 @@ private:
 
     const PlanarRegion& region_;
     PlanarRegion judged_; ///< the region with the size that its given sides allow
-    bool grids_;          ///< the region may be filled by one grid
+    bool grids_;          ///< whether one grid may fill the region
     const RunContext& context_;
     bool cut_;
-    int least_irregular_; ///< that topology allows
-    bool is_few_;         ///< quads, about
-    bool few_graded_;     ///< so few that given sides decide their sizes
+    int least_irregular_; ///< least number of irregular nodes that topology allows
+    bool is_few_;         ///< whether there are few quads, by estimate
+    bool few_graded_;     ///< whether there are so few quads that the given sides determine their sizes
     AttemptSetting setting_;
     Attempt best_;
     double best_score_ = -2;
-    std::size_t made_ = 0;                ///< quads, in all attempts
-    std::vector<std::uint64_t> finished_; ///< names of the attempts as they began
+    std::size_t made_ = 0;                ///< quads made in all attempts together
+    std::vector<std::uint64_t> finished_; ///< names of the attempts before they were finished
     bool is_good_grid_ = false;
-    bool is_near_least_ = false; ///< the best attempt
+    bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes
 };
 
-/// The rows of weights that small regions are also cut with, in the order they are tried.
+/// The rows of weights with which small regions are also cut, in order.
 std::span<const CutWeights> cut_weight_rows();
 
-/// Below what sine a quad counts as folded: no sweep bears a flatter one, unless the given corners are that
-/// sharp.
+/// Sine below which a quad counts as folded: a sweep cannot use a flatter quad, unless the given corners are
+/// that sharp.
 double flat_below(const PlanarRegion& region);
 
 } // namespace lacuna::quads::paving

@@ -9,15 +9,15 @@ namespace lacuna::quads::paving {
 
 /// How well a loop can be filled as one patch.
 struct PatchFit {
-    std::vector<std::size_t> corners; ///< 3 to 5 positions in the cycle; empty where it cannot be filled
-    double quality = 0; ///< 1 for a rectangle of right counts and sizes; 0 and less: it would fold [-]
+    std::vector<std::size_t> corners; ///< 3 to 5 positions in the cycle; empty if no patch fits
+    double quality = 0; ///< 1 for a rectangle of right counts and sizes; <= 0 if it would fold [-]
 };
 
-/// The best corners of a loop, and the quality of a patch with those corners, estimated from a few sample
+/// The best corners of a loop, and the quality of a patch with these corners, estimated from a few sample
 /// cells.
 ///
-/// Nodes where the outline turns are corners. A loop without corners gets four among its inner nodes, where
-/// they lie best: such a loop has rows around it, so that quads at its nodes need not be flat.
+/// Nodes where the outline turns are corners. A loop without corners gets four at the most suitable of its
+/// inner nodes: such a loop has rows around it, so quads at its nodes need not be flat.
 PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles);
 
 } // namespace lacuna::quads::paving

@@ -9,18 +9,18 @@
 
 namespace lacuna::quads::paving {
 
-/// Finds how far one can go from a node until a side of a loop is in the way. Sides are sorted into square
+/// Finds the distance from a node to the next side of a loop in a direction. Sides are sorted into square
 /// cells.
 class GapFinder {
 public:
     GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops);
 
-    /// The distance from a node along a unit direction to the first side that does not end in one of the
-    /// three nodes; `reach` where there is none [length].
+    /// Distance from a node along a unit direction to the first side that does not end in one of the three
+    /// nodes; `reach` if there is none [length].
     [[nodiscard]] double ahead(Index before, Index node, Index after, const Vec2& direction,
                                double reach) const;
 
-    /// Of the box around all sides: no reach need be longer [length].
+    /// Diagonal of the box around all sides; no reach need be longer [length].
     [[nodiscard]] double diagonal() const { return diagonal_; }
 
 private:

@@ -7,27 +7,26 @@
 
 namespace lacuna::quads::paving {
 
-/// How strictly a row's height is kept.
+/// How strictly a row keeps its height.
 enum class RowKind {
-    tall,  ///< as high as asked on most of the loop, or not at all
-    thin,  ///< also where the next loop is near
-    exact, ///< as high as asked everywhere, or not at all
-    buffer ///< at least two quads at every node, and flatter until the row fits
+    tall,  ///< as high as asked on most of the loop, otherwise the row is dropped
+    thin,  ///< placed even if the next loop is near
+    exact, ///< as high as asked everywhere, otherwise the row is dropped
+    buffer ///< at least two quads at every node; made flatter until the row fits
 };
 
-/// Whether a loop needs a row: where its nodes turn without being corners, by more than half a right angle in
-/// sum.
+/// Whether a loop needs a row: its nodes other than corners turn by more than half a right angle in sum.
 bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
-/// Lay a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
+/// Place a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
 ///
 /// By their angle, loop nodes are ends (one quad), sides (two, of neighbouring edges), corners (three) or
-/// reversals (four). Rows are as high as `height` says; where another side is near, all but exact rows are a
-/// third of the gap. A row that would fold, run into another or leave too few nodes is not laid.
+/// reversals (four). Rows have the height `height`; where another side is near, all but exact rows take a
+/// third of the gap. A row that would fold, run into another or leave too few nodes is dropped.
 ///
-/// @param wanted  the loops that shall get a row; false afterwards for those that got none.
+/// @param wanted  the loops that should get a row; false afterwards for those that got none.
 /// @param height  of the row over a boundary point [length].
-/// @return how many rows were laid.
+/// @return number of rows placed.
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
              const SizeField& height, RowKind kind);
 

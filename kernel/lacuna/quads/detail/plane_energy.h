@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The energy that smoothing in the plane lowers.
+/// The energy minimised by smoothing in the plane.
 
 #include <lacuna/core/shared/vector_code.h>
 #include <lacuna/quads/detail/plane_stars.h>
@@ -12,27 +12,27 @@
 
 namespace lacuna::quads {
 
-/// Areas asked of the quads around each point.
+/// Target areas of the quads around each point.
 struct TargetAreas {
     struct Target {
-        double area = 0, inverse = 0; ///< 0: none is asked
+        double area = 0, inverse = 0; ///< 0: none
     };
     double weight = 0;
-    std::vector<Target> asked; ///< of each point; empty: of none
+    std::vector<Target> asked; ///< of each point; empty: no targets
 };
 
-/// Energy of the quads around one point, with its gradient and curvature as the point moves.
+/// Energy of the quads around one point, with its gradient and curvature as functions of the point.
 ///
-/// The sum over the corners that change with the point of f², f = (|a|² + |b|²) / 2 det, the square so that
-/// bad corners count for more; and where an area h² is asked, of (det / h² + h² / det) / 2.
+/// The energy sums f², f = (|a|² + |b|²) / 2 det, over the corners that change with the point. The square
+/// gives bad corners more weight. If an area h² is asked, (det / h² + h² / det) / 2 is added.
 struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};
     double xx = 0, xy = 0, yy = 0;
-    double sides = 0; ///< squared lengths of the sides at the point, each quad's two
+    double sides = 0; ///< squared lengths of the sides at the point; two for each quad
 };
 
-/// A number for each of four quads.
+/// One number for each of four quads.
 using Lanes = Four;
 
 LACUNA_INLINE double sum_of(const Lanes& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
@@ -44,13 +44,13 @@ LACUNA_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
 
 /// Up to four quads of a star side by side.
 ///
-/// All of it is compiled into who calls it, for the processor that is compiled for there. No vector is handed
-/// on by value: how that is done depends on the processor.
+/// All functions are inlined into the caller and compiled for the caller's processor. No vector is passed by
+/// value, because the calling convention depends on the processor.
 class SpokeLanes {
 public:
     static constexpr std::size_t kLanes = 4;
 
-    /// @param p  the point that the star is of
+    /// @param p  the centre of the star
     LACUNA_INLINE void set(std::span<const Vec2> points, std::span<const Spoke> star, std::size_t first,
                            std::size_t p, const TargetAreas& areas)
     {
@@ -128,8 +128,8 @@ public:
         return true;
     }
 
-    /// Add to a value, quad by quad until it reaches a bound, `weight` times the sum over the corners that
-    /// change of f - 1.
+    /// Add `weight` times the sum of f - 1 over the corners that change, quad by quad, until the value
+    /// reaches a bound.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         Corners corners;
@@ -141,7 +141,7 @@ public:
     }
 
 private:
-    /// Squared lengths of a quad's sides, the two at the point first, and twice the areas at its corners that
+    /// Squared lengths of a quad's sides, the two at the point first, and twice the areas at the corners that
     /// change.
     struct Corners {
         Lanes aa, bb, cc, dd, det_p, det_n, det_r;
@@ -182,7 +182,7 @@ private:
             xy += 2 * (fx * fy - f * (fx * dy + fy * dx) * over);
         }
 
-        /// The size of the corner added last.
+        /// Add the size term of the corner added last.
         LACUNA_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
                                const Lanes& dy)
         {
@@ -203,7 +203,7 @@ private:
     bool has_area_;
 };
 
-/// The star of one point after the other, read once for all that is asked of it.
+/// The star of one point, loaded once and then evaluated several times.
 class StarLanes {
 public:
     /// @pre the star is not empty
@@ -236,7 +236,7 @@ public:
         return value;
     }
 
-    /// Add to a value, quad by quad until it reaches a bound, `weight` times the shapes of their corners.
+    /// Add `weight` times the shape terms of the corners, quad by quad, until the value reaches a bound.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         for (std::size_t i = 0; i < count_; ++i) lanes_[i].add_shapes(value, x, weight, bound);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The quads around each point of a mesh whose connections do not change; for one that changes see `QuadNet`.
+/// The quads around each point of a mesh with fixed connections; for connections that change see `QuadNet`.
 
 #include <lacuna/core/types.h>
 #include <lacuna/quads/detail/corner_sine.h>
@@ -14,7 +14,7 @@
 
 namespace lacuna::quads {
 
-/// A quad as one of its points sees it.
+/// A quad seen from one of its points.
 ///
 ///     before---across
 ///       |        |
@@ -23,7 +23,7 @@ struct Spoke {
     Index next, across, before;
 };
 
-/// The quads around every point, in compressed rows, each row in order of quad.
+/// The quads around every point, in compressed rows, each row ordered by quad.
 class Stars {
 public:
     Stars(std::size_t points, std::span<const Quad> quads) : start_(points + 1, 0)
@@ -59,7 +59,7 @@ inline std::vector<Index> valences(std::span<const Quad> quads, std::size_t poin
     return valence;
 }
 
-/// The least sine of the quads at a point, were it at `x`; at most 1.
+/// The least sine of the quads at a point if it were at `x`; at most 1.
 inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     double worst = 1;
@@ -69,7 +69,7 @@ inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> st
     return worst;
 }
 
-/// The shortest side at a point, were it at `x`.
+/// The shortest side at a point if it were at `x`.
 inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     double squared = std::numeric_limits<double>::infinity();
@@ -80,12 +80,14 @@ inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke>
     return std::sqrt(squared);
 }
 
-/// Points that are raised to a better sine keep this share of the shortest side that there was at them when
-/// it began. Sines say nothing about lengths: a needle's are those of a square, and without a limit a side
-/// between two points went to a millionth of its neighbours. A choice.
+/// When a point is moved to improve its worst sine, its shortest side keeps at least this share of its
+/// initial length. Sines do not depend on lengths: a needle has the sines of a square, and without a limit
+/// sides shrank to a millionth of their neighbours. A higher value prevents more of the improvements, a lower
+/// one allows shorter edges.
 inline constexpr double kShortestKept = 0.25;
 
-/// The shortest side that each point must keep, by `kShortestKept`; 0 of the first `fixed` and of loose ones.
+/// The shortest side that each point must keep, by `kShortestKept`; 0 for the first `fixed` points and for
+/// points without quads.
 inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Stars& stars, std::size_t fixed)
 {
     std::vector<double> least(points.size(), 0);
@@ -94,10 +96,10 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
     return least;
 }
 
-/// Least sine of the corners that change when a point moves to `x`, at most 1, where that is more than
-/// `floor`, which is found out by the first corner that is not: in most trials it is the one of the trial
-/// before. Else some number up to `floor`.
-/// @param first  place in the star to begin with, and the one that was not above the floor
+/// Least sine, at most 1, of the corners that change when a point moves to `x`, if it exceeds `floor`;
+/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor,
+/// which in most trials is the same as in the trial before.
+/// @param first  position in the star to begin with; set to the one that did not exceed the floor
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
 {
@@ -109,7 +111,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
-        // Without a root or a division: clearly below.
+        // Without a square root or a division: clearly below.
         constexpr double kClearly = 1 - 1e-12;
         const double squared = kClearly * floor * floor;
         const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
@@ -125,7 +127,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
     return least;
 }
 
-/// The same whatever it is.
+/// The same without a floor.
 inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     std::size_t first = 0;

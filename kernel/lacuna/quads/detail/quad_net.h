@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Quads whose connections are changed; for those that stay see `Stars`.
+/// Quads whose connections change; for fixed connections see `Stars`.
 
 #include <lacuna/core/types.h>
 
@@ -32,7 +32,7 @@ public:
         const auto i = index(side);
         return quads_[i / 4][(i + 1) % 4];
     }
-    /// The same side in the neighbour, or -1.
+    /// The same side in the neighbouring quad, or -1.
     [[nodiscard]] Index opposite(Index side) const { return opposite_[index(side)]; }
     [[nodiscard]] static Index before(Index side) { return (side & ~3) + ((side + 3) & 3); }
     [[nodiscard]] static Index after(Index side) { return (side & ~3) + ((side + 1) & 3); }
@@ -59,8 +59,8 @@ public:
         valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
-    /// Replace quads by others with the same outline. @return the numbers of the new quads; the numbers of
-    /// removed ones are given again, the last removed first.
+    /// Replace quads by others with the same outline. @return the numbers of the new quads. Numbers of
+    /// removed quads are reused, the last removed first.
     std::vector<Index> replace(std::span<const Index> removed, std::span<const Quad> added);
 
 private:

@@ -7,9 +7,9 @@
 
 namespace lacuna::quads::paving {
 
-/// Move the points of folded and nearly flat quads, one at a time, to where the worst quad around is better.
-/// Most folds that straight cuts make open by that, and less is left to untangle.
-/// @param fixed  the first points, which stay.
+/// Move the points of folded and nearly flat quads, one at a time, to where the worst quad around each is
+/// better. This opens most folds caused by straight cuts and leaves less to untangle.
+/// @param fixed  number of points that stay; they come first.
 void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed);
 
 } // namespace lacuna::quads::paving

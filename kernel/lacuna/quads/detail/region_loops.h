@@ -13,22 +13,23 @@
 
 namespace lacuna::quads {
 
-/// Node numbers in walking order, the region on the left. In a cut mesh a node may occur twice.
+/// Node numbers in walking order, the region on the left. In a mesh with cuts a node may occur twice.
 using Cycle = std::vector<Index>;
 
-/// A length at each place of the plane: the size asked of quads, or the height of rows.
+/// A length as a function of the place: the size asked of quads, or the height of rows.
 using SizeField = std::function<double(const Vec2&)>;
 
-/// The point at a place of a loop, counted on past its end.
+/// The point at a place of a loop; places past its end continue from its start.
 inline const Vec2& point_of(std::span<const Vec2> points, const Cycle& loop, std::size_t place)
 {
     return points[index(loop[place % loop.size()])];
 }
 
-/// The point so many sides along a loop from a place, counted on past its end.
+/// The point at a distance of `sides` sides along a loop from a place; places past its end continue from its
+/// start.
 Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t from, double sides);
 
-/// Add points that divide a loop evenly from one place to another, which is left out.
+/// Add points that divide a loop evenly from one place up to another, excluding the latter.
 void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t from, std::size_t to, int sides,
                  std::vector<Vec2>& divided);
 
@@ -50,7 +51,7 @@ void for_sides_of(const std::vector<Cycle>& loops, const Visit& visit)
     }
 }
 
-/// The same with the points of every side of a region's boundary.
+/// The same with the end points of every side of a region's boundary.
 template <class Visit>
 void for_boundary_sides(const PlanarRegion& region, const Visit& visit)
 {
@@ -58,20 +59,20 @@ void for_boundary_sides(const PlanarRegion& region, const Visit& visit)
                  [&](Index from, Index to) { visit(region.points[index(from)], region.points[index(to)]); });
 }
 
-/// A point at a height over that at a place of a loop, square to the mean of the directions to and from it.
+/// A point at a height above a place of a loop, square to the mean of the directions to and from it.
 Vec2 point_above(std::span<const Vec2> points, const Cycle& loop, std::size_t place, const SizeField& height);
 
-/// The region within loops of a mesh.
+/// The region inside loops of a mesh.
 struct RegionWithin {
     PlanarRegion region;
-    std::vector<Index> own; ///< the mesh's number of each of its points
+    std::vector<Index> own; ///< the mesh's number of each point of the region
 };
 RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
                            const SizeField& size = {});
 
 /// Add quads over such a region to the mesh.
 /// @param own    the mesh's numbers of the region's points.
-/// @param inner  the points after those, which are added.
+/// @param inner  the further points of the quads, which are added.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
                  std::span<const Vec2> inner, std::span<const Quad> filling);
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);

@@ -8,9 +8,9 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for a grid round the longest hole: the number along it for which the costs of the two
-/// loops it runs between, each over what that loop wants, are least in sum.
-/// @return nothing where there is no hole, or no such grid.
+/// Numbers of sides for a grid around the longest hole. The number along the ring minimises the sum of the
+/// costs of the outer loop and the hole.
+/// @return empty if there is no hole or no such grid.
 std::optional<std::vector<int>> ring_counts(const CountTask& task);
 
 } // namespace lacuna::quads

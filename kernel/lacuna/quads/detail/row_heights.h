@@ -5,11 +5,11 @@
 
 namespace lacuna::quads::paving {
 
-/// Row height correction: move the nodes of the first row so that its quads stand upright on the boundary, as
-/// high as asked. Smoothing alone lets rows grow where sides bend away.
+/// Row height correction: move the nodes of the first row so that its quads stand upright on the boundary at
+/// the height asked. Smoothing alone makes rows too high where sides bend away.
 ///
-/// Only the inner neighbour of a boundary node with two quads is moved, and only where the worst quad around
-/// it stays good or gets no worse; only the latter where the row is as high as is promised.
+/// Only the inner neighbour of a boundary node with two quads is moved, and only if the worst quad around it
+/// stays good or gets no worse. If the row is within the promised height already, no quad may get worse.
 void correct_row_heights(PlanarQuads& mesh, const PlanarRegion& region, const SizeField& height);
 
 } // namespace lacuna::quads::paving

@@ -8,8 +8,8 @@
 
 namespace lacuna::quads {
 
-/// Quads and triangles of the plane, counter-clockwise; triangles as `mesh::is_triangle()` has them. The
-/// first `fixed` points are the boundary's and stay where they are.
+/// Quads and triangles of the plane, counter-clockwise; triangles are stored as for `mesh::is_triangle()`.
+/// The first `fixed` points are the boundary's and do not move.
 struct MixedMesh {
     std::vector<Vec2> points;
     std::vector<Quad> cells;
@@ -18,14 +18,14 @@ struct MixedMesh {
     [[nodiscard]] const Vec2& at(Index p) const { return points[index(p)]; }
 };
 
-/// Cut convex cells into convex quads without touching the boundary. It never fails, so it fills what no rows
-/// and cuts can fill.
+/// Cut convex cells into convex quads without changing the boundary. It never fails, so it fills regions in
+/// which rows and cuts fail.
 ///
 /// Every inner edge is halved except those of a T-join in the dual graph, whose terminals are the cells with
-/// an odd number of boundary edges: each cell then has an even number of whole edges. A near-shortest T-join
+/// an odd number of boundary edges. So each cell has an even number of whole edges. A nearly shortest T-join
 /// is found by growing breadth-first trees from all terminals at once and joining them by a minimum spanning
-/// tree. A cell without whole edges becomes four quads, a triangle three; with two whole edges it becomes two
-/// or three, a triangle five. All corners stay below a straight angle as long as the cells' are.
+/// tree. A cell without whole edges becomes four quads, a triangle three. With two whole edges a quad becomes
+/// two or three quads, a triangle five. All corners stay below a straight angle if those of the cells are.
 /// @pre   the boundary has an even number of edges; cells are convex, conforming and in one piece.
 /// @note  Deterministic. O(cells log cells).
 MixedMesh split_cells(const MixedMesh& mesh);

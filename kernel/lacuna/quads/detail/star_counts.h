@@ -8,14 +8,15 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for a region of three or five straight or round sides, each one segment, that grids round
-/// one node fill: one at each corner, `fill_template()`.
+/// Numbers of sides for a region of three or five straight or round sides, one segment each, that
+/// `fill_template()` fills with grids around one node, one grid at each corner.
 ///
 /// Such grids have more quads than the size asks for over a triangle and fewer over a pentagon, so the sides
-/// get longer or shorter; where there would still be too many or too few, by as much as those of a ring may.
-/// Of numbers near a few shares of those wanted, which no mirroring changes, those of the least sum of
-/// (n − wanted)² / n over the sides and a quarter of (quads − asked)² / asked.
-/// @return nothing where the region is no such patch, a grid would be narrow, or no numbers fit.
+/// are made longer or shorter. If there are still too many or too few quads, the sides may deviate as far as
+/// those of a ring. Candidates are numbers near several multiples of the wanted numbers that respect all
+/// reflections. The best minimises the sum of (n − wanted)² / n over the sides plus a quarter of (quads −
+/// asked)² / asked.
+/// @return empty if the region is no such patch, a grid would be narrow, or no numbers fit.
 std::optional<std::vector<int>> star_counts(const CountTask& task);
 
 } // namespace lacuna::quads

@@ -7,16 +7,17 @@
 
 namespace lacuna::quads {
 
-/// For which region a straight grid is to have numbers of sides.
+/// Options for the numbers of sides of a straight grid.
 struct StraightOptions {
-    CountRange range = kSegment; ///< that segments may get
+    CountRange range = kSegment; ///< allowed for segments
     bool is_part = false;        ///< whether the region is a part of another, with axes
-    bool few = false;            ///< whether quads are few, so that holes may find no place between lines
+    bool few = false;            ///< whether there are so few quads that lines may leave no place for holes
 };
 
-/// Numbers of sides for a grid of straight lines, where ends of 135° may be soft or hard: those of the lower
-/// cost. As many quads as asked count too, for the rows before soft ends add some. Soft ends have quads so
-/// much better shaped that they may cost more. Of few quads of a whole region those that a grid fills best.
+/// Numbers of sides for a straight grid, of lower cost among soft and hard turns at ends of 135°. The cost
+/// includes the deviation from the number of quads asked, because rows before soft ends add quads. Soft ends
+/// give much better shaped quads, so they may cost more. For few quads of a whole region, the numbers that a
+/// grid fills best.
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options = {});
 
 } // namespace lacuna::quads

@@ -12,20 +12,20 @@
 
 namespace lacuna::quads {
 
-/// Whole coordinates in the grid.
+/// Integer coordinates in the grid.
 using GridPosition = std::array<int, 2>;
 
-/// A heading as a number of right angles from 0 to 3.
+/// A heading modulo four right angles, from 0 to 3.
 constexpr int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
 
-/// From a grid point to the next along a heading.
+/// The step from a grid point to the next along a heading.
 constexpr GridPosition grid_step(int heading)
 {
     const int quarter = quarter_of(heading), by = quarter < 2 ? 1 : -1;
     return quarter % 2 == 0 ? GridPosition{by, 0} : GridPosition{0, by};
 }
 
-/// Go so many steps along a heading.
+/// Move by `steps` steps along a heading.
 constexpr void advance(GridPosition& position, int heading, int steps = 1)
 {
     for (std::size_t k = 0; k < 2; ++k) position[k] += steps * grid_step(heading)[k];
@@ -38,35 +38,36 @@ struct GridLoop {
 };
 
 /// Give a loop grid coordinates by walking along it from (0, 0), its first side along the first axis.
-/// @param turns  right angles by which the loop must turn in all: 4 for an outer loop, -4 for a hole.
-/// @return nothing where it turns by others or does not close.
+/// @param turns  total turn of the loop in right angles: 4 for an outer loop, -4 for a hole.
+/// @return empty if the loop has another total turn or does not close.
 std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<Index>& loop, int turns);
 
 /// Grid coordinates at a point inside the outer loop, interpolated from its nodes by mean values (Floater
 /// 2003).
 Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p);
 
-/// Turn and move a hole's grid coordinates to where they are nearest to a goal.
+/// Rotate and move a hole's grid coordinates to fit a goal as closely as possible.
 /// @param goal  the outline's coordinates, interpolated at the hole's nodes.
 void place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
 
 /// The grid that loops enclose: which cells are inside, and the nodes at their corners.
 ///
-/// A cell keeps its own corners, for the two sides of a slit have a node each at one grid point.
+/// Corners are stored per cell, because the two sides of a slit have different nodes at the same grid point.
 class SubmapGrid {
 public:
-    /// @param period  > 0: the first coordinate counts round a ring, and those of loops are below it.
+    /// @param period  > 0: the first coordinate is periodic around a ring, and the loops' coordinates are
+    ///                below the period.
     explicit SubmapGrid(const std::vector<GridLoop>& loops, int period = 0);
 
-    /// @return false where the loops overlap in the grid, or do not go from line to line.
+    /// @return false if the loops overlap in the grid, or skip grid lines.
     bool enclose(const std::vector<GridLoop>& loops);
-    /// Add the cells within the loops as quads, and their inner nodes: each between the boundary nodes of its
-    /// row and of its column; the nearer pair counts more.
+    /// Add the cells within the loops as quads, with their inner nodes. Each inner node is placed between the
+    /// boundary nodes of its row and of its column; the closer pair has more weight.
     void add_cells(PlanarQuads& mesh);
 
 private:
     using Corners = std::array<Index, 4>;
-    using Sides = std::array<std::size_t, 2>; ///< numbers of corners, those of cells on one side of a node
+    using Sides = std::array<std::size_t, 2>; ///< corner numbers of the cells on one side of a node
 
     [[nodiscard]] std::size_t index(int x, int y) const
     {
@@ -78,29 +79,30 @@ private:
         return index(s[0] - low_[0], s[1] - low_[1]);
     }
 
-    /// Number the inner grid points from `first` on. @return how many there are.
+    /// Number the inner grid points from `first` on. @return how many there are
     Index number_inner(Index first);
     void place_inner(std::vector<Vec2>& points, Index fixed) const;
-    /// Whether each node of the loops is a grid line from the next.
+    /// Whether consecutive nodes of the loops are one grid line apart.
     [[nodiscard]] bool is_walk(const std::vector<GridLoop>& loops) const;
 
     [[nodiscard]] int columns() const { return period_ > 0 ? width_ : width_ - 1; }
 
-    /// The cell that has corner k at a grid point; nothing beyond the grid.
+    /// The cell that has corner k at a grid point; empty outside the grid.
     [[nodiscard]] std::optional<std::size_t> cell_at(int x, int y, std::size_t k) const;
-    /// Find the cells inside, those of winding number 1. @return false where a cell has another than 0 or 1
+    /// Find the cells inside, those of winding number 1. @return false if a cell has a winding number other
+    /// than 0 or 1
     bool find_cells(const std::vector<GridLoop>& loops);
-    /// Give node i of a loop to the corners of cells that the region has there.
-    /// @return false where another node has one of them.
+    /// Assign node i of a loop to the corners of the region's cells at its grid point.
+    /// @return false if another node already has one of them.
     bool give_corners(const GridLoop& loop, std::size_t i);
-    /// The node at a grid point for a cell that has one of two corners there; -1: none.
+    /// The node at a grid point for a cell with one of two corners there; -1: none.
     [[nodiscard]] Index node_at(int x, int y, const Sides& corners) const;
 
     GridPosition low_{};
     int period_ = 0;
     int width_ = 0, height_ = 0;
-    std::vector<Corners> corner_; ///< of the cell up and right of each grid point, from there; -1: none
-    std::vector<char> in_;        ///< whether that cell is in
+    std::vector<Corners> corner_; ///< of the cell up and right of each grid point, starting there; -1: none
+    std::vector<char> in_;        ///< whether that cell is inside
 };
 
 } // namespace lacuna::quads

@@ -5,14 +5,14 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with quads by way of triangles. It always works where the loops are simple, so it is the
-/// last resort where rows and cuts fold.
+/// Fill a region with quads by way of triangles. It always works if the loops are simple, so it is the last
+/// resort if rows and cuts fold.
 ///
-/// Constrained Delaunay triangles of the asked size are merged in pairs where that gives convex quads
-/// (greedily, then by augmenting paths), and all cells are split into quads (`split_cells()`). These are
-/// valid, but many and irregular: clean and smooth them.
-/// @return no quads where loops touch.
-/// @pre    the loops have an even number of edges in sum.
+/// Constrained Delaunay triangles of the asked size are merged in pairs that form convex quads (greedily,
+/// then by augmenting paths), and all cells are split into quads (`split_cells()`). The quads are valid, but
+/// many and irregular, so the caller should clean and smooth them.
+/// @return no quads if loops touch.
+/// @pre    the total number of edges of the loops is even.
 /// @note   Deterministic. O(n log n) in practice.
 PlanarQuads quads_of_triangles(const PlanarRegion& region);
 

@@ -17,13 +17,14 @@ namespace lacuna::quads {
 /// negative where a corner is folded, 0 where a side has no length.
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
 
-/// The least of all quads; 1 of none.
+/// The least scaled Jacobian of all quads; 1 if there are none.
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads);
 /// The same on all threads.
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
                              const RunContext& context);
 
-/// Sides this much shorter or longer than asked for are of another size. Choices, not measurements.
+/// A side whose length over the size asked is outside these bounds is not of that size. A narrower range
+/// would reject graded meshes, a wider one would accept sizes off by a factor of two.
 inline constexpr double kShortestOfSize = 0.6, kLongestOfSize = 1.6;
 
 /// Quality of quads over a region.
@@ -33,7 +34,7 @@ struct PlaneQuality {
     double mean_scaled_jacobian = 1;
     std::size_t interior = 0;           ///< nodes that are not on the boundary
     std::size_t irregular = 0;          ///< of them, those with other than four quads
-    std::size_t boundary_irregular = 0; ///< boundary nodes whose quads are not as many as right angles fit in
+    std::size_t boundary_irregular = 0; ///< boundary nodes whose number of quads does not fit their angle
     std::size_t rows = 0;               ///< boundary sides
     std::size_t good_rows = 0;          ///< of them, those with a good row quad, see `measure_plane()`
     std::size_t possible_rows = 0;      ///< boundary sides with both ends where `may_be_good()` holds
@@ -43,7 +44,7 @@ struct PlaneQuality {
 
     [[nodiscard]] double irregular_share() const { return share(irregular, interior); }
     [[nodiscard]] double row_share() const { return rows == 0 ? 1 : share(good_rows, rows); }
-    /// The share of good rows that the outline's corners allow.
+    /// The largest share of good rows that the outline's corners allow.
     [[nodiscard]] double possible_row_share() const { return rows == 0 ? 1 : share(possible_rows, rows); }
     [[nodiscard]] double size_share() const { return edges == 0 ? 1 : share(edges_of_size, edges); }
 
@@ -57,51 +58,53 @@ private:
 /// The angle inside the region at each of its boundary nodes, loop after loop [radian].
 std::vector<double> boundary_angles(const PlanarRegion& region);
 
-/// How far the corners of a good row quad may be off what is wanted [radian], and the height of what is
-/// opposite its boundary side, of that. Choices, not measurements.
+/// Limits for a good row quad: how far a corner may be from its ideal angle [radian], and by what share of
+/// the row's height an end of the side opposite the boundary may miss that height. Larger limits accept more
+/// skewed rows.
 inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3;
 
-/// The angle wanted of a row quad's corner at a boundary node [radian]: half of the node's where a side bends
-/// there by 45° at most and two quads share it, for both halves of a round hole's corner cannot be right;
-/// else a right one. The corner across the row is wanted to be as much on the other side of a right angle.
+/// Ideal corner angle of a row quad at a boundary node [radian]: half the node's angle if two quads share the
+/// node and the boundary bends by at most 45° there, as on a round hole; otherwise 90°. The corner across the
+/// row has the supplementary ideal angle.
 /// @param angle  inside the region [radian].
 /// @param quads  at the node.
 double row_corner(double angle, Index quads);
 
-/// Whether so many quads at a boundary node can all have corners there within kRowOffRight of what is wanted
-/// of row quads: not one in a corner below 70° or above 110°, say.
+/// Whether a boundary node with this many quads allows corners within kRowOffRight of their ideal angle. A
+/// single quad in a corner below 70° or above 110° does not.
 /// @param angle  inside the region [radian].
 bool may_be_good(double angle, Index quads);
-/// The same of any number of quads.
+/// The same for any number of quads.
 bool may_be_good(double angle);
 
 /// Measure quads over a region.
 ///
-/// A row quad is good when its four corners are within 20° of what is wanted, right ones where the boundary
-/// is straight (`row_corner()`), and both ends of the side opposite the boundary lie at the row's height
-/// above it, 30 % more or less. The row's height is the size asked at the middle of the side; without a size,
-/// the side's own length.
-/// @pre  `find_fault()` finds none but folded corners.
+/// A row quad is good if its four corners are within 20° of their ideal angles (90° along a straight
+/// boundary, see `row_corner()`) and both ends of the side opposite the boundary are within 30 % of the row's
+/// height. The row's height is the size asked at the middle of the boundary side; without a size, it is the
+/// side's own length.
+/// @pre  `find_fault()` finds no fault other than folded corners.
 PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 
-/// The least number of irregular interior nodes that topology allows, where all have three or five quads.
+/// The least number of irregular interior nodes that topology allows if each has three or five quads.
 ///
-/// The sum rule: over interior nodes the sum of 4 − quads, and over boundary nodes the sum of 2 − quads, are
-/// 4 times the Euler number together. Boundary nodes have the quads that right angles fit in their angle; one
-/// within `either` right angles of half way between two numbers has either, whichever is better.
-/// @param angles  inside the region, at its boundary nodes; straight ones may be left out [radian]
-/// @param euler   of the region: 2 less its loops
+/// The sum rule: the sum of 4 − quads over the interior nodes plus the sum of 2 − quads over the boundary
+/// nodes is 4 times the Euler number. A boundary node has as many quads as right angles fit in its angle; one
+/// whose angle is within `either` right angles of half way between two numbers has whichever of them is
+/// better.
+/// @param angles  inside the region at its boundary nodes; straight ones may be left out [radian]
+/// @param euler   of the region: 2 minus the number of its loops
 int least_irregular(std::span<const double> angles, int euler, double either = 0);
 
-/// The same of a region. No mesh has fewer when boundary nodes with other quads than fit in their angle count
-/// as well.
+/// The same for a region. No mesh has fewer irregular nodes if boundary nodes whose number of quads does not
+/// fit their angle are counted too.
 int least_irregular(const PlanarRegion& region);
 
-/// The first reason why quads are no valid mesh of the region, in words; empty where they are one.
+/// The first reason why the quads are no valid mesh of the region, in words; empty if they are valid.
 ///
-/// Looked for: boundary points moved or missing; corners that are no points or occur twice; sides used by
-/// three quads, or by two in one direction; boundary sides that are not those of the loops; points without a
-/// quad; a mesh that is not in one piece or is pinched at a point; corners that are not positive.
+/// Checked: boundary points moved or missing; corners that are no points or occur twice; sides used by three
+/// quads, or by two in the same direction; boundary sides that are not those of the loops; points without a
+/// quad; a mesh in several pieces or pinched at a point; corners that are not positive.
 std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region);
 
 } // namespace lacuna::quads

@@ -10,63 +10,66 @@
 
 namespace lacuna::quads {
 
-/// A segment of a region's boundary with a number of sides of its own.
+/// A segment of a region's boundary and the number of sides it should get.
 struct BoundarySegment {
-    double wanted = 1;  ///< sides by the size asked, not rounded, > 0
-    int least = 1;      ///< sides that it needs, >= 1
-    bool fixed = false; ///< its number of sides is given
+    double wanted = 1;  ///< number of sides by the size asked, not rounded, > 0
+    int least = 1;      ///< least number of sides, >= 1
+    bool fixed = false; ///< the number of sides is given
 };
 
-/// The even number of sides nearest to those wanted that is no fewer than are needed.
+/// The even number nearest to `wanted` that is at least `least`.
 int even_sides(double wanted, int least);
 
-/// More quads than this are made of a quarter as many, and no symmetry is kept (`pave()`): they take long,
-/// and nobody looks at them one by one. A choice, not a measurement.
+/// Above this number of quads, `pave()` paves with a quarter as many, refines the mesh, and keeps no
+/// symmetry. This trades regularity for time: a lower value gives faster but less symmetric meshes.
 inline constexpr double kManyQuads = 20'000;
-/// The fewest sides of a segment that an even number is close to. A choice, not a measurement.
+/// A segment with fewer sides than this is not forced to an even number, because rounding would change its
+/// edge length too much.
 inline constexpr double kFewestEven = 8;
 
 /// Numbers of sides with which `fill_patterns()` fills a region by one grid (interval assignment).
 ///
-/// The whole numbers n of least Σ (n − wanted)² / n for which every loop closes in the grid: as many sides
-/// one way as back; about a hole as many on the outer loop as on that hole's. Fixed segments keep theirs. A
-/// ring is taken where both its loops so get sides 0.6 to 1.6 times as long as asked, those alike that repeat
-/// along a loop where that goes too. Where one side of a ring is narrow, its outer loop has two more for each
-/// row that it steps in there. A loop of many corners, alike all round, has a side for each of them, and the
-/// other as many, up to four times as many as asked. Otherwise a ring's loops differ by a multiple of four,
-/// which rows with two places to change take up. Where none of that goes the lines are straight, and no
-/// segment that wants four sides or more gets a quarter more or less.
+/// The function minimises Σ (n − wanted)² / n over whole numbers n for which every loop closes in the grid:
+/// as many sides in one direction as back; around a hole, as many on the outer loop as on the hole. Fixed
+/// segments keep their numbers. A ring grid is used if the sides of both its loops are then 0.6 to 1.6 times
+/// as long as asked; segments that repeat along a loop get equal numbers if possible. If a ring is narrow on
+/// one side, its outer loop has two more sides for each row by which it steps in there. If one loop has many
+/// corners and repeats itself all round, it has one side per corner, and the other loop as many, up to four
+/// times as many as asked. Otherwise the loops of a ring differ by a multiple of four, and rows that change
+/// their number of sides at two places take up the difference. If none of these is possible the grid is
+/// straight, and a segment that asks for four sides or more is changed by less than a quarter.
 ///
-/// A symmetric region, whose mirrorings map segments onto segments, gets numbers that they do not change and
-/// that leave a node on every axis they are about: those of its part between two axes, or on one side of the
-/// only one, where the axes are segments whose numbers are free. With straight lines the sum has more terms:
-/// a quarter of (quads − asked)² / asked, for rows before round turns add quads; for each such turn
-/// ln²(rows / those that fit its radius); and what unlike numbers cost where the part is symmetric itself. It
-/// is taken at what closes from a few shares of the numbers wanted, and over numbers of rows.
+/// If reflections of a symmetric region map segments onto segments, the numbers respect these reflections and
+/// leave a node on every mirror axis: they are found for the part between two axes, or on one side of the
+/// only axis, with the axes as free segments. For a straight grid the sum has more terms: (quads − asked)² /
+/// asked, times a quarter, because rows before round turns add quads; ln²(rows / fitting rows) for each such
+/// turn; and a penalty for unequal numbers if the part is symmetric itself. The function evaluates the sum
+/// for closed loops that start from several multiples of the wanted numbers, and for several numbers of rows.
 ///
-/// Of fewer than 200 quads, axes want what the size asked says and not one that changes slowly away from
-/// short sides; parts between other axes are looked at too; holes must find a place in the grid of their
-/// part, with lines between them; and where nothing else does that, segments get what a ring's may. A region
-/// with its middle on several axes gets numbers that all of them keep, rounded where no grid has such.
+/// Below 200 quads, four things change: the axes are divided by the size asked rather than by a size graded
+/// away from short sides; parts between other axes are tried as well; holes must find a place in the grid of
+/// their part, with lines between them; and if nothing else achieves that, segments may deviate as far as
+/// those of a ring. A region whose centre lies on several axes gets numbers that respect all of them, rounded
+/// if no grid has such numbers.
 ///
-/// Where straight lines of a region without axes are too many or too few quads, other shares of the numbers
-/// wanted are rounded. Of fewer than 200 quads a grid is then made with each of the cheapest four numbers,
-/// and the best by measure is taken; among them are those of headings with fewer soft turns.
+/// If a straight grid of a region without axes has too many or too few quads, other multiples of the wanted
+/// numbers are rounded. Below 200 quads, a grid is then made for each of the four cheapest solutions,
+/// including those with fewer soft turns, and the one of best measured quality is used.
 ///
-/// A region of three or five sides that no grid fills gets numbers for three or five of them round one node,
-/// of which it would have too many quads or too few with the numbers wanted.
+/// A region of three or five sides that no grid fills gets numbers for three or five grids around one node.
+/// The wanted numbers are scaled, because such grids would have too many or too few quads.
 ///
-/// Of more than `kManyQuads` quads every other node can be left out between corners: where it could not be,
-/// segments get twice the numbers of a region half as fine, unless some are given or short.
+/// Above `kManyQuads` quads every other node between corners must be removable. Otherwise segments get twice
+/// the numbers of a region half as fine, unless some are given or short.
 ///
-/// The equations of a loop have coefficients of 1 and -1, and no number is in two but of segments that turn.
-/// So the numbers wanted are rounded, and then changed by one, the cheapest first, until all equations hold.
-/// Holes then get one column more or less where that puts their middle where it lies in the outer loop's
-/// grid, so that what is symmetric stays so (of fewer than 200 quads both are tried); and a ring with like
-/// holes about it a number that these divide.
-/// @param region   with as many nodes as it would have without.
-/// @param segment  of the side from each boundary node to the next.
-/// @return  the number of sides of every segment; nothing where no grid fits.
+/// The equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only if its
+/// segment turns. So the wanted numbers are rounded and then changed by one, the cheapest first, until all
+/// equations hold. Holes then get one column more or less if this keeps their centre at its place in the
+/// outer loop's grid, which preserves symmetry (below 200 quads both are tried). A ring with equal holes
+/// around it gets a number that is a multiple of the number of these holes.
+/// @param region   with its current nodes; their number does not matter.
+/// @param segment  segment of the side from each boundary node to the next.
+/// @return  the number of sides of every segment; empty if no grid fits.
 /// @throw Cancelled
 /// @note  Deterministic. O(nodes · segments).
 std::optional<std::vector<int>> pattern_counts(const PlanarRegion& region, std::span<const int> segment,

@@ -10,56 +10,58 @@ namespace lacuna::quads {
 
 /// How `pave()` filled a region.
 struct PaveReport {
-    int refilled = 0; ///< places where rows and cuts folded, filled with split triangles
+    int refilled = 0; ///< cavities where rows and cuts folded, refilled with split triangles
     std::string used; ///< "mapped": one patch without rows; "submapped", "paved"
 };
 
 /// Options of `pave()`.
 struct PaveOptions {
-    /// Rows to lay along every loop first, as high as `PlanarRegion::row_height` says. They stay as they are
-    /// laid; a loop without room for one goes without, which `PlanarQuads::how` tells. All others are laid as
-    /// the region's shape needs, and are free to move.
+    /// Rows to place along every loop first, at the height `PlanarRegion::row_height`. They are not moved
+    /// afterwards. A loop without room for a row gets none, which `PlanarQuads::how` reports. All other rows
+    /// are placed as the region's shape requires, and may move.
     int exact_rows = 0;
-    bool grids = true; ///< a region may be filled by one grid
+    bool grids = true; ///< whether one grid may fill the region
 };
 
-/// What `pave()` built, and how.
+/// The mesh of `pave()` and how it was made.
 struct Paved {
     PlanarQuads mesh;
     PaveReport report;
 };
 
-/// Fill a region of the plane with quads by paving: rows placed inward from the loops, the rest cut in two
-/// along the best line, again and again, until templates can fill the parts (CSALF-Q).
+/// Fill a region of the plane with quads by paving: rows are placed inward from the loops, and the rest is
+/// cut in two along the best line, recursively, until templates can fill the parts (CSALF-Q).
 ///
-/// 1. A region of right angles is submapped (`submap()`), another of up to 4000 quads filled by one bent grid
-///    where that can be (`fill_patterns()`). Where that is good, it is the result.
+/// 1. A region of right angles is submapped (`submap()`). Another region of up to 4000 quads is filled by one
+///    bent grid if possible (`fill_patterns()`). If the grid is good, it is the result.
 /// 2. Rows are placed along loops that turn without corners and have room for them.
-/// 3. A cut is straight. It meets the outline at right angles where it can, its nodes are spaced as the size
-///    asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of 3 to
-///    5 sides is filled with grids that meet in one or two irregular nodes.
+/// 3. Cuts are straight. A cut meets the outline at right angles if possible, its nodes are spaced as the
+///    size asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of
+///    3 to 5 sides is filled with grids that meet in one or two irregular nodes.
 /// 4. Boundary corners that lack a quad get one. Folded quads are opened, or removed and their cavity
-///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired off, nodes smoothed, row heights
-///    corrected.
+///    remeshed (`paving::refill_cavities()`). Irregular nodes are paired and removed, nodes are smoothed, row
+///    heights are corrected.
 ///
-/// A symmetric region is cut along two mirror axes square to each other, or about a hole in its middle along
-/// all, if its boundary nodes allow it. The part is filled and its images are joined, unless that is poor.
-/// Discs and rings are tried as a whole first. Symmetric quads of a symmetric region are made so to rounding
-/// (`symmetrise()`), up to 20,000.
+/// A symmetric region whose boundary nodes allow it is cut along two perpendicular mirror axes, or along all
+/// of them if its centre is in a hole. One part is filled and its images are joined, unless the result is
+/// poor. Discs and rings are tried as a whole first. If the connections over a symmetric region are
+/// symmetric, the nodes are made symmetric to rounding (`symmetrise()`), up to 20,000 quads.
 ///
-/// More than 20,000 are made of a quarter as many, over every other boundary node, each cut in four. That
-/// takes every loop to have an even number of nodes and to turn by 20° at most at those left out; where half
-/// of all is an odd number, a triangle is cut in three. 8,000 and more of the coarse ones are made in the
-/// same way; for that up to eight sides may be divided, and become a triangle each.
+/// Above 20,000 quads the paver meshes a coarse region, with every other boundary node and a quarter of the
+/// quads, and cuts each of them in four. This requires that every loop has an even number of nodes and turns
+/// by at most 20° at each node left out. If half the number of boundary sides is odd, the coarse mesh has a
+/// triangle, which is cut in three. A coarse region of 8,000 quads or more is coarsened again; for this, up
+/// to eight sides may be divided, each of which becomes a triangle.
 ///
-/// Up to 4000 quads are made several times, with and without rows and by several weightings of the cuts, and
-/// the best by measure is kept. Below about 1500 they are made three times without rows, by weightings of
-/// their own, and once with rows. The two that begin with the fewest irregular nodes are cleaned and
-/// smoothed, the others only where the worst quad of those is below 0.75; all else is tried only where they
-/// are poor. Sizes are judged by those that the given sides leave room for. The search ends where a mesh is
-/// good and near the fewest irregular nodes that topology allows (`least_irregular()`). Boundary nodes are
-/// kept, in order, bit for bit. The quads are counter-clockwise and convex. Flat ones are left only where the
-/// boundary's sides are long for the gap between them, which the log says.
+/// Up to 4000 quads, the paver makes several meshes, with and without rows and with several weightings of the
+/// cuts, and keeps the best by measured quality. Below about 1500 quads it makes three meshes without rows,
+/// with weightings of their own, and one with rows. The two with the fewest initial irregular nodes are
+/// cleaned and smoothed, the others only if the worst quad of those is below 0.75; everything else is tried
+/// only if these are poor. Sizes are measured against the size that the given sides leave room for. The
+/// search ends when a mesh is good and its number of irregular nodes is near the minimum that topology allows
+/// (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise and
+/// convex. Flat quads remain only where the boundary's sides are long compared with the gap between them; the
+/// log reports this.
 ///
 /// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or
 ///                                            lies outside the first.
