@@ -230,11 +230,10 @@ private:
         throw NotSweepable(
             Message("closure.branches", "the branch of {} on {} cannot be cut automatically: {}",
                     wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host), why)
-                .remedy(
-                    "cut by hand with planes on both sides of its mouth, which lies between {} and {} with "
-                    "the normal {{{:.3g}, {:.3g}, {:.3g}}}",
-                    place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
-                    axis_.x(), axis_.y(), axis_.z()));
+                .remedy("cut by hand on both sides of the branch's mouth, which reaches from {} to {}, with "
+                        "planes of normal {{{:.3g}, {:.3g}, {:.3g}}}",
+                        place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
+                        axis_.x(), axis_.y(), axis_.z()));
     }
 
     [[nodiscard]] NamedEntity wall_entity(const Mouth& mouth, std::size_t region) const

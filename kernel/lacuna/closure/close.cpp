@@ -186,7 +186,7 @@ public:
         for (const Way& way : wanted(match)) {
             try {
                 Closure closure = seal_as(way, match);
-                say_what_else(way, match, closure);
+                add_ambiguity_notes(way, match, closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -227,10 +227,10 @@ private:
         return ways;
     }
 
-    /// Note the alternative shape of void edges and its volume: straight or bent between inclined ends
-    /// without walls, straight or like the walls next to given walls that bend and along a loop without
-    /// walls.
-    void say_what_else(const Way& way, const matching::Match& match, Closure& closure)
+    /// Report the other possible shape of the void edges and the volume with it. Between inclined ends
+    /// without walls, edges are straight or bent; next to bent walls, and along a loop without walls, they
+    /// are straight or follow the walls.
+    void add_ambiguity_notes(const Way& way, const matching::Match& match, Closure& closure)
     {
         if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic ||
             !options_.void_edges.empty())

@@ -155,8 +155,8 @@ private:
         return flat_places(plane_, use_places(model_, uses));
     }
 
-    /// Next open line of each, such that the straight connections between them are shortest and cross
-    /// nothing.
+    /// For each open line, the line whose start its end is connected to. The straight connections have the
+    /// least total length and cross nothing. Empty if there is no such order, or if there are too many lines.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {
         std::vector<std::size_t> order(lines.size()), best;

@@ -20,8 +20,10 @@ constexpr double kAstray = 0.005;
 /// The same for open walls that determine the rest of their loop, and for other walls: walls with a given
 /// mesh, and single twisted walls of few facets, are that rough. Rules of thumb.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Open walls with a larger bow, as a share of the rims' radius, may not be walls of a sweep. Straight void
-/// edges are then rejected only if the walls' motion takes one of them this far off its line. Rules of thumb.
+/// Open walls whose bow exceeds the first share of the rims' radius are perhaps no walls of a sweep. Edges
+/// that follow them are then tried before straight ones only if following moves an edge off its line by more
+/// than the second share. A lower first share trusts fewer walls that bend far; a lower second share lets
+/// more of the distrusted walls bend the void edges.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
 /// Next to ring walls, the given walls of another loop determine their own loop if the ring walls' motion
 /// would take half of their points further off than this, as a share of their radius. Otherwise the ring

@@ -82,8 +82,8 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 /// The only void of some faces, or the one selected by number.
 /// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
 ///         shape.
-/// @return  with 0, if only holes without walls are ambiguous: the face that has them as the source of a
-///          class IV volume, for which close() needs `CloseOptions::holes`.
+/// @return  the void. If `number` is 0 and only holes without walls make it ambiguous: a class IV volume
+///          whose source is the face with these holes; close() then needs `CloseOptions::holes`.
 /// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
 ///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists the enclosed
 ///        volumes), "topology.shape_open" (names the faces next to the missing one),
