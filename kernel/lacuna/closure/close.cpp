@@ -100,13 +100,14 @@ double lean_of(const OpenVolume& volume)
     return geometry::angle_between(facing(source), facing(target));
 }
 
-/// Ends without walls at a larger angle are closed by a bend, as straight edges would graze both. Rule of
-/// thumb.
+/// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
+/// angles. A lower value bends more closings that were meant to be straight.
 constexpr double kBend = 100 * std::numbers::pi / 180;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * std::numbers::pi / 180;
 
-/// Alternatives that differ by more than this share of the volume are noted. Rule of thumb.
+/// Alternatives that differ by more than this share of the volume are noted: half of what makes an
+/// assumption, see `kMatters`. The sag of facets alone may cause differences of half a percent.
 constexpr double kToBeSaid = 0.01;
 /// Relative difference of an alternative volume; 0 if the alternative is impossible.
 double share_between(double taken, const std::optional<double>& other)

@@ -32,7 +32,8 @@ namespace {
 
 /// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-/// Loops with less area than this share of their squared length enclose nothing. Rule of thumb.
+/// Loops with less area than this share of their squared length enclose nothing: they return on their own
+/// line, up to rounding. A higher value rejects slender sections.
 constexpr double kSlit = 1e-6;
 
 double signed_area(std::span<const Vec2> loop)

@@ -14,11 +14,12 @@ namespace {
 
 /// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges: the section loses
-/// about twice that. Rule of thumb.
+/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges, which lose about twice
+/// that share of the section. A lower value bends void edges next to almost straight walls; a higher one
+/// loses more volume.
 constexpr double kAstray = 0.005;
-/// The same for open walls that determine the rest of their loop, and for other walls: walls with a given
-/// mesh, and single twisted walls of few facets, are that rough. Rules of thumb.
+/// The same for open walls that determine the rest of their loop, and for other walls. They are higher,
+/// because walls with a given mesh, and single twisted walls of few facets, are that rough when straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// Open walls whose bow exceeds the first share of the rims' radius are perhaps no walls of a sweep. Edges
 /// that follow them are then tried before straight ones only if following moves an edge off its line by more
@@ -65,8 +66,9 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// How far the walls stray from straight lines between the rims, as a share of the rims' radius: the median
-/// distance of their points from the strip formed by such lines.
+/// How far the walls stray from straight lines between the rims, as a share of the source rim's radius. For
+/// each point of the sections, the largest distance over the heights from the strip formed by such lines; of
+/// these the median.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
     constexpr std::size_t kStep = 4; // only every fourth level is checked

@@ -20,7 +20,8 @@ using namespace topology;
 
 namespace {
 
-/// Number of other sweep directions that are kept. Rule of thumb: each may cost as much as the first.
+/// Number of other sweep directions that are kept for when the first cannot be meshed. Each may cost as much
+/// time as the first.
 constexpr std::size_t kMostOthers = 3;
 
 /// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
