@@ -112,7 +112,7 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
     return depth * (1 - static_cast<double>(first) / kBins);
 }
 
-/// Whether faces form a ring with one rim on each of two others.
+/// Whether faces form a ring: they have two rims and the Euler number 0.
 bool join(const Model& model, const std::vector<FaceId>& ring)
 {
     return rims(model, ring).size() == 2 && euler_number(model, ring) == 0;

@@ -255,8 +255,8 @@ private:
         }
         const double share = share_between(taken, instead);
         if (leads() && !(share > kToBeSaid))
-            return; // report inclined ends, but no alternative that only
-                    // widens the bore
+            return; // inclined ends are reported whatever the volume is, walls that bend
+                    // only if it differs
         const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"

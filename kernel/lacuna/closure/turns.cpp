@@ -138,8 +138,8 @@ std::vector<char> points_on_edges(const Model& model)
 
 /// Sum over the common facet sides of a part's ends and walls of their length times the cosine between the
 /// wall and the end's normal: positive if the walls leave the ends on the side that these face, negative if
-/// on the other side, 0 if both occur or the part lacks an end. Walls that join two ends bound the void; only
-/// walls of a step leave an end on the side away from it.
+/// on the other side, 0 if both occur or the part lacks an end. Walls that join two ends leave them on the
+/// void's side; only walls of a step leave an end on the other side.
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {
