@@ -26,10 +26,10 @@ constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// than the second share. A lower first share trusts fewer walls that bend far; a lower second share lets
 /// more of the distrusted walls bend the void edges.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// Next to ring walls, the given walls of another loop determine their own loop if the ring walls' motion
-/// would take half of their points further off than this, as a share of their radius. Otherwise the ring
-/// walls represent bends better: on 350 tubes that bend, twist and taper they were off by 0.005 at most in
-/// nine of ten; on a lofted pipe by 0.017.
+/// If some walls form rings, the open walls of another loop determine that loop only if the rings' motion
+/// misses half of their points by more than this, as a share of their radius. Below it the rings represent
+/// the bend better. On 350 tubes that bend, twist and taper they missed by at most 0.005 in nine of ten
+/// cases; on a lofted pipe by 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
@@ -71,7 +71,7 @@ double median(std::vector<double> values)
 /// these the median.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
-    constexpr std::size_t kStep = 4; // only every fourth level is checked
+    constexpr std::size_t kStep = 4; // checks every fourth level only, to save time
     constexpr double kOnePart = 4;   // in mean steps: points further apart belong to two parts
     const std::size_t n = levels.front().size();
     std::vector<Vec3> points = levels.front();

@@ -231,8 +231,8 @@ struct Ends {
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
-/// Number of cuts that are walls of both pieces, but with different sides along their ends, so that their
-/// rows of quads cannot match.
+/// Number of cuts that are walls of both pieces but have different sides along the ends of each, so that the
+/// rows of quads of the pieces cannot match.
 std::size_t unlike(const Ends& a, const Ends& b)
 {
     return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {

@@ -41,7 +41,8 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
     return reasons;
 }
 
-/// Find the roles of faces, also when only walls were named. None: use the named roles.
+/// Find the roles of faces if none or only walls were named.
+/// @return  empty if the named roles are to be used.
 std::optional<closure::Reading> find_roles(const Model& model, const std::vector<FaceId>& faces,
                                            const RoleRequest& request, const RunContext& context)
 {
