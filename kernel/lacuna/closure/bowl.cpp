@@ -16,15 +16,18 @@ using namespace topology;
 
 namespace {
 
-/// Number of faces tried as the mouth, the largest first. Rule of thumb: a hollow has one, a prism six.
+/// Number of faces tried as the mouth, the largest first. Each costs a pass over the facets and possibly a
+/// cut. A hollow has one such face, a box six; a lower number may miss a small mouth.
 constexpr std::size_t kMostMouths = 4;
-/// A face is flat if its summed area vector falls short of its area by less than this share: a degree. Rule
-/// of thumb.
+/// A face is flat if its summed area vector falls short of its area by less than this share, as for normals
+/// that differ by a degree from their mean. A higher value takes curved faces for mouths; a lower one rejects
+/// flat faces with inexact points.
 constexpr double kFlat = 2e-4;
-/// Number of heights at which the inclination is sampled: a rim rounded by a thirtieth of the depth covers
-/// two. Rule of thumb.
+/// Number of heights at which the inclination is sampled, and where the skin may be cut. A rim rounded by a
+/// thirtieth of the depth covers two; fewer would miss it, more cost time.
 constexpr std::size_t kBins = 64;
-/// A skin whose steepest inclination is below this is only a bottom [radians]. Rule of thumb.
+/// A skin whose steepest inclination is below this (11°) is only a bottom [radians]. A lower value separates
+/// walls that hardly rise; a higher one finds no walls in shallow bowls.
 constexpr double kLeastLean = 0.2;
 
 /// Coplanar faces with the same normal.
@@ -109,7 +112,7 @@ std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
     return depth * (1 - static_cast<double>(first) / kBins);
 }
 
-/// Whether faces form a ring with one rim on each of two others.
+/// Whether faces form a ring: they have two rims and the Euler number 0.
 bool join(const Model& model, const std::vector<FaceId>& ring)
 {
     return rims(model, ring).size() == 2 && euler_number(model, ring) == 0;

@@ -30,20 +30,26 @@ using namespace topology;
 
 namespace {
 
-/// Walls turn inward at a mouth by more than this [degrees]; facets of a bent wall turn less. Rule of thumb.
+/// Walls turn inward at a mouth by more than this [degrees]. A lower value takes the facets of a bent wall
+/// for mouths; a higher one misses branches that leave at a small angle.
 constexpr double kConcave = 15;
 /// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
-/// A branch is a side branch if this share of the main body's direction is normal to it. Rule of thumb.
+/// Two directions are parallel if the sine between them is below this (6°), such as a branch and the main
+/// body's axis. A lower value accepts branches that leave almost along the axis, whose cuts are ill-defined.
 constexpr double kAlong = 0.1;
 /// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
-/// above this (30°). Rule of thumb.
+/// above this (30°); an edge this close to the axis runs along it. A higher value adds planes at small angles
+/// to each other; a lower one lets branches to different sides share a plane.
 constexpr double kSameSide = 0.87;
-/// Walls of a branch have normals within this cosine (44°) of its direction. Rule of thumb.
+/// A face at the mouth is an end of its branch, not a wall, if the cosine between its normal and the branch
+/// is above this (44°). A lower value refuses branches with strong taper; a higher one takes slanted ends for
+/// walls.
 constexpr double kAlongWay = 0.72;
-/// Lines along a main body closer than this share of its widest mouth are merged. Rule of thumb.
+/// Lines along a main body closer than this share of its widest mouth are merged, as they would bound a
+/// sliver. A higher value moves lines further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Chords of the dip. Rule of thumb.
+/// Chords of the dip, a parabola: each has a sag of 1/256 of its depth. More chords cost facets.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges.
@@ -230,11 +236,10 @@ private:
         throw NotSweepable(
             Message("closure.branches", "the branch of {} on {} cannot be cut automatically: {}",
                     wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host), why)
-                .remedy(
-                    "cut by hand with planes on both sides of its mouth, which lies between {} and {} with "
-                    "the normal {{{:.3g}, {:.3g}, {:.3g}}}",
-                    place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
-                    axis_.x(), axis_.y(), axis_.z()));
+                .remedy("cut by hand on both sides of the branch's mouth, which reaches from {} to {}, with "
+                        "planes of normal {{{:.3g}, {:.3g}, {:.3g}}}",
+                        place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
+                        axis_.x(), axis_.y(), axis_.z()));
     }
 
     [[nodiscard]] NamedEntity wall_entity(const Mouth& mouth, std::size_t region) const

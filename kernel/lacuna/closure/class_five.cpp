@@ -37,12 +37,12 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
         const std::vector<Rim> open = rims(model, part);
         if (open.size() != 2) {
             throw NotClosed(
-                Message(
-                    "closure.tube_loops",
-                    "the walls {} have {} free {}, but in class V each connected part of the walls needs {}",
-                    entities_of(model, part), found(open.size()), open.size() == 1 ? "loop" : "loops",
-                    needed(2))
-                    .remedy("name the source or the target, or the walls that close the others"));
+                Message("closure.tube_loops",
+                        "the walls {} have {} free {}, but in class V each connected part of the walls needs "
+                        "exactly {}",
+                        entities_of(model, part), found(open.size()), open.size() == 1 ? "loop" : "loops",
+                        needed(2))
+                    .remedy("name the source or the target, or add the missing walls"));
         }
         tubes.push_back({std::move(part),
                          {open[0], open[1]},

@@ -13,8 +13,8 @@ using namespace topology;
 
 namespace {
 
-/// Cosine of the largest turn (45°) at which an edge continues a side line; at the top of a wall it is about
-/// 90°. Rule of thumb.
+/// Cosine of the largest turn (45°) at which an edge continues a side line: halfway between a straight line
+/// and the turn at the top of a wall, about 90°.
 constexpr double kOnward = 0.7071;
 
 } // namespace

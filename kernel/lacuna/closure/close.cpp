@@ -100,13 +100,14 @@ double lean_of(const OpenVolume& volume)
     return geometry::angle_between(facing(source), facing(target));
 }
 
-/// Ends without walls at a larger angle are closed by a bend, as straight edges would graze both. Rule of
-/// thumb.
+/// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
+/// angles. A lower value bends more closings that were meant to be straight.
 constexpr double kBend = 100 * std::numbers::pi / 180;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * std::numbers::pi / 180;
 
-/// Alternatives that differ by more than this share of the volume are noted. Rule of thumb.
+/// Alternatives that differ by more than this share of the volume are noted: half of what makes an
+/// assumption, see `kMatters`. The sag of facets alone may cause differences of half a percent.
 constexpr double kToBeSaid = 0.01;
 /// Relative difference of an alternative volume; 0 if the alternative is impossible.
 double share_between(double taken, const std::optional<double>& other)
@@ -186,7 +187,7 @@ public:
         for (const Way& way : wanted(match)) {
             try {
                 Closure closure = seal_as(way, match);
-                say_what_else(way, match, closure);
+                add_ambiguity_notes(way, match, closure);
                 say_what_is_open(closure);
                 return closure;
             } catch (const NotClosed& error) {
@@ -227,10 +228,10 @@ private:
         return ways;
     }
 
-    /// Note the alternative shape of void edges and its volume: straight or bent between inclined ends
-    /// without walls, straight or like the walls next to given walls that bend and along a loop without
-    /// walls.
-    void say_what_else(const Way& way, const matching::Match& match, Closure& closure)
+    /// Report the other possible shape of the void edges and the volume with it. Between inclined ends
+    /// without walls, edges are straight or bent; next to bent walls, and along a loop without walls, they
+    /// are straight or follow the walls.
+    void add_ambiguity_notes(const Way& way, const matching::Match& match, Closure& closure)
     {
         if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic ||
             !options_.void_edges.empty())
@@ -254,8 +255,8 @@ private:
         }
         const double share = share_between(taken, instead);
         if (leads() && !(share > kToBeSaid))
-            return; // report inclined ends, but no alternative that only
-                    // widens the bore
+            return; // inclined ends are reported whatever the volume is, walls that bend
+                    // only if it differs
         const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"

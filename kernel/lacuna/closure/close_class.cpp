@@ -67,8 +67,8 @@ void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loo
     closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
 }
 
-/// Without walls between them, only the match tells how source and target face each other. Walls connected to
-/// the target only are reversed with it.
+/// Reverse the target if the match pairs its loops against their own direction: without walls between the
+/// ends, only the match shows how they face each other. Walls connected to the target only are reversed too.
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;
@@ -128,7 +128,8 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// Whether walls run on beside a rim in its plane, as round a hole in them, and do not end there edge on.
+/// Whether a rim is a hole in walls, which continue beside it in its plane; walls that end at a rim stand
+/// across its plane.
 bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
 {
     const double kBetween = std::numbers::sqrt2 / 2; // 45°, halfway between the two

@@ -32,7 +32,8 @@ namespace {
 
 /// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-/// Loops with less area than this share of their squared length enclose nothing. Rule of thumb.
+/// Loops with less area than this share of their squared length enclose nothing: they return on their own
+/// line, up to rounding. A higher value rejects slender sections.
 constexpr double kSlit = 1e-6;
 
 double signed_area(std::span<const Vec2> loop)
@@ -155,8 +156,8 @@ private:
         return flat_places(plane_, use_places(model_, uses));
     }
 
-    /// Next open line of each, such that the straight connections between them are shortest and cross
-    /// nothing.
+    /// For each open line, the line whose start its end is connected to. The straight connections have the
+    /// least total length and cross nothing. Empty if there is no such order, or if there are too many lines.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {
         std::vector<std::size_t> order(lines.size()), best;

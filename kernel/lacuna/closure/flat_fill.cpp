@@ -133,7 +133,7 @@ bool prove(FlatFilling& filling, const RunContext& context)
 }
 
 /// A new face at a larger angle to the source's plane is a wall, if another face is at a smaller one
-/// [degrees]. Rule of thumb: chamfers and roof slopes belong to the end, risers of steps do not.
+/// [degrees]. Below it, chamfers and roof slopes belong to the end; above it are the risers of steps.
 constexpr double kSlope = 60;
 
 /// Assign roles to the new faces.

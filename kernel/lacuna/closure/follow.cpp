@@ -14,19 +14,22 @@ namespace {
 
 /// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges: the section loses
-/// about twice that. Rule of thumb.
+/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges, which lose about twice
+/// that share of the section. A lower value bends void edges next to almost straight walls; a higher one
+/// loses more volume.
 constexpr double kAstray = 0.005;
-/// The same for open walls that determine the rest of their loop, and for other walls: walls with a given
-/// mesh, and single twisted walls of few facets, are that rough. Rules of thumb.
+/// The same for open walls that determine the rest of their loop, and for other walls. They are higher,
+/// because walls with a given mesh, and single twisted walls of few facets, are that rough when straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Open walls with a larger bow, as a share of the rims' radius, may not be walls of a sweep. Straight void
-/// edges are then rejected only if the walls' motion takes one of them this far off its line. Rules of thumb.
+/// Open walls whose bow exceeds the first share of the rims' radius are perhaps no walls of a sweep. Edges
+/// that follow them are then tried before straight ones only if following moves an edge off its line by more
+/// than the second share. A lower first share trusts fewer walls that bend far; a lower second share lets
+/// more of the distrusted walls bend the void edges.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// Next to ring walls, the given walls of another loop determine their own loop if the ring walls' motion
-/// would take half of their points further off than this, as a share of their radius. Otherwise the ring
-/// walls represent bends better: on 350 tubes that bend, twist and taper they were off by 0.005 at most in
-/// nine of ten; on a lofted pipe by 0.017.
+/// If some walls form rings, the open walls of another loop determine that loop only if the rings' motion
+/// misses half of their points by more than this, as a share of their radius. Below it the rings represent
+/// the bend better. On 350 tubes that bend, twist and taper they missed by at most 0.005 in nine of ten
+/// cases; on a lofted pipe by 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
@@ -63,11 +66,12 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// How far the walls stray from straight lines between the rims, as a share of the rims' radius: the median
-/// distance of their points from the strip formed by such lines.
+/// How far the walls stray from straight lines between the rims, as a share of the source rim's radius. For
+/// each point of the sections, the largest distance over the heights from the strip formed by such lines; of
+/// these the median.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
-    constexpr std::size_t kStep = 4; // only every fourth level is checked
+    constexpr std::size_t kStep = 4; // checks every fourth level only, to save time
     constexpr double kOnePart = 4;   // in mean steps: points further apart belong to two parts
     const std::size_t n = levels.front().size();
     std::vector<Vec3> points = levels.front();

@@ -16,7 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// A rim turns by more than this at a corner [degrees]; the same limit separates patches. Rule of thumb.
+/// A rim turns by more than this at a corner [degrees]; the same limit separates patches. A lower value takes
+/// facets of a coarse curve for corners; a higher one joins sides that meet at an obtuse angle.
 constexpr double kCorner = 30;
 
 /// Mismatch of the first and third side if the first is moved along the others.

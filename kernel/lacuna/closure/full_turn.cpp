@@ -26,11 +26,13 @@ namespace {
 /// Planes tried through each principal axis. Straight rings with up to as many sides are cut near the middle
 /// of a side.
 constexpr int kDirections = 8;
-/// Section lengths that differ by less than this share are equal: facets of round walls are closer to the
-/// axis in their middles. Rule of thumb.
+/// Section lengths that differ by less than this share are equal, and the plane found first is tried first.
+/// Otherwise the facets of round walls would decide, as they are closer to the axis in their middles. A
+/// higher value may take a longer cut.
 constexpr double kAsShort = 0.02;
 
-/// Sections used to measure the length of the turn: chords of a half circle are off by 0.2 %. Rule of thumb.
+/// Sections used to measure the length of the turn. With these, the chords of a half circle are short by
+/// 0.2 %; each section costs a pass over the walls.
 constexpr std::size_t kSections = 16;
 /// Share of a piece whose length cannot be measured.
 constexpr double kHalf = 0.5;

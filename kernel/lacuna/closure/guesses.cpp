@@ -28,15 +28,16 @@ using namespace topology;
 namespace {
 
 /// A bent face is ambiguous if more than this share of the enclosed volume lies between it and its plane.
-/// Rule of thumb: tops that bend by a few hundredths of the height stay below.
+/// A lower value refuses tops that bend by a few hundredths of the height; a higher one accepts shapes that
+/// may be further off.
 constexpr double kDoubt = 0.05;
 /// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
-/// smooth face over its rim. Of 893 ends over twelve outlines 131 are refused, including those with straight
-/// rims; of the 762 accepted ones 12 have a volume error above 3 % and 719 below 1 %, of the refused ones 41
-/// and 70.
+/// smooth face over its rim. Measured on 893 ends over twelve outlines, of which 131 are refused, including
+/// those with straight rims: of the 762 accepted ends, 12 have a volume error above 3 % and 719 one below
+/// 1 %; of the refused ends, 41 and 70.
 constexpr double kBendDoubt = 0.03;
-/// A rough rim has points off a plane by up to this share of its diameter. Rule of thumb, from scans of cut
-/// bones.
+/// A rough rim has points off a plane by up to this share of its diameter, as in scans of cut bones. A lower
+/// value refuses coarse scans; a higher one accepts rims that are bent, not rough.
 constexpr double kRough = 0.05;
 
 /// Volume between a face and heights over a plane [model length³].
@@ -143,7 +144,8 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
 /// Whether an edge is straight between a few kinks.
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
-    // Rules of thumb: a ridge, a chamfer or a notch has up to three kinks, as has a curve of four facets.
+    // A ridge, a chamfer or a notch has up to three kinks, at which the edge makes at least this share of its
+    // turn. More kinks would take finer curves for straight sides; three already do so for four facets.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -159,8 +161,8 @@ bool is_straight_sided(const Model& model, const Loop& loop)
                                [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
-/// Whether a polygonal rim is too far off a plane: half of the volume between its middle plane and a flat
-/// face at the height of its furthest point, as much as a roof has.
+/// Whether a polygonal rim is too far off a plane, compared with the enclosed volume: by half of the face's
+/// projected area times the distance of the furthest rim point from the plane, the volume under a roof.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
     const double furthest = off_one_plane(loop_places(model, loop.uses));

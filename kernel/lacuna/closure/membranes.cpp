@@ -19,12 +19,13 @@ using namespace topology;
 
 namespace {
 
-/// A face with all points within this share of its extent of its plane is about flat. Rule of thumb.
+/// A face is about flat if half the range of its heights over its plane is within this share of its extent.
+/// A lower value counts roughness as a bend; a higher one overlooks shallow bends.
 constexpr double kFlat = 0.02;
 /// Tolerance for a face on a quadratic height, as a share of its bulge; the same as in closing.
 constexpr double kOnIt = 0.03;
-/// Tolerance for the inside of a face on the quadric of its rim, as a share of its bulge. Rule of thumb: a
-/// membrane between two planes is further off both.
+/// Tolerance for the inside of a face on the quadric of its rim, as a share of its bulge. Bounded from above
+/// by a membrane between two planes, which is further off both; a lower value rejects coarse facets.
 constexpr double kNearIt = 0.2;
 
 /// Corners of a face's facets as positions in its plane and heights above it.

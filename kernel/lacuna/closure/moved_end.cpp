@@ -32,12 +32,13 @@ using namespace topology;
 
 namespace {
 
-/// A moved foot of a wall may be off the wall's top by this share of the end's width: allows for the sag of
-/// round sides, and more. Rule of thumb.
+/// A moved foot of a wall may be off the wall's top by this share of the end's width, more than the sag of
+/// round sides. A lower value refuses coarse facets; a higher one accepts motions that miss the tops.
 constexpr double kOnTop = 0.01;
-/// Points within this share of their width of a line are collinear. Rule of thumb.
+/// Points closer to a line than this share of the end's width are collinear. A lower value takes inexact
+/// straight sides for bent; a higher one takes slightly bent sides for straight.
 constexpr double kOnLine = 0.01;
-/// Sample points along each wall's foot. Rule of thumb.
+/// Sample points along each wall's foot. More represent curved feet more closely and cost time.
 constexpr int kSamples = 8;
 
 /// A segment of an end's rim between two places where walls lead up, or without walls.
@@ -337,8 +338,9 @@ private:
     /// Whether walls along enough of the end's outline, its longest loop, determine its scale.
     [[nodiscard]] bool tells_scale() const
     {
-        constexpr double kTold = 1.0 / 3; // rule of thumb: two walls of five determine a taper, one of four
-                                          // does not
+        // Least share of the outline with walls: two walls of five determine a taper, one of four does not. A
+        // lower value takes the taper of a single bore or wall for that of the outline.
+        constexpr double kTold = 1.0 / 3;
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {
             double walled = 0, whole = 0;

@@ -186,8 +186,7 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
             in_braces(model, all), listed(readings, 2)));
     if (const std::string cut = cut_at_concave_edge(volume, context); !cut.empty())
         throw NotClosed(std::move(message).remedy("cut them by volume:{}", cut));
-    throw NotClosed(
-        std::move(message).remedy("name the source or the target, or the walls that close the others"));
+    throw NotClosed(std::move(message).remedy("name the source or the target, or add the missing walls"));
 }
 
 std::optional<Reading> read_walls_alone(const Model& model, const std::vector<FaceId>& walls, bool take_guess,

@@ -21,18 +21,22 @@ using namespace topology;
 
 namespace {
 
-/// Sets of faces are bit masks. Pieces of a few cuts have fewer faces than this. Rule of thumb.
+/// Most faces of a piece whose ends are chosen again. Sets of faces are bit masks, and their number grows
+/// fast with the faces. Pieces of a few cuts have fewer faces.
 constexpr std::size_t kMostFaces = 40;
-/// Number of ends tried, the smallest sets first: covers a prism with twelve sides. Rule of thumb.
+/// Number of ends tried, the smallest sets first: enough for a prism with twelve sides. A higher value finds
+/// ends of more faces, but all pairs of ends are compared.
 constexpr std::size_t kMostEnds = 600;
-/// Normals of the faces of one end differ by less than this cosine, of 110°. Rule of thumb.
+/// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
+/// that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
 /// An end is flat within this share of its area.
 constexpr double kFlat = 0.1;
-/// Bonus of an end named by the user against ends that are flat and square to their walls. Rule of thumb.
+/// Bonus of an end named by the user against ends that are flatter or more square to their walls. A higher
+/// value keeps named ends at the price of worse cells.
 constexpr double kNamed = 0.1;
-/// Cost of a cut that is a wall of both adjacent pieces but has different sides along their ends; larger than
-/// any cost of ends. Rule of thumb.
+/// Cost of a cut that is a wall of both adjacent pieces but has different sides along their ends. It exceeds
+/// the usual costs of ends, so that matching cuts come first.
 constexpr double kUnlikeCut = 10;
 
 using FaceSet = std::uint64_t;
@@ -227,8 +231,8 @@ struct Ends {
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
-/// Number of cuts that are walls of both pieces, but with different sides along their ends, so that their
-/// rows of quads cannot match.
+/// Number of cuts that are walls of both pieces but have different sides along the ends of each, so that the
+/// rows of quads of the pieces cannot match.
 std::size_t unlike(const Ends& a, const Ends& b)
 {
     return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {

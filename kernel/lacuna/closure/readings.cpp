@@ -19,12 +19,14 @@ using namespace topology;
 
 namespace {
 
-/// Number of candidates that are sealed. Rule of thumb: takes some tenths of a second for 10,000 facets.
+/// Number of candidates that are sealed, which takes some tenths of a second for 10,000 facets. A lower
+/// number may miss a void; a higher one costs time in proportion.
 constexpr std::size_t kMostSealed = 24;
-/// Number of candidates tried if none of the likeliest seals. Rule of thumb.
+/// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
+/// costs time in proportion.
 constexpr std::size_t kMostTried = 50;
-/// Cost of closing by flat faces that are not one per free loop; as for no end in
-/// `topology::role_candidates()`. Rule of thumb.
+/// Cost of closing by flat faces that are not one per free loop: that of a missing end in
+/// `topology::role_candidates()`. A lower value prefers such closings to candidates of the given faces.
 constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle.

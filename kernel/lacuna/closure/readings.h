@@ -21,7 +21,7 @@ struct SealedVolume {
     Closure closure;
 };
 
-/// A sealed void and its other sweep directions, best first, besides the one of its reading.
+/// A sealed void and its sweep directions, best first, without the one of its reading.
 struct OtherSweeps {
     topology::OpenVolume volume;
     Closure closure;
@@ -33,7 +33,7 @@ struct Reading {
     topology::RoleCandidate roles; ///< in faces of the model
     topology::OpenVolume volume;   ///< with those roles
     topology::Classification classification;
-    /// Set if an end is a face that only closing makes; `volume` is then sealed.
+    /// Set if an end is a void face; `volume` is then sealed.
     std::optional<Closure> closure;
     /// Set if `volume` is open: its sealed state, so that it need not be closed again.
     std::optional<SealedVolume> sealed;
@@ -54,11 +54,11 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// equally likely.
 ///
 /// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two are the same void
-/// if their volumes agree and their void faces lie within a small share of its size of each other. Each void
-/// is then analysed again as a closed skin and swept in its best direction: of the about likeliest candidates
-/// the one with the fewest expected irregular nodes, then the one with the most even cells. That one stays
-/// open if a candidate of the given faces has the same roles. The next three are kept for when the first
-/// cannot be meshed.
+/// if their volumes agree and the distance between their void faces is small against their size. Each void is
+/// then analysed again as a closed skin and swept in its best direction: of the candidates about as likely as
+/// the likeliest, the one with the fewest expected irregular nodes, then the one with the most even cells.
+/// The volume stays open if a candidate of the given faces has the same roles. The next three directions are
+/// kept for when the first cannot be meshed.
 ///
 /// A hollow without such a candidate, because its bottom blends smoothly into its walls (a hemisphere, a bore
 /// with a round end), is split across the blend; its bottom is the source.
@@ -70,8 +70,8 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// planes), are a further void. So is a channel without its ends and one wall if nothing else is certain:
 /// planar parts of the free loop are its ends if they are congruent.
 ///
-/// A void with an ambiguous bent face is dropped if there is one with flat faces; alone, it is a guess, and
-/// `Reading::guess` describes the ambiguity.
+/// A void with an ambiguous bent face is dropped if there is one with flat faces; if it is the only void, it
+/// is kept, and `Reading::guess` describes the ambiguity.
 /// @return  empty if no candidate is valid.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 /// @note  O(facets log facets) for each sealed candidate, at most 24. Candidates that only fill flat free
@@ -82,8 +82,8 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 /// The only void of some faces, or the one selected by number.
 /// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
 ///         shape.
-/// @return  with 0, if only holes without walls are ambiguous: the face that has them as the source of a
-///          class IV volume, for which close() needs `CloseOptions::holes`.
+/// @return  the void. If `number` is 0 and only holes without walls make it ambiguous: a class IV volume
+///          whose source is the face with these holes; close() then needs `CloseOptions::holes`.
 /// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
 ///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists the enclosed
 ///        volumes), "topology.shape_open" (names the faces next to the missing one),

@@ -25,17 +25,18 @@ namespace {
 
 using Powers = Eigen::Vector<double, 10>;
 
-/// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Rule of thumb:
-/// mesh points are on it up to rounding.
+/// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Mesh points on a
+/// quadric are off by rounding only; a higher value finds quadrics that the rim merely approximates.
 constexpr double kOnQuadric = 1e-4;
-/// Number of redundant conditions required to find the quadrics through a rim. Rule of thumb.
+/// Number of redundant conditions required to find the quadrics through a rim. Nine points always lie on a
+/// quadric; a higher number refuses rims of few points, a lower one finds quadrics by chance.
 constexpr Eigen::Index kSpare = 4;
-/// Tolerance for a special quadric, as a share of its largest coefficient. Rule of thumb: the quadric passes
-/// through the rim anyway.
+/// Tolerance for a special quadric, as a share of its largest coefficient. It may be wide, because the
+/// quadric passes through the rim anyway.
 constexpr double kSpecial = 0.01;
 /// A quadric is steep where the cosine between its gradient and the plane's normal is below the first value,
-/// as on the walls that end at the rim, and it may be steep along this share of the rim. Rule of thumb: a
-/// shaft as wide as the tube that ends on it is steep at two places.
+/// as on the walls that end at the rim. It may be steep along the second share of the rim, because a shaft as
+/// wide as the tube that ends on it is steep at two places; a higher share accepts sheets along the walls.
 constexpr double kStandsUp = 0.05, kStanding = 0.1;
 
 Powers powers_at(const Vec3& p)

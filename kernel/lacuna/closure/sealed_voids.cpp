@@ -21,13 +21,14 @@ using namespace topology;
 
 namespace {
 
-/// Volumes that differ by less than this share of the larger are equal: allows for the sag of round faces,
-/// and more.
+/// Volumes that differ by less than this share of the larger are equal. It exceeds the effect of the sag of
+/// round faces.
 constexpr double kSameVolume = 5e-3;
-/// Skins coincide if their distance is below this share of the cube root of their volume. Rule of thumb.
+/// Skins coincide if their distance is below this share of the cube root of their volume. A lower value finds
+/// one void twice because of different facets; a higher one merges different voids.
 constexpr double kSameSkin = 0.02;
-/// Cost of void faces bent by a half turn: of two closings, the one with flat faces is likelier. Rule of
-/// thumb.
+/// Cost of void faces bent by a half turn, added to that of the ends: of two closings, the one with flat
+/// faces is likelier. A higher value drops more closings by bent faces.
 constexpr double kBentVoid = 0.5;
 
 /// Whether the missing faces are one per free loop, so that no void edge is needed and no face has several
@@ -94,7 +95,7 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     double bent = 0, whole = 0;
     for (const FaceId face : sealed.closure.void_faces) {
         const double area = face_area(model, face);
-        // Rated as for ends: times four, so that 90° costs 0.4 of a half turn.
+        // As for ends, four times the area lost by the bend: 90° costs 0.4 of the cost of a half turn.
         bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
         whole += area;
     }

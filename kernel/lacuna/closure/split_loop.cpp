@@ -23,11 +23,11 @@ namespace {
 
 /// Sine of the largest turn of a straight chain.
 constexpr double kStraight = 1e-6;
-/// Sine of the largest angle between parallel sides of a groove: facets of a prism are parallel up to
-/// rounding, those of a bent groove's side are not. Rule of thumb.
+/// Sine of the largest angle between parallel sides of a groove. Facets of a prism are parallel up to
+/// rounding, those of a bent groove's side are not; a higher value takes slightly bent grooves for straight.
 constexpr double kParallel = 0.02;
-/// Ends are congruent if one moved onto the other is off by less than this share of its length: allows for
-/// the sag of round sides, and more. Rule of thumb.
+/// Ends are congruent if one moved onto the other is off by less than this share of its length, more than the
+/// sag of round sides. A higher value takes the ends of a channel with slight taper for congruent.
 constexpr double kAlike = 0.005;
 
 /// The number of consecutive uses of a loop from `start` that lie in one plane.

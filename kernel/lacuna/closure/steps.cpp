@@ -470,7 +470,7 @@ void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunC
     build_loops(volume.model);
 }
 
-/// Cut a volume, and all resulting pieces that are hit, by the planes of some of its faces in turn.
+/// Cut a volume, and all resulting pieces that are crossed, by the planes of some of its faces in turn.
 std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector<FaceId>& faces,
                                      const RunContext& context)
 {

@@ -102,7 +102,8 @@ geometry::Triangulation grid_within(const Outline& outline, double width, double
     // Cells per direction: the facets' error on a twisted patch is then 1/256 of that of two facets. If the
     // sides are finer, they are curved, and the grid is at least as fine.
     constexpr Index kCells = 16;
-    // Upper bound of cells, for the sides of scans: a void face needs no such resolution. Rule of thumb.
+    // Upper bound of cells, for sides as fine as those of scans: a void face needs no such resolution. A
+    // higher bound costs facets; a lower one makes them coarser than the sides earlier.
     constexpr double kMostCells = 1e5;
     const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
     const Index across = std::max(kCells, static_cast<Index>(width / coarser));

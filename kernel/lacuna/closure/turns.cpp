@@ -101,8 +101,9 @@ private:
     std::optional<geometry::FacetTree> tree_;
 };
 
-/// Area of a part's ends that see the opposite end, their own or of other parts, on the side they face, minus
-/// the area of those that see it behind them: the void is between a source and the target it faces.
+/// Area of the ends of part `p` that have an opposite end in front of them, minus the area of those that have
+/// one behind them. If positive, the facets face the void, which lies between source and target.
+/// @param others  true: opposite ends of other parts; false: of part `p` itself.
 double faces_opposite(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts, std::size_t p,
                       PartsSeen& seen, bool others)
 {
@@ -135,9 +136,10 @@ std::vector<char> points_on_edges(const Model& model)
     return on_edge;
 }
 
-/// How far the walls of a part lead off its ends on the side these face, summed over their common sides;
-/// negative if they lead off behind, and 0 if both occur or an end is missing. Walls between two ends run
-/// along the void; only those of a step lead off it.
+/// Sum over the common facet sides of a part's ends and walls of their length times the cosine between the
+/// wall and the end's normal: positive if the walls leave the ends on the side that these face, negative if
+/// on the other side, 0 if both occur or the part lacks an end. Walls that join two ends leave them on the
+/// void's side; only walls of a step leave an end on the other side.
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {
@@ -179,10 +181,11 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
     return before > 0 && behind < 0 ? 0 : before + behind;
 }
 
-/// By part, whether its facets face the void. In a part inside no other, walls that all lead off its two ends
-/// to one side decide; otherwise its ends, if they see the opposite end of another part or, for a part inside
-/// no other, their own; otherwise facets face away from their centre, or towards it if the part is inside
-/// another.
+/// For each part, whether its facets face the void. The first rule that applies decides:
+/// 1. walls of a part inside no other, if they all leave its two ends to the same side;
+/// 2. ends that see an opposite end of another part;
+/// 3. ends of a part inside no other that see its own opposite end;
+/// 4. the void is on the centre's side of the facets, or on the far side for a part inside another.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                     const std::vector<char>& on_edge, const RunContext& context)
 {

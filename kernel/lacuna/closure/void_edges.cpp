@@ -24,11 +24,11 @@ namespace {
 
 /// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
-/// Maximum turn of a smooth curve's tangents, 3/4 of a circle: its handles become infinite at a full one.
-/// Rule of thumb.
+/// Maximum turn of a smooth curve's tangents, 3/4 of a circle. The handles become infinite at a full one; a
+/// higher value lets curves bulge further.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
-/// The ends face each other if their normals point towards each other by more than this share of the chords.
-/// Rule of thumb.
+/// The ends face each other if their normals point towards each other by more than this share of the chords,
+/// which exceeds rounding.
 constexpr double kFacing = 1e-6;
 
 // --- gaps ---------------------------------------------------------------------------------------------

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] bool open(EdgeUse half) const { return halves_.contains(half); }
 
     /// The shortest walk from a half-edge up to, but without, another one; empty if it reaches a dead end.
-    /// @param depth  number of branchings at which the ways on are compared
+    /// @param depth  number of branchings at which the continuations are compared
     [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse from, EdgeUse goal, int depth) const
     {
         std::vector<EdgeUse> path{from};
@@ -98,7 +98,8 @@ private:
     std::map<VertexId, std::vector<EdgeUse>> leaving_;
 };
 
-/// Number of branchings that a walk looks ahead. Rule of thumb.
+/// Number of branchings that a walk looks ahead. The cost multiplies with each; with fewer, a loop is more
+/// often longer than four sides.
 constexpr int kLookAhead = 3;
 
 } // namespace

@@ -20,7 +20,8 @@ using namespace topology;
 
 namespace {
 
-/// Number of other sweep directions that are kept. Rule of thumb: each may cost as much as the first.
+/// Number of other sweep directions that are kept for when the first cannot be meshed. Each may cost as much
+/// time as the first.
 constexpr std::size_t kMostOthers = 3;
 
 /// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
@@ -94,7 +95,7 @@ RoleCandidate way_of(const OpenVolume& volume)
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
     for (const GivenPart* end : {&ends.source, &ends.target})
-        if (!end->all && !end->faces.empty()) return false; // given and new faces in one end
+        if (!end->all && !end->faces.empty()) return false; // an end of given and of void faces
     const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
     return (s == ends.source.faces && t == ends.target.faces) ||
            (t == ends.source.faces && s == ends.target.faces);
@@ -219,7 +220,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     if (!reading.guess) note_hole(model, found.through, names, found.sealed, reading);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     std::vector<RoleCandidate> sweeps;
-    // A void with nothing but two ends was given as such.
+    // If only two ends are given, they are the ends.
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
     if (sweeps.empty() && !found.filled.empty()) sweeps.push_back(way_of(found.sealed.volume));
     if (sweeps.empty()) {

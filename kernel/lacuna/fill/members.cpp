@@ -115,7 +115,7 @@ void check_known_faces(const std::vector<Part>& all)
 
 // --- full turns -------------------------------------------------------------------------------------------
 
-/// With fewer layers one would span 120° or more, which no hexahedron can.
+/// Least number of layers of a full turn: with fewer, one spans 120° or more, too much for a hexahedron.
 constexpr int kLeastPerTurn = 4;
 
 /// Give a piece of a full turn its share of the requested layers.

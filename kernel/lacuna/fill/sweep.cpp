@@ -41,8 +41,8 @@ struct GivenMiddles {
 
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
 {
-    constexpr double kTogether =
-        1e-9; // of the diagonal: reused nodes equal those of the deck except for scaling
+    // Share of the diagonal: reused nodes equal those of the deck up to the rounding of the scale.
+    constexpr double kTogether = 1e-9;
     const GivenMiddles given{volume.decks, kTogether * volume.volume.model.diagonal, volume.scale};
     options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
         return given.find(from.size(), [&](const io::Deck& deck) {

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 
 namespace {
 
-/// Score of a rotation by 180°, relative to a residual as large as the loop. Small, so that it only decides
-/// between fits of about the same residual. Rule of thumb.
+/// Score of a rotation by 180°, relative to a residual as large as the loop. It is small, so that it only
+/// decides between fits of about the same residual; a higher value prefers less rotation to a better fit.
 constexpr double kTurnWeight = 0.1;
 /// Golden-section steps: converges to a millionth of a sample distance.
 constexpr int kSections = 30;

@@ -17,10 +17,11 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Corners further apart than this share of a side are not paired if another corner is closer.
+/// Corners further apart than this share of the longer adjacent side are not paired: another corner is then
+/// closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge.
-/// Rule of thumb.
+/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge. A
+/// lower value leaves shorter edges; a higher one twists void edges more.
 constexpr double kNear = 0.25;
 
 double share(double x)

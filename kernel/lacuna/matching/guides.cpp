@@ -26,8 +26,8 @@ using namespace topology;
 
 namespace {
 
-/// Samples of a section between two side lines, and of a closed section without any. Rules of thumb: an
-/// affine fit needs four points, more average out the facets.
+/// Samples of a section between two side lines, and of a closed section without any. An affine fit needs four
+/// points; more average out the facets and cost time.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
 /// Offset of the first and last level from the rims, so that no level passes through a facet corner there.
@@ -338,9 +338,11 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 /// Number of points that `complete()` adds to an open section.
 constexpr std::size_t kAdded = 2;
 /// Open walls are extrapolated to the rest of their loop if they reach off their own chord by this share of
-/// the loop's reach: an error of the fit is then about doubled at most. Rule of thumb.
+/// the loop's reach: an error of the fit is then about doubled at most. A lower value extrapolates larger
+/// errors; a higher one uses fewer walls.
 constexpr double kReach = 0.5;
 
+/// Whether open walls reach far enough off their chord to extrapolate the rest of their loop.
 /// @param section  of open walls at the rim, without the points of `complete()`. @param rim  the whole loop
 bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
 {

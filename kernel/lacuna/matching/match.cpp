@@ -22,17 +22,17 @@ using namespace topology;
 
 namespace {
 
-/// Below this confidence the second best alignment is reported too: its residual is within a third of the
-/// best. Rule of thumb.
+/// Below this confidence the second best alignment is reported too: its residual is then at most a third
+/// larger than the best. A higher value reports more alternatives that are unlikely to be meant.
 constexpr double kUnsure = 0.25;
-/// Below this confidence, matching numbers of given sides outweigh a fit 2.5 times as good that rotates as
-/// much or more. Ring sectors need it where the outer end is eight times as far out as the inner.
+/// Below this confidence, equal numbers of given sides outweigh a fit up to 2.5 times as good that rotates as
+/// much or more. Ring sectors whose outer end is eight times as far out as the inner need a value this high.
 constexpr double kUnsureBesideSides = 0.6;
-/// Below this confidence they outweigh a fit that rotates less, and the share of half a turn that counts as
-/// equal: a plain prism is not twisted to suit its target mesh. Rules of thumb.
+/// The same confidence against a fit that rotates less, and the difference in rotation that is ignored, as a
+/// share of half a turn. Both are small, so that a plain prism is not twisted to suit its target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
-/// Confidence in a score compared to another.
+/// Confidence that the best score is right: 1 − best / second best.
 double sureness(double best, double second)
 {
     return 1 - std::min(1.0, std::max(best, 1e-12) / std::max(second, 1e-12));

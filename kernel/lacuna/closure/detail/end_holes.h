@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-/// Holes of given ends that have no walls: extending them changes the enclosed volume. Internal to this
-/// folder.
+/// Holes without walls in given ends: the enclosed volume depends on whether they are covered or extended to
+/// the other end. Internal to this folder.
 namespace lacuna::closure {
 
 /// A hole of a given end with no wall along its rim.

@@ -26,11 +26,11 @@ struct MovedEnd {
 /// fitted from the given end's rim to those tops, or an affine map if there are four corners or more. If the
 /// map moves every wall's foot onto its top, it also moves the rest of the rim, including round holes without
 /// walls. Otherwise, missing straight sides become straight lines between tops in one plane. The missing end
-/// then has the given end's shape, and walls are closed between the two. A scale is only taken from walls
-/// along a third of the outline, because the taper of a bore is not that of the outline. No part of the rim
+/// then has the given end's shape, and walls are closed between the two. The scale is fitted only if walls
+/// cover a third of the outline, because the taper of a bore is not that of the outline. No part of the rim
 /// may stay in place.
-/// @param known  whether given points on the missing end's rim and at mid-height of the missing walls lie on
-///                faces that exist already; if those of one end do, nothing is sealed
+/// @param known  whether points on the missing end's rim and at mid-height of the missing walls lie on faces
+///               that exist already; if those of one end do, nothing is sealed
 /// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
 ///          adjacent walls are missing. If there are many such faces, those with the most adjacent faces are
 ///          tried.

@@ -31,7 +31,7 @@ struct PartedVolume {
 
 /// The pieces separated by the partitions, with roles as described at `cut_by_plane()`. Loops as by
 /// `build_loops()`.
-/// @param tool  what cuts, for messages: "the plane".
+/// @param tool  the cutting plane or face, for messages: "the plane".
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 

@@ -35,7 +35,7 @@ struct Void {
 std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& roles,
                            const RunContext& context);
 
-/// Whether volumes are about equal: allows for the sag of facets, and more.
+/// Whether volumes are equal within a tolerance that exceeds the effect of the facets' sag.
 bool same_volume(double a, double b);
 
 /// Whether a void face has a membrane shape.

@@ -15,8 +15,8 @@ struct SplitLoop {
 };
 
 /// Split a non-planar free loop by straight void edges: a loop in two planes into two planar parts; the loop
-/// of a groove without ends and mouth into theirs; the loop of a channel without ends and one wall into two
-/// planar congruent ends and the wall.
+/// of a groove that lacks its ends and its mouth into the loops of these; the loop of a channel that lacks
+/// its ends and one wall into those of two planar congruent ends and of the wall.
 /// @return  empty for any other loop.
 std::optional<SplitLoop> split_loop(topology::Model& model, const topology::Rim& rim);
 

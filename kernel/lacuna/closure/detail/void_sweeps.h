@@ -13,7 +13,7 @@ namespace lacuna::closure {
 /// irregular nodes first, then those with the most even cells.
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
 
-/// Of all candidates, however unlikely, the first that suits and those about as likely.
+/// Of all candidates, including unlikely ones, the first for which `suits` is true and those about as likely.
 /// @param most  number of candidates that are checked in full
 std::vector<topology::RoleCandidate> less_likely(
     const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most,

@@ -20,9 +20,10 @@ bool has_branches(const topology::OpenVolume& volume, const RunContext& context 
 /// Three void faces meet in a line across each mouth, which dips into the main body: one across the main
 /// body, and two from that line to the halves of the mouth. Each arm ends in two of them, so the junction of
 /// a tee of equal tubes consists of three half ellipses. The remaining pieces are cut again, and so are
-/// branches of branches. If branches leave to several sides, or one leaves an arm across the line in its end,
-/// the main body's walls are first split by planes along it through the centre of each mouth: these lines
-/// determine the correspondence on rims that are bent at mouths.
+/// branches of branches. If branches leave to several sides, or one leaves an arm at an angle to the line
+/// across that arm's end, the main body's walls are first split by planes along its axis through the centre
+/// of each mouth and of each such line: the new edges determine the correspondence on rims that are bent at
+/// mouths.
 /// @return  pieces in the order of the cuts; the volume itself if it has no branches.
 /// @throw NotSweepable "closure.branches"  a main body with missing walls at the mouth, or with more than two
 ///         ends; mouths next to each other (names where to cut by hand); a branch that reaches beyond the

@@ -18,9 +18,9 @@ struct Cavity {
     double volume = 0; ///< enclosed once sealed [model length³]
 };
 
-/// The cavities of the solids of a model: hollows of topology::hollows(), alone and merged with those that
-/// share a whole rim, for which find_readings() finds exactly one void, and all without a mouth. In the order
-/// of their first faces.
+/// The cavities of the solids of a model: the hollows of topology::hollows(), each alone and merged with the
+/// others that share a whole rim with it, if they have no mouth or find_readings() finds exactly one void. In
+/// the order of their first faces.
 /// @throw Cancelled
 /// @note  One call of find_readings() per hollow.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});

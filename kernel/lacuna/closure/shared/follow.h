@@ -47,7 +47,8 @@ public:
     /// edges would enclose a different volume. @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
-    /// Largest distance of the walls from straight lines between the rims, as a share of their radius.
+    /// Distance of the walls from straight lines between the rims, as a share of the source rim's radius: for
+    /// each point of the sections the largest over the heights, of these the median.
     [[nodiscard]] double bow() const { return bow_; }
 
     /// Height of a model point on a given wall; NaN for other points.

@@ -22,8 +22,8 @@ struct ModelFacts {
     std::vector<bool> part_closed;                          ///< by connected part: it has no free edge
     std::vector<topology::Gap> gaps;
     std::vector<Cavity> cavities;
-    std::vector<std::size_t> cavity_of; ///< by face: the smallest cavity it belongs to, from 0; their count:
-                                        ///< none
+    std::vector<std::size_t> cavity_of; ///< by face: index of the smallest cavity that it belongs to;
+                                        ///< cavities.size() if there is none
 };
 
 /// @throw Cancelled

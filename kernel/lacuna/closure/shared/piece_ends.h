@@ -15,9 +15,9 @@ namespace lacuna::closure {
 ///
 /// A plane that crosses an end obliquely leaves pieces whose cut is adjacent to the rest of that end. An end
 /// is a connected set of faces whose normals differ by less than 110°; two sets can be ends if each wall runs
-/// from one to the other between two neighbours. The pair with the flattest and most similar ends, most
-/// square to their walls, is taken. User-named ends are preferred, and a cut that is a wall of both adjacent
-/// pieces gets the same sides along the ends of both if possible.
+/// from one to the other between two neighbouring walls. The function takes the pair with the flattest and
+/// most similar ends, most square to their walls. It prefers ends that the user named, and pairs under which
+/// a cut that is a wall of both adjacent pieces has the same sides along the ends of both.
 /// @return  the number of pieces whose ends changed. Pieces without such ends, or with missing faces, are
 ///         unchanged.
 /// @throw Cancelled

@@ -10,7 +10,8 @@
 
 namespace lacuna::matching {
 
-/// Sample points of a loop in a fit. Rule of thumb: the start is refined between samples afterwards.
+/// Sample points of a loop in a fit. Each is tried as the start, so the cost grows with their square; the
+/// best start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
 
 /// Geometry of a loop for matching.
