@@ -24,9 +24,9 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
 {
     if (roles.source.empty() && roles.target.empty())
         throw InvalidInput(Message("lua.walls_without_ends",
-                                   "open_volume: walls = \"auto\" finds the walls from "
-                                   "the rim of the source or the target")
-                               .remedy("name one of them"));
+                                   "open_volume: walls = \"auto\" needs a source or a "
+                                   "target, from whose rim it finds the walls")
+                               .remedy("name one end"));
     const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
     roles.walls = found.walls;
     std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;

@@ -96,9 +96,10 @@ int bend_layers(const Columns& columns, const SweepOptions& options)
 std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
 {
     if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {
-        throw InvalidInput(Message("sweep.too_many", "about {:.2g} layers would be needed at the size",
+        throw InvalidInput(Message("sweep.too_many",
+                                   "this size needs about {:.2g} layers, more than node numbers allow",
                                    needed(columns.sides))
-                               .remedy("give 'layers'"));
+                               .remedy("give 'layers' or a larger 'size'"));
     }
     spec.count = std::max(least, static_cast<int>(std::lround(columns.sides)));
     return layer_heights(spec);

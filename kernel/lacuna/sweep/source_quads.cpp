@@ -216,10 +216,10 @@ void check_cells(const ExpectedCells& expected, const RunContext& context)
     if (expected.unasked > kMostUnasked)
         throw InvalidInput(
             Message("sweep.many_cells",
-                    "about {} cells are to be expected; more than {:.0f} million are made only where "
-                    "both 'size' and 'layers' are given",
+                    "about {} cells are expected, and above {:.0f} million both 'size' and 'layers' must be "
+                    "given",
                     found(cells), needed(kMostUnasked / 1e6))
-                .remedy("ask for a larger 'size', or give both"));
+                .remedy("use a larger 'size', or give both"));
 }
 
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
