@@ -427,16 +427,14 @@ private:
                 front.push_back(next);
             }
         }
-        for (Index& facet : near)
-            facet = facet < 0 ? front.front() : facet; // of another component of the face
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another component
         return near;
     }
 
-    /// Of the first few quads in a list, the one nearest to a point.
+    /// The quad nearest to a point among at most `kMost` of a list, taken at even steps.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        constexpr std::size_t kMost =
-            16; // examined at most; more cost time for each point, fewer send more points to the tree. Not measured
+        constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
         double best = std::numeric_limits<double>::infinity();
         Index nearest = quads.front();
