@@ -139,7 +139,7 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
     }
     // The exact curve differs slightly from its polyline: two steps sufficed in all cases tried.
     constexpr int kSteps = 4;
-    constexpr double kStep = 1e-5; // of the length, for the tangent; a choice
+    constexpr double kStep = 1e-5; // of the length, for the tangent; not measured
     const double step = kStep * chain.length();
     Vec3 point = p;
     for (int i = 0; i < kSteps; ++i) {
