@@ -57,8 +57,10 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(worker, Message("cad.file_changed", "{} must be read by another CAD process", path_),
-                       context);
+    held_ = load_again(
+        worker,
+        Message("cad.file_changed", "the exact geometry of {} is needed in another CAD process", path_),
+        context);
     before.worker->release(before.handle);
     return held_.handle;
 }

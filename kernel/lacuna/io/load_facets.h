@@ -19,17 +19,17 @@ struct FacetFile {
     healing::FacetSoup soup;
     std::vector<int>
         label_tag; ///< tag each label has in the file: of a surface entity, property or group; 0: none
-    /// What the file says of a label beside its name.
+    /// Data of a label in the file, besides its name.
     struct Label {
         std::vector<std::string> groups;               ///< as `topology::Face::groups`
         std::vector<std::vector<std::string>> regions; ///< as `topology::Face::regions`
     };
     std::vector<Label> labels;
-    std::vector<std::string> notes; ///< what was passed over, counted; a sentence each
+    std::vector<std::string> notes; ///< ignored content with counts; one sentence each
 };
 
-/// Read the faces of a file; its ending, in any case, says the format, and its content must agree. What holds
-/// elements is read as read_deck() reads it, and faces are its shells and the skin of its solids.
+/// Read the faces of a file. Its extension, in any case, determines the format, and the content must agree.
+/// Formats with elements are read as by read_deck(); the faces are the shells and the skin of the solids.
 ///
 /// | ending | read | a region or set is |
 /// |---|---|---|
@@ -44,55 +44,56 @@ struct FacetFile {
 /// | .mesh | Medit, text | a reference number |
 /// | .exo .e | Exodus: netCDF's classic formats | a block; a set |
 ///
-/// A label is what shells of one region in the same sets are, or sides of solids between the same regions in
-/// the same surfaces. Higher-order elements give their corners. Nothing is guessed: what is not understood is
-/// an error. Other cells are counted in the notes.
+/// A label stands for shells of one region in the same sets, or for sides of solids between the same regions
+/// in the same surfaces. Higher-order elements are reduced to their corners. Unknown content is an error,
+/// never guessed. Other cells are counted in the notes.
 /// @throw InvalidInput  "io.no_file", "io.not_a_file", "io.empty_file", "io.unknown_ending", "io.no_faces",
 ///                      "io.unreadable" (names the line or byte, what was expected and what was found).
-/// @note  Linear time but for sorting sparse node numbers and cutting polygons that are not convex; memory at
-///        most 20 times the file's size, the file itself included.
+/// @note  Linear time, apart from sorting sparse node numbers and splitting non-convex polygons; memory at
+///        most 20 times the file's size, including the file itself.
 FacetFile read_facets(const std::string& path);
-/// The same of bytes in memory. @param name  stands for the path: its ending, its folder, in messages.
+/// The same for bytes in memory. @param name  takes the place of the path: extension, folder, messages.
 FacetFile read_facets(const std::string& name, std::string_view bytes);
 
 /// Options of `load_facets()` and `cad::load()`.
 struct LoadOptions {
     double tolerance = 0;      ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal
-    double feature_angle = 40; ///< where facets are cut into faces [degrees]
-    bool keep_mesh = true;     ///< quads of FE formats stay as they are
-    double scale = 1;          ///< every coordinate times this, > 0 [-]
-    /// Parts of the meshes that are left out, as `leave_out()` has them; each must be in one file at least.
+    double feature_angle = 40; ///< angle above which facets are split into faces [degrees]
+    bool keep_mesh = true;     ///< quads of FE formats are kept
+    double scale = 1;          ///< factor on every coordinate, > 0 [-]
+    /// Parts of the meshes to leave out, as in `leave_out()`; each must be in at least one file.
     std::vector<std::string> without{};
 };
 
-/// A model and the meshes it was made of.
+/// A model and the meshes that it was made from.
 struct LoadedFiles {
     topology::Model model{};
-    /// Of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
+    /// Decks of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
     std::vector<std::shared_ptr<const Deck>> decks{};
     double scale = 1; ///< of the model's coordinates to the decks' [-]
-    /// Of the model's notes those about what was read otherwise than it stands, which everybody should see.
+    /// Those notes of the model that report content read differently from the file, to be shown to every
+    /// user.
     std::vector<std::string> warnings{};
 };
 
-/// Formats that somebody else reads, all files of theirs at once.
+/// Formats handled by another reader, which reads all its files in one call.
 struct OtherFormats {
-    std::string_view endings; ///< in lower case, a blank between: ".step .stp"
+    std::string_view endings; ///< in lower case, separated by blanks: ".step .stp"
     std::function<LoadedFiles(const std::vector<std::string>& paths, const LoadOptions& options,
                               const RunContext& context)>
         import;
 };
 
-/// Read files into one model. Facets are cut into faces by healing::split_facets(); a face that is all of a
-/// label has the label's tag, the others count on from the highest; tags of later files go on from those of
-/// the first. Faces that do not share edges are joined by healing::stitch().
-/// @param others  formats beside those of read_facets().
+/// Read files into one model. Facets are split into faces by healing::split_facets(); a face that is a whole
+/// label has the label's tag, others follow the highest tag; tags of later files follow those of the first.
+/// Faces without shared edges are joined by healing::stitch().
+/// @param others  formats besides those of read_facets().
 /// @throw InvalidInput  as read_facets() and leave_out(), or an option out of range: "io.scale",
 ///                      "io.tolerance".
 topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options = {},
                             const RunContext& context = {}, const OtherFormats& others = {});
 
-/// load_facets() that hands the meshes over as well.
+/// load_facets() that returns the meshes too.
 LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions& options = {},
                        const RunContext& context = {}, const OtherFormats& others = {});
 

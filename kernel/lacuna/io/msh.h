@@ -14,8 +14,8 @@ inline void write_msh(const mesh::HexMesh& mesh, const OutputPath& path, const M
     write_mesh(format_of(DeckFormat::msh), mesh, path, options, {}, context);
 }
 
-/// Write the options that Gmsh reads with a mesh when they lie beside it as "<mesh>.msh.opt": faces and sides
-/// of cells, a colour a physical group. The file says in words what it does.
+/// Write the options that Gmsh reads with a mesh if they are next to it as "<mesh>.msh.opt": show faces and
+/// sides of cells, one colour for each physical group. Comments in the file explain its effect.
 /// @throw  as `WholeFile`.
 void write_msh_options(const OutputPath& path);
 

@@ -61,7 +61,8 @@ public:
                 Message("surface.layers_unreached",
                         "{} has boundary layers but touches neither source nor target",
                         entity_of(model_, wall))
-                    .remedy("add the wall below or above it, or all walls: walls = \"walls\""));
+                    .remedy("add the wall below or above it to 'boundary_layers', or all walls with "
+                            "walls = \"walls\""));
         }
         for (const FaceId face : volume_.faces(Role::source)) find_ends(face);
         return std::move(rows_);

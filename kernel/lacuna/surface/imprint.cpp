@@ -116,10 +116,11 @@ private:
         for (const FaceId face : result_.volume->faces(Role::source)) {
             if (model()[face].given_quads.empty()) continue;
             throw NotSweepable(Message("surface.not_imprinted",
-                                       "{} lies inside one end and cannot be imprinted on the other: {} came "
-                                       "with quads",
+                                       "{} lies inside one end and cannot be imprinted on the other: {} "
+                                       "keeps its given quads and cannot be split",
                                        entity_of(model(), inner_.front()), entity_of(model(), face))
-                                   .remedy("load with keep_mesh = false, or choose one face as the target"));
+                                   .remedy("load with keep_mesh = false, or choose a target that is a single "
+                                           "face"));
         }
     }
 

@@ -73,7 +73,8 @@ double nearest_turn(double at, double to, double length)
     return at + std::round((to - at) / length) * length;
 }
 
-/// Snap the breaks between segments to nearby vertices, unless they are vertices of this rim.
+/// Snap each break between segments to the nearest of `vertices`, unless the break is already a vertex of
+/// this rim.
 template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)

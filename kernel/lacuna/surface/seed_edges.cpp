@@ -66,8 +66,9 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// A face of quads and triangles is a mesh, but hexahedra cannot stand on its triangles; a face of triangles
-/// only is a shape. If the face is remeshed on request, a note says so.
+/// Hexahedra cannot be swept from a given mesh of quads and triangles. Adds a note if the user requested to
+/// remesh the face. A face with triangles only is treated as geometry, not as a mesh.
+/// @throw NotSweepable  such a mesh with quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
     const Face& f = task.model[face];

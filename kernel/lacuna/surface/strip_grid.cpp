@@ -50,8 +50,8 @@ private:
         if (most >= layers) {
             throw NotSweepable(
                 Message("surface.too_few_layers",
-                        "{} runs around the walls between source and target, as do edges at {} "
-                        "heights in all; each height needs a layer, and {} are given",
+                        "{} and any other edges around the walls lie at {} height(s) between source and "
+                        "target; layers must meet at each height, and layers = {} is too few",
                         entity_of(model, net_.levels.front().edge), most, found(layers))
                     .remedy("use layers = {} or more", needed(most + 1)));
         }

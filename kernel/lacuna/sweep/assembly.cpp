@@ -29,7 +29,7 @@ using namespace topology;
 
 namespace {
 
-/// Hand a face's mesh on to the volume behind it.
+/// Copy a face's mesh to the face of the neighbouring volume.
 void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
 {
     const QuadsAlone mesh = quads_alone(quads_on(part.mesh, part.faces, from));
@@ -38,18 +38,18 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
     give_mesh(volume, to, nodes, mesh.quads);
 }
 
-/// Two meshes of a shared face are the same where their nodes are apart by no more than this part of the
-/// largest coordinate: rounding of the same patch in another order.
+/// Relative tolerance, to the largest coordinate, within which two meshes of a shared face are equal:
+/// rounding of the same patch computed in another order.
 constexpr double kRounding = 1e-12;
-/// The facets of a flat face have areas that add up to the face's but for this share.
+/// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
 constexpr double kFlat = 1e-9;
 
 /// Codes of errors whose remedy is to remesh a given face, or to load it without its mesh.
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
 
-/// Why a member failed. If it came without a mesh, quads that stay were made by neighbours that were meshed
-/// before it, so that loading it in another way helps nothing.
+/// The reason for a member's failure. If the member was given without a mesh, its kept quads come from
+/// neighbours that were meshed earlier, so the advice to load it differently does not apply.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
@@ -59,24 +59,24 @@ Message why_failed(const AssemblyMember& member, const Error& error)
         "and 'layers'");
 }
 
-/// A member's own mesh of a shared face came out unlike its neighbour's.
+/// A member's own mesh of a shared face differs from its neighbour's.
 struct UnlikeNeighbour : Error {
     using Error::Error;
 };
 
-/// A member could not be swept, alone or where others had been before it.
+/// A member could not be swept, either alone or with the meshes of its neighbours.
 struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
 };
 
-/// What a part came out of: the neighbours that were there, and how often each had been swept.
+/// The neighbours that a part was computed with, and how often each had been swept.
 using Inputs = std::vector<std::pair<std::size_t, int>>;
 
-/// What is known of a part besides its mesh.
+/// State of a part, in addition to its mesh.
 struct PartState {
-    std::optional<Inputs> inputs;         ///< of a part that is there
-    int times_swept = 0;                  ///< tries that failed too
+    std::optional<Inputs> inputs;         ///< of a part that exists
+    int times_swept = 0;                  ///< including failed attempts
     std::vector<std::string> shared;      ///< lines of the report
     std::optional<SharedMiddles> middles; ///< at order 2
 };
@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    /// Say once each what several members may have taken by default.
+    /// Log defaults that several members share once.
     void log_defaults() const
     {
         std::set<std::string> said;
@@ -164,7 +164,7 @@ private:
         check_cells(all, context_);
     }
 
-    /// Volumes of the assembler's own, which it may split.
+    /// Copies of the volumes, which the assembler may split.
     void copy_volumes()
     {
         if (!imprinted_.empty()) return;
@@ -172,7 +172,7 @@ private:
         for (std::size_t m = 0; m < members_.size(); ++m) members_[m].volume = &imprinted_[m];
     }
 
-    /// Faces that are shared in part are split first.
+    /// Split faces that are shared in part.
     void find_shared()
     {
         FacesInCommon found = faces_in_common(members_, context_);
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    /// Split ends along lines that neighbours need. @return  whether there are any
+    /// Split ends along lines that neighbours need. @return  whether any end was split
     bool carry_lines()
     {
         copy_volumes();
@@ -201,7 +201,7 @@ private:
             if (faces_of_fixed() != before) return false; // their quads stay as they are
         } catch (const Cancelled&) {
             throw;
-        } catch (const Error& error) { // what was wrong first says more
+        } catch (const Error& error) { // the first error is more informative
             log_line(context_, error.message().text());
         }
         notes_.insert(notes_.end(), lines.begin(), lines.end());
@@ -228,7 +228,8 @@ private:
         sweep_all();
     }
 
-    /// In the plan's order; where a member cannot keep what others have made, it goes before them.
+    /// Sweep the members in the plan's order. A member that cannot keep its neighbours' meshes is moved
+    /// before them.
     void sweep_all()
     {
         std::vector<std::size_t> first;
@@ -265,7 +266,7 @@ private:
         for (const std::size_t m : order_) {
             check_cancelled(context_);
             const std::vector<Neighbour> neighbours = shared_with(m, done);
-            // Middle nodes agree along edges too.
+            // Middle nodes on edges must agree too.
             const std::vector<std::size_t> touching = members_[m].options.order > 1
                                                           ? touching_before(m, done)
                                                           : std::vector<std::size_t>{};
@@ -294,13 +295,13 @@ private:
         return std::nullopt;
     }
 
-    /// A face of a member and the same one of another.
+    /// A face of a member, and the same face of another member.
     struct Neighbour {
         FaceId own;
         std::size_t other;
         FaceId there;
     };
-    /// Faces that a member shares with those that are done.
+    /// Faces that a member shares with members that are meshed already.
     [[nodiscard]] std::vector<Neighbour> shared_with(std::size_t m, const std::vector<char>& done) const
     {
         std::vector<Neighbour> found;
@@ -318,8 +319,9 @@ private:
         return shared;
     }
 
-    /// Faces whose rim alone says what their mesh is are left to the member itself, which is checked; meshes
-    /// of others are handed on to it, and so are all where it came to another mesh.
+    /// Faces whose mesh follows from their rims alone are left to the member itself, and the result is
+    /// checked. Other meshes of neighbours are copied to it; all are copied if the member arrived at a
+    /// different mesh.
     void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
                    const std::vector<std::size_t>& touching)
     {
@@ -337,7 +339,7 @@ private:
     {
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
-        options.fallback = Fallback::none; // the whole is worked out anew
+        options.fallback = Fallback::none; // the whole assembly is computed again
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
@@ -350,16 +352,16 @@ private:
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
             give_edge_nodes(volume, plan_.nodes[m]);
-            // Rows along walls run on across a shared face: both sides make them there.
+            // Rows along walls continue across a shared face: each side makes them itself.
             if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
                 for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
             for (const auto& [own, other, from] : handed) {
                 hand_on(result_.parts[other], from, volume, own);
-                // Where the face is void, what the neighbour has there is the shape.
+                // On a void face, the neighbour's mesh defines the shape.
                 if (volume.model[own].origin == Origin::made_void)
                     hand_on(result_.parts[other], from, sealed, own);
             }
-            // Shape is that of the volume as it was sealed, not as its neighbours' quads bound it.
+            // The shape is compared with the volume as sealed, not with the neighbours' quads on its rim.
             if (!plan_.nodes[m].empty() || !handed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
@@ -373,7 +375,7 @@ private:
         }
     }
 
-    /// Members that are there and may touch another, by their boxes.
+    /// Members that are meshed already and whose boxes overlap this member's.
     [[nodiscard]] std::vector<std::size_t> touching_before(std::size_t m, const std::vector<char>& done)
     {
         if (boxes_.empty()) {
@@ -391,7 +393,7 @@ private:
         return found;
     }
 
-    /// Middle nodes of those that are there, before those that a person's decks give.
+    /// Add the middle nodes of meshed members before those from the user's files.
     void give_middles(const std::vector<std::size_t>& from_members, SecondOrderOptions& options) const
     {
         const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -416,7 +418,7 @@ private:
         };
     }
 
-    /// Keep a part's middle nodes for those that come after, and see that it kept theirs.
+    /// Keep a part's middle nodes for later members, and check that it kept those of earlier ones.
     void keep_middles(std::size_t m, const std::vector<std::size_t>& from_members)
     {
         const Swept& part = result_.parts[m];
@@ -431,8 +433,8 @@ private:
         }
     }
 
-    /// Whether a member will mesh a face as its neighbour did: flat, with four edges whose nodes are planned,
-    /// and a grid there that was made here.
+    /// Whether a member will mesh a face as its neighbour did: a flat face with four edges whose nodes are
+    /// planned, and a grid generated by the neighbour.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
         if (members_[n.other].fixed != nullptr) return false;
@@ -455,7 +457,7 @@ private:
                face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
     }
 
-    /// The neighbours' nodes that a member's nodes on faces are to be laid onto.
+    /// The neighbours' nodes onto which a member's face nodes are moved.
     SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const mesh::SkinNodes& skin,
                         const std::vector<FaceId>& faces)
     {
@@ -483,8 +485,8 @@ private:
         return largest;
     }
 
-    /// Cells have their member's name; so have the roles of faces, unless it is alone. What lies between two
-    /// pieces of one volume is in no group.
+    /// Name the groups of cells and roles after their member, unless it is alone. Faces between two pieces of
+    /// one volume are in no group.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -507,7 +509,7 @@ private:
         }
     }
 
-    /// Give patches of a piece the groups that the faces have in the whole.
+    /// Give patches of a piece the groups of the whole volume's faces.
     static void take_roles(const OpenVolume& whole, std::vector<mesh::SkinPatch>& patches)
     {
         std::map<int, std::vector<std::string>> of_tag;
@@ -520,7 +522,7 @@ private:
                 patch.groups = found->second;
     }
 
-    /// Tell roles apart by the member's name.
+    /// Prefix groups of roles with the member's name.
     static void add_member_name(const std::string& name, mesh::SkinPatch& patch)
     {
         std::vector<std::string> groups;
@@ -537,7 +539,7 @@ private:
         return quads_on(result_.parts[m].mesh, result_.parts[m].faces, face);
     }
 
-    /// The quads of faces that members before this one have too are theirs, to the bit.
+    /// Check that quads on faces shared with earlier members are bit-identical to theirs.
     void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const Swept& part = result_.parts[m];
@@ -564,14 +566,14 @@ private:
     }
 
     std::vector<AssemblyMember> members_;
-    std::vector<OpenVolume> imprinted_; ///< the members' volumes, where faces of any had to be split
-    std::vector<std::string> notes_;    ///< of the report: what was imprinted, near misses
+    std::vector<OpenVolume> imprinted_; ///< the members' volumes, if faces had to be split
+    std::vector<std::string> notes_;    ///< of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
-    std::vector<std::set<std::size_t>> before_; ///< of each member, those that must come before it
+    std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
-    std::vector<PartState> states_;          ///< of each part
-    std::vector<SharedNodes> pairs_;         ///< of each part with those before it
+    std::vector<PartState> states_;          ///< for each part
+    std::vector<SharedNodes> pairs_;         ///< for each part, its pairs with earlier parts
     std::vector<Eigen::AlignedBox3d> boxes_; ///< of each member, at order 2
     SweptAssembly result_;
 };
@@ -610,7 +612,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
                 member.options.wedges = true;
                 without_wedges.emplace(member.region, failed);
             } else if (const auto first = without_wedges.find(member.region); first != without_wedges.end()) {
-                throw MemberFailed(first->second); // says more than what fails with wedges
+                throw MemberFailed(first->second); // more informative than the error with wedges
             } else if (fallback == Fallback::leave_out && left.size() > 1) {
                 left_out.push_back({member.region, failed.message()});
                 left.erase(left.begin() + static_cast<std::ptrdiff_t>(failed.member));

@@ -26,10 +26,10 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// Chords that cross at less than this sine run along each other: ends of either are what counts then.
+/// Chords that cross at less than this sine are parallel: then only their ends count.
 constexpr double kAlong = 1e-6;
 
-/// Where two chords cross, half way between them; nothing where they run along each other or are apart.
+/// The midpoint of the shortest connection of two chords; empty if they are parallel or too far apart.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
@@ -42,12 +42,13 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
-/// One face of one volume that another's rim is laid onto.
+/// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
     FaceCutter(Model& model, FaceId face) : model_(model), face_(face), tolerance_(model.tolerance) {}
 
-    /// Cut the facets along a chain of places near the face. @return  its points; empty: it leaves the face
+    /// Cut the facets along a chain of points near the face. @return  its points; empty: the chain leaves the
+    /// face
     std::vector<Index> lay(const std::vector<Vec3>& line)
     {
         std::vector<Index> stops;
@@ -82,7 +83,7 @@ private:
         if (!face().uv.empty() || face().surface) face().uv.push_back(facet.uv);
     }
 
-    /// The point of the facets at a place: a corner, one put on a side, or one put within a facet.
+    /// The facet point at a position: a corner, or a new point on a side or inside a facet.
     Index point_at(const Vec3& p)
     {
         geometry::FacetTree::Hit best;
@@ -118,7 +119,8 @@ private:
         return made;
     }
 
-    /// A point on a side between two facets of the face; -1 on the face's rim, which has its points.
+    /// Insert a point on a side between two facets of the face. @return  -1 on the face's rim, which keeps
+    /// its points.
     Index split_side(Index a, Index b, double fraction)
     {
         int beside = 0;
@@ -141,7 +143,7 @@ private:
         return made;
     }
 
-    /// Straight from a point to another, along the facets.
+    /// Cut along a straight line from one point to another, along the facets.
     bool cut_between(Index from, Index to, std::vector<Index>& chain)
     {
         const Vec3 target = model_.at(to);
@@ -190,14 +192,14 @@ private:
 struct SideOfPair {
     OpenVolume* volume;
     FaceId face;
-    bool fixed = false;   ///< the skin of a mesh that stays as it is
+    bool fixed = false;   ///< the skin of a given mesh, which is not changed
     NamedEntity whole{};  ///< the face before parts were split off
     std::string region{}; ///< of the member
 
     [[nodiscard]] Model& model() const { return volume->model; }
 };
 
-/// Make the place of a rim closest to a point a vertex, if it is near enough.
+/// Make the point of a rim closest to `p` a vertex, if it is within the tolerance.
 void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
 {
     Model& model = side.model();
@@ -248,7 +250,7 @@ std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPa
     return lines;
 }
 
-/// Lay chains onto a face and split it. @return  its parts, the face itself first; empty: a chain leaves it
+/// Cut a face along chains. @return  its parts, the face itself first; empty: a chain leaves the face
 std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::vector<Vec3>>& lines,
                                 const RunContext& context)
 {
@@ -266,7 +268,7 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
     }
     const std::size_t edges = model.edges.size();
     const WalkImprint made = imprint_walks(model, walks, {}, model.tolerance, context);
-    // They are chains, not where a plane cuts the surface.
+    // The new edges are chains, not intersections of the surface with a plane.
     for (std::size_t e = edges; e < model.edges.size(); ++e) {
         if (model.edges[e].origin != Origin::made_void) continue;
         model.edges[e].curve = nullptr;
@@ -280,7 +282,7 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
     return parts;
 }
 
-/// What both sides of a pair fall apart into.
+/// The parts of both faces of a pair.
 struct Parts {
     std::vector<FaceId> a, b;
 };
@@ -351,7 +353,7 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
             return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
                               members[m].region};
         };
-        // Parts made on the way are met by those of the other.
+        // Parts made in earlier steps are compared with those of the other side.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);

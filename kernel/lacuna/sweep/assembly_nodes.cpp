@@ -25,7 +25,7 @@ struct PartNode {
     friend auto operator<=>(const PartNode&, const PartNode&) = default;
 };
 
-/// Each node but the first in its place, with that first one.
+/// Each node that coincides with earlier ones, with the first of them.
 std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& assembly,
                                                           const std::vector<PartNode>& nodes)
 {
@@ -67,7 +67,7 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared)
 {
     std::vector<PartNode> by_place;
-    std::vector<std::vector<Index>> on_border(assembly.parts.size()); // rising
+    std::vector<std::vector<Index>> on_border(assembly.parts.size()); // increasing
     for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
         const mesh::HexMesh& mesh = assembly.parts[p].mesh;
         for (const Segment& side : patch_borders(mesh))
@@ -120,7 +120,7 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         std::size_t part;
         Segment nodes;
     };
-    // Each place once, by its number in the whole.
+    // Each position once, by its number in the whole mesh.
     std::vector<EdgeSide> sides;
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<std::pair<std::size_t, Index>> at;

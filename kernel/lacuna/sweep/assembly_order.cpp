@@ -12,8 +12,8 @@ using namespace topology;
 
 namespace {
 
-/// Of each member, whether source and target are several faces each, or another of which they are waits for
-/// it: such a member imprints one end on the other while no one has meshed them.
+/// For each member, whether both source and target have several faces, or a member for which this is true
+/// must follow it: such a member imprints one end on the other before any neighbour has meshed them.
 std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
                                      std::span<const std::set<std::size_t>> before)
 {

@@ -32,20 +32,22 @@ using namespace topology;
 
 namespace {
 
-/// Edges of two members are one where their middles are no further apart than this share of their length,
-/// ends apart: facets of other fineness have their middles a little elsewhere.
+/// Edges of two members are the same if their midpoints differ by no more than this share of their length,
+/// besides matching ends: facets of different fineness have slightly different midpoints.
 constexpr double kSameMiddle = 1e-2;
-/// Means of one closed curve by two rows of chords are apart by no more than this part of their sag. A
-/// choice.
+/// Mean points of a closed curve, computed from two sets of chords, may differ by this share of the chords'
+/// sag. A higher value merges different curves, a lower one separates equal curves with different chords. Not
+/// measured.
 constexpr double kSameCentre = 0.2;
-/// Nodes that edges of several members may have in all: with more the memory goes before anything is meshed.
+/// Maximum number of nodes on edges of all members: with more, memory runs out before anything is meshed.
 constexpr double kMostNodes = 2e7;
-/// Edges that a segment of a rim reaches by less than this part of its length are not its own.
+/// A rim segment does not include edges that it covers by less than this share of its length.
 constexpr double kInset = 1e-3;
-/// Rows of two members are the same where they differ by less than this part of their thickness: what rows
-/// keep to in one volume.
+/// Rows of two members are equal if they differ by less than this share of their thickness: the tolerance of
+/// rows within one volume.
 constexpr double kSameRows = 0.02;
-/// Rounds of making ends even. Each bumps a class; a choice, far above what families of blocks need.
+/// Bound on the rounds of making ends even. Each round adds a side to one class; families of blocks need far
+/// fewer.
 constexpr int kRounds = 64;
 
 /// An edge of a member.
@@ -54,8 +56,8 @@ struct MemberEdge {
     EdgeId edge;
     double length = 0;
     Vec3 from = Vec3::Zero(), middle = Vec3::Zero(), to = Vec3::Zero();
-    Vec3 centre = Vec3::Zero(); ///< mean place along it
-    double sag = 0;             ///< how far the curve may be off its points' chain
+    Vec3 centre = Vec3::Zero(); ///< mean point of it
+    double sag = 0;             ///< maximum distance of the curve from its chain of points
     Eigen::AlignedBox3d box;
     bool closed = false;
 };
@@ -95,7 +97,7 @@ public:
     }
 
 private:
-    /// Rows of boundary layers at an end of an edge, and whose they are.
+    /// Rows of boundary layers at an end of an edge, and the member they belong to.
     struct RowsHere {
         std::vector<double> places; ///< running lengths from that end
         std::size_t member = 0;
@@ -131,7 +133,7 @@ private:
         const double slack = tolerance + kSameMiddle * a.length;
         if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
         if (a.closed) {
-            // Chords of one curve differ by no more than they sag, and the means of both hardly at all.
+            // Chords of the same curve differ by at most their sag, and their mean points hardly at all.
             const double off = tolerance + 2 * std::max(a.sag, b.sag);
             return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
                    (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);
@@ -141,7 +143,7 @@ private:
         return (along || back) && (a.middle - b.middle).norm() <= slack;
     }
 
-    /// The same edge in several members.
+    /// Find the same edge in several members.
     void find_same()
     {
         std::vector<std::size_t> order(edges_.size());
@@ -161,7 +163,7 @@ private:
         }
     }
 
-    /// Edges that one sweep gives the same number.
+    /// Join edges to which one sweep gives the same number of sides.
     void join_by_sweep(std::size_t m)
     {
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
@@ -171,7 +173,7 @@ private:
         for (const surface::LinkingSurface& link : links) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
-                // A segment may run along several edges of the target: from the first to the last of them.
+                // A segment may cover several edges of the target, from the first to the last of them.
                 const double whole = link.target.length();
                 const double inset = kInset * (segment.target_to - segment.target_from);
                 const auto use_at = [&](double at) {
@@ -188,7 +190,7 @@ private:
                 }
             }
             for (const surface::LinkingLine& line : link.lines) {
-                if (line.line.uses.size() != 1) { // how many sides each edge gets is the sweep's matter
+                if (line.line.uses.size() != 1) { // the sweep decides how many sides each edge gets
                     for (const EdgeUse& use : line.line.uses)
                         stacked_.insert(same_.find(number(m, use.edge)));
                     continue;
@@ -203,7 +205,7 @@ private:
         }
     }
 
-    /// What the member's volume asks for.
+    /// Numbers required by the member's volume.
     void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const OpenVolume& volume = *members_[m].volume;
@@ -223,7 +225,7 @@ private:
         }
     }
 
-    /// What a member's intervals ask for. What is wrong with them its own sweep says.
+    /// Interval requests of a member. The member's own sweep reports errors in them.
     void find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const AssemblyMember& member = members_[m];
@@ -237,16 +239,16 @@ private:
         }
     }
 
-    /// An edge of the source as intervals ask for it.
+    /// An edge of the source with an interval request.
     struct EdgeAsked {
         EdgeId edge;
-        double covered = 0; ///< share of its length that they are about
-        double length = 0;  ///< of that [model length]
+        double covered = 0; ///< share of its length that the request covers
+        double length = 0;  ///< covered length [model length]
         bool reversed = false;
     };
 
-    /// Numbers of sides that intervals ask for, by class; where they are about parts of an edge, how many it
-    /// gets in all is the sweep's matter.
+    /// Requested numbers of sides by class. If a request covers only parts of an edge, the sweep decides the
+    /// edge's total.
     void ask_sides()
     {
         for (const auto& [m, demands] : demands_) {
@@ -265,7 +267,7 @@ private:
             }
         }
     }
-    /// The corners between the edges are the nodes nearest to them by the length, a side at least each.
+    /// Corners between edges become the nodes nearest to them by length, with at least one side per edge.
     void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges)
     {
         double all = 0, until = 0;
@@ -286,8 +288,8 @@ private:
     }
     struct SidesOfClass {
         int count = 0;
-        std::string region; ///< of the member that asks
-        Argument name;      ///< of what asks there
+        std::string region; ///< of the member with the request
+        Argument name;      ///< of the entity with the request
     };
     void ask_class(std::size_t e, const SidesOfClass& sides)
     {
@@ -301,9 +303,9 @@ private:
                                .remedy("volumes that share edges have as many sides there"));
     }
 
-    /// Walls have rows and columns, and so has an end of one member that is a wall of another: opposite edges
-    /// agree. They do on all shared ends of four edges, so that every volume with such an end comes to the
-    /// same quads.
+    /// Opposite edges of walls have equal numbers because walls have rows and columns; so have those of an
+    /// end that is a wall of another member. Applied to all shared ends of four edges, so that every volume
+    /// with such an end gets the same quads.
     void join_opposite()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -316,10 +318,10 @@ private:
             join_opposite(face.b, face.face_b, rows);
         }
     }
-    /// @param rows  a face with two rims has as many nodes on both.
+    /// @param rows  a face with two rims has the same number of nodes on both.
     void join_opposite(std::size_t m, FaceId face, bool rows)
     {
-        if (members_[m].fixed != nullptr) return; // it has its quads
+        if (members_[m].fixed != nullptr) return; // it keeps its quads
         const std::vector<Loop> loops = border_loops(model(m), face);
         if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
             classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));
@@ -328,12 +330,12 @@ private:
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
     }
 
-    /// An edge of facets with the vertices that are nodes, as shares of its length.
+    /// An edge of facets, and its vertices that become nodes, as shares of its length.
     struct Followed {
         std::size_t edge = 0;
         std::vector<double> ends;
     };
-    /// Sides between these, of about the size.
+    /// Number of sides between these vertices at about the requested size.
     [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const
     {
         double sides = 0;
@@ -342,7 +344,7 @@ private:
                                               size(edge.member, edge.middle)));
         return sides;
     }
-    /// So many sides between these, the longest divided first.
+    /// Distribute `count` sides between these positions; the longest interval is divided first.
     static std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
     {
         std::vector<int> parts(ends.size() - 1, 1);
@@ -361,7 +363,7 @@ private:
         return at;
     }
 
-    /// Sides an edge wants by its member's size and curvature.
+    /// Sides that an edge needs by its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
@@ -403,8 +405,8 @@ private:
         return static_cast<int>(model(edges_[e].member)[edges_[e].edge].points.size()) - 1;
     }
 
-    /// Edges that came with nodes that stay. Of the same one in several members, one with quads beside it
-    /// comes before one that bounds a mere shape.
+    /// Find edges with given nodes that are kept. If several members have the same edge, one next to given
+    /// quads takes precedence over one on the rim of a face that is only geometry.
     void find_kept()
     {
         kept_.assign(edges_.size(), Kept::no);
@@ -424,21 +426,22 @@ private:
         }
     }
 
-    /// Whether the same edge runs the same way in two members.
+    /// Whether the same edge has the same direction in two members.
     static bool run_alike(const MemberEdge& a, const MemberEdge& b)
     {
         return (a.from - b.from).norm() <= (a.from - b.to).norm();
     }
-    /// Whether a member's edge runs as the one that stands for it does.
+    /// Whether a member's edge has the direction of the edge that represents it.
     [[nodiscard]] bool runs_along(std::size_t e) const { return run_alike(edges_[e], edges_[same_.find(e)]); }
 
-    /// Where rows of boundary layers end on edges: one of several members has them for all.
+    /// Find edges on which rows of boundary layers end: the rows of one member apply to all members of the
+    /// edge.
     void find_rows()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
             for (auto& [edge, rows] : edge_rows(members_[m])) {
                 const std::size_t e = number(m, edge);
-                if (edges_[e].closed || kept_[e] == Kept::quads) continue; // its nodes are there
+                if (edges_[e].closed || kept_[e] == Kept::quads) continue; // its nodes are given
                 if (!runs_along(e)) std::swap(rows[0], rows[1]);
                 std::array<RowsHere, 2>& here = rows_[same_.find(e)];
                 for (std::size_t k = 0; k < 2; ++k) {
@@ -449,7 +452,8 @@ private:
                 }
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
-                if (taken >= edges_[e].length) rows_.erase(same_.find(e)); // the sweep says how much there is
+                if (taken >= edges_[e].length)
+                    rows_.erase(same_.find(e)); // the sweep reports the available length
             }
         }
     }
@@ -477,7 +481,7 @@ private:
                 .remedy("give both faces one table"));
     }
 
-    /// Sides that rows take of an edge and what is left of its length, both as it is.
+    /// Number of sides that rows take of an edge, and the remaining length [model length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const
     {
         const auto found = rows_.find(same_.find(e));
@@ -491,7 +495,7 @@ private:
         return {taken, left};
     }
 
-    /// Nodes for rows need that many sides.
+    /// Check that edges have enough sides for their rows.
     void check_rows() const
     {
         for (const auto& [e, ends] : rows_) {
@@ -509,7 +513,7 @@ private:
         }
     }
 
-    /// A number for each class.
+    /// Determine the number of sides of each class.
     void count()
     {
         std::map<std::size_t, std::size_t> asked; // class: member
@@ -556,7 +560,7 @@ private:
             asked_.insert(of);
         }
         for (const auto& [of, sides] : intervals_) {
-            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep says how many there are
+            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports the number
             count_[of] = sides.count;
             asked_.insert(of);
         }
@@ -566,7 +570,7 @@ private:
         check_rows();
     }
 
-    /// Ends of which every edge is shared, or came with nodes, have an even number of sides in all.
+    /// Make the number of sides even on ends whose edges are all shared or have given nodes.
     void make_even()
     {
         for (int round = 0; round < kRounds; ++round) {
@@ -581,10 +585,10 @@ private:
         }
     }
 
-    /// @return  whether a class got more.
+    /// @return  whether a class got more sides.
     bool make_even(std::size_t m, FaceId face, int round)
     {
-        std::map<std::size_t, int> uses; // of each class
+        std::map<std::size_t, int> uses; // uses of each class
         int sides = 0;
         for (const Loop& loop : border_loops(model(m), face)) {
             for (const EdgeUse& use : loop.uses) {
@@ -599,8 +603,8 @@ private:
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
-            // Later rounds take the next one, so that ends do not chase each other; nodes that came with a
-            // shape give way last.
+            // Later rounds take the next class, so that ends do not undo each other's changes; given nodes of
+            // faces that are only geometry are changed last.
             const auto before = [&](std::size_t a, std::size_t b) {
                 return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
                        std::tuple(kept_of_class_.at(b) != Kept::rim, -bumps_[b], count_.at(b));
@@ -613,7 +617,7 @@ private:
         return true;
     }
 
-    /// Nodes of an edge that several members have, as it runs in the first of them.
+    /// Nodes of an edge shared by several members, in the direction of the first member's edge.
     [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
     {
         const MemberEdge& edge = edges_[e];
@@ -627,7 +631,7 @@ private:
         }
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
-        // Layers as they are spread in a member that asks for it.
+        // Layers are spaced as in a member whose options require it.
         for (const auto& [m, sides] : sides_) {
             const LayerSpec& spec = members_[m].options.layers;
             if (spec.heights.empty() && spec.bias == 1) continue;
@@ -649,7 +653,7 @@ private:
             at = with_rows(found->second, edge.length, runs_along(e), count);
         return surface::edge_points(model(edge.member), edge.edge, at);
     }
-    /// Shares of an edge's length: the rows of its ends, and even sides between.
+    /// Node positions as shares of an edge's length: the rows at its ends, and uniform sides between.
     static std::vector<double> with_rows(const std::array<RowsHere, 2>& ends, double length, bool along,
                                          int count)
     {
@@ -681,7 +685,8 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // What bounds a mere shape gives way where the members' number is not its own.
+            // Given nodes on the rim of a face that is only geometry are dropped if the member's number of
+            // sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
             auto found = nodes.find(same_.find(e));
@@ -703,7 +708,7 @@ private:
         return plan;
     }
 
-    /// Edges on the rim of an end, and side lines: others, round the walls, follow from those.
+    /// Edges on the rims of ends, and side lines; other edges on walls follow from these.
     [[nodiscard]] std::vector<bool> find_frame() const
     {
         std::vector<bool> frame;
@@ -718,7 +723,7 @@ private:
         return frame;
     }
 
-    /// The place of a vertex, the same to the bit for all edges and members that meet there.
+    /// The position of a vertex, bit-identical for all edges and members that meet there.
     const Vec3& corner_at(const Vec3& p, double tolerance)
     {
         for (const Vec3& corner : corners_)
@@ -726,7 +731,7 @@ private:
         return corners_.emplace_back(p);
     }
 
-    /// Of the same edge in several members, one that came with nodes, or with an exact curve.
+    /// Of the same edge in several members, one with given nodes or with an exact curve.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
@@ -740,7 +745,8 @@ private:
         return root;
     }
 
-    /// Nodes as a member's edge runs; a closed one starts at its own vertex's nearest.
+    /// Put nodes in the direction of a member's edge; a closed edge starts at the node nearest to its own
+    /// vertex.
     void turn(std::vector<Vec3>& nodes, const MemberEdge& edge) const
     {
         if (!edge.closed) {
@@ -752,7 +758,7 @@ private:
         const auto nearest = std::ranges::min_element(nodes, {},
                                                       [&](const Vec3& p) { return (p - edge.from).norm(); });
         std::ranges::rotate(nodes, nearest);
-        // The way round: the node that follows is on the first half of the edge.
+        // Direction around the edge: the second node lies on its first half.
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
         const std::vector<double> arc = geometry::arc_lengths(line);
         const Vec3 quarter = geometry::point_at(line, arc, arc.back() / static_cast<double>(nodes.size()));
@@ -764,28 +770,29 @@ private:
     std::span<const AssemblyMember> members_;
     std::span<const SharedFace> shared_;
     const RunContext& context_;
-    std::vector<std::size_t> first_; ///< number of each member's first edge
+    std::vector<std::size_t> first_; ///< index of each member's first edge
     std::vector<MemberEdge> edges_;  ///< of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
-    /// What stays of the nodes an edge came with: none, the rim of a shape, that of quads.
+    /// The given nodes of an edge that are kept: none, those of a face that is only geometry, those of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
-    std::vector<Kept> kept_;                              ///< of each edge
-    std::map<std::size_t, Kept> kept_of_class_;           ///< of the edges that say its number
-    std::map<std::size_t, std::array<RowsHere, 2>> rows_; ///< of the same edges, as the first of them runs
-    std::map<std::size_t, std::size_t> kept_one_;         ///< of the same edges, one that came with nodes
-    std::vector<bool> common_;                            ///< of each edge: other members have it too
-    std::map<std::size_t, std::vector<EdgeUse>> sides_;   ///< of each member: side lines of one edge
-    std::map<std::size_t, int> count_;                    ///< of each class
-    std::vector<int> per_turn_, layers_;                  ///< that each member's volume asks for
-    std::map<std::size_t, Followed> followed_;            ///< of the same edges
-    std::map<std::size_t, surface::IntervalDemands> demands_; ///< of each member that has intervals
-    std::map<std::size_t, SidesOfClass> intervals_;           ///< of each class that intervals are about
-    /// Of the same edges, the one that a bias was asked for, and that as it runs.
+    std::vector<Kept> kept_;                    ///< for each edge
+    std::map<std::size_t, Kept> kept_of_class_; ///< for the edges that determine its number
+    std::map<std::size_t, std::array<RowsHere, 2>>
+        rows_; ///< for each set of same edges, in the direction of the first
+    std::map<std::size_t, std::size_t> kept_one_;       ///< for each set of same edges, one with given nodes
+    std::vector<bool> common_;                          ///< for each edge: other members have it too
+    std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
+    std::map<std::size_t, int> count_;                  ///< for each class
+    std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
+    std::map<std::size_t, Followed> followed_;          ///< for each set of same edges
+    std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
+    std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
+    /// For each set of same edges, the edge with a requested bias, and that bias in its direction.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
     std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member, by `same_`
-    std::set<std::size_t> asked_;         ///< classes whose number a person asked for
-    std::map<std::size_t, int> bumps_;    ///< how often a class got more
-    std::vector<Vec3> corners_;           ///< where edges of several members end
+    std::set<std::size_t> asked_;         ///< classes with a number requested by the user
+    std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
+    std::vector<Vec3> corners_;           ///< vertices where edges of several members end
     mutable std::vector<double> spacing_; ///< of each member's rim
 };
 

@@ -25,10 +25,11 @@ using namespace topology;
 
 namespace {
 
-/// Lines pass from one end of each volume to the other once. A choice: as many volumes one after the other.
+/// Bound on the rounds. Each round maps lines once from one end of every volume to the other, so a stack of
+/// up to this many volumes is covered.
 constexpr int kRounds = 64;
 
-/// Hands the parts of a split face on to the volume that has the whole.
+/// Copies the parts of a split face to the volume that has the whole face.
 class FaceCopier {
 public:
     /// @param whole  one face, or the parts of one.
@@ -37,7 +38,7 @@ public:
     {
     }
 
-    /// Give the rim there the vertices that it has here. @return  whether it got any.
+    /// Add the vertices of this rim to the other. @return  whether any was added.
     bool copy_vertices()
     {
         const std::size_t before = to_.vertices.size();
@@ -45,7 +46,7 @@ public:
         return to_.vertices.size() > before;
     }
 
-    /// @return  the parts there, in the same order.
+    /// @return  the parts in the other volume, in the same order.
     std::vector<FaceId> run()
     {
         copy_rim();
@@ -76,7 +77,7 @@ private:
         return std::ranges::any_of(model.vertices, [&](const Vertex& v) { return v.point == point; });
     }
 
-    /// Points on the rim that the whole has not yet become vertices of it, as have those that are vertices.
+    /// Add rim points that the whole face lacks, and make them vertices if they are vertices here.
     void copy_rim()
     {
         for (const Rim& rim : rims(from_, parts_)) {
@@ -108,7 +109,7 @@ private:
         return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
-    /// A point between the one before it, which is there, and the next that is.
+    /// Insert a point between the one before it, which exists, and the next one that exists.
     void insert(const std::vector<Index>& walk, std::size_t i)
     {
         const Index before = place_.at(walk[i - 1]);
@@ -175,7 +176,7 @@ private:
         return add_void_vertex(to_, point);
     }
 
-    /// The edges between parts.
+    /// Copy the edges between parts.
     void copy_edges()
     {
         const std::vector<std::vector<FaceUse>> uses = edge_uses(from_);
@@ -269,7 +270,7 @@ public:
     }
 
 private:
-    /// Faces that are shared have the same vertices on their rims in both volumes.
+    /// Give shared faces the same vertices on their rims in both volumes.
     void share_vertices()
     {
         const auto copy = [&](std::size_t from, FaceId face, std::size_t to, FaceId there) {
@@ -288,7 +289,7 @@ private:
         }
     }
 
-    /// Split an end that a member has in common with others as the opposite one is.
+    /// Split an end shared with other members in the same way as the opposite end.
     bool split_end(std::size_t m, Role end)
     {
         OpenVolume volume = end == Role::source ? volumes_[m] : turned_round(volumes_[m]);
@@ -327,7 +328,7 @@ private:
         std::swap(line.source_to, line.target_to);
     }
 
-    /// Lines of a member's ends that go with each other, and vertices, seen from the end that is split.
+    /// Corresponding lines and vertices of both ends of a member, as seen from the end that is split.
     [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
     {
         std::vector<surface::KnownLine> lines = known_[m];

@@ -21,7 +21,7 @@ constexpr std::array<std::array<std::array<std::size_t, 2>, 4>, 3> kEdges{{
     {{{0, 3}, {1, 2}, {4, 7}, {5, 6}}},
     {{{0, 4}, {1, 5}, {2, 6}, {3, 7}}},
 }};
-/// Which of those edges meet at each corner.
+/// Indices of the edges that meet at each corner.
 constexpr std::array<std::array<std::size_t, 3>, 8> kAt{
     {{0, 0, 0}, {0, 1, 1}, {1, 1, 2}, {1, 0, 3}, {2, 2, 0}, {2, 3, 1}, {3, 3, 2}, {3, 2, 3}}};
 
@@ -70,8 +70,8 @@ Shape shape_energy(double epsilon, double determinant, double squares)
             (1 - kVolumeShare) * power};
 }
 
-/// A corner's energy; its slopes by the three edges are added. `best`: what makes the scaled Jacobian of the
-/// best corner 1.
+/// Energy of a corner; its gradient by the three edges is added. `best`: factor that makes the scaled
+/// Jacobian of an ideal corner 1.
 double corner_energy(const CellEnergy& energy, const std::array<const Vec3*, 3>& edge, double volume,
                      const Vec3& by_square, double best, const std::array<Vec3*, 3>& by_edge)
 {

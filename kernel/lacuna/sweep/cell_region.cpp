@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Cells worked on at a time: enough to be worth a task. Sums are made chunk by chunk, in order.
+/// Cells per task: enough to be worth a thread. Sums are computed chunk by chunk, in order.
 constexpr std::size_t kChunk = 512;
 
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
@@ -59,8 +59,8 @@ const std::array<std::array<std::size_t, 3>, 8>& neighbours_in(const Hex& hex)
     return mesh::is_wedge(hex) ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
 }
 
-/// Call `visit(corner, a, b)` for each two edges of a cell that meet in a corner and stay, all three nodes of
-/// which are locked.
+/// Call `visit(corner, a, b)` for each pair of edges of a cell that meet in a corner and are fixed, because
+/// all three nodes are.
 template <class Visit>
 void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Visit& visit)
 {
@@ -74,8 +74,8 @@ void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Vi
     }
 }
 
-/// The best a cell can become: the least sine of an angle between two edges that stay; in the triangles of
-/// wedges, over that of an even one.
+/// Upper bound of a cell's quality: the minimum sine of an angle between two fixed edges; in triangles of
+/// wedges, relative to that of an equilateral one.
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
@@ -97,11 +97,10 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     return bound;
 }
 
-/// A cell this close to the best its held nodes allow is left alone: what is to be gained is not worth the
-/// work.
+/// A cell this close to its upper bound is skipped: the possible gain does not justify the work.
 constexpr double kLeastRoom = 0.01;
 
-/// Whether each cell is poor and could be better.
+/// Whether each cell is poor and can be improved.
 std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>& locked, double good_enough,
                              const RunContext& context)
 {
@@ -121,7 +120,7 @@ std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>&
     return poor;
 }
 
-/// Adds neighbours: all cells that share a node with one taken.
+/// Add neighbours: all cells that share a node with a selected one.
 void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
 {
     std::vector<char> touched(mesh.nodes.size(), 0);
@@ -141,7 +140,7 @@ mesh::Incidence uses_of(const CellRegion& region)
     return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
-                // Of corners that are one, the first stands for both.
+                // Where two corners coincide, only the first counts.
                 if (k % 4 == 3 && mesh::is_wedge(region.cells[c])) continue;
                 if (index(region.cells[c][k]) < region.free)
                     visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));
@@ -150,10 +149,10 @@ mesh::Incidence uses_of(const CellRegion& region)
     });
 }
 
-/// Sine of the angle between two sides below which they lie in one line: rounding.
+/// Two sides at an angle below this sine are collinear, up to rounding.
 constexpr double kInLine = 1e-6;
 
-/// Two sides of a cell that lie in one line and cannot move.
+/// Two sides of a cell that are collinear and fixed.
 std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
                                         const std::vector<char>& locked)
 {
@@ -189,7 +188,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
     if (std::ranges::none_of(taken, [](char c) { return c != 0; })) return region;
     for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
 
-    // Nodes that cells outside use stay, so that the region meets the rest as it was.
+    // Nodes used by cells outside the region are fixed, so that the region stays connected to the rest.
     std::vector<char> held = locked;
     std::vector<char> inside(mesh.nodes.size(), 0);
     for (std::size_t c = 0; c < taken.size(); ++c) {
@@ -235,7 +234,7 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
             const Hex& hex = region.cells[c];
             double scaled = scaled_jacobian(hex, corners);
             found.mean += scaled;
-            // Valid at its corners is not yet valid.
+            // Positive Jacobians at the corners do not prove that a cell is valid.
             if (scaled > 0 && !certified_positive(hex, corners)) scaled = 0;
             found.least = std::min(found.least, scaled);
             found.lacking += std::max(0.0, region.aim[c] - scaled);
@@ -312,7 +311,8 @@ void RegionEnergy::set_planes(const Eigen::VectorXd& x)
             for (std::size_t k = 0; k < 4; ++k) node[k] = index(cell[index(side[k])]);
             const Vec3 area =
                 (places_[node[2]] - places_[node[0]]).cross(places_[node[3]] - places_[node[1]]);
-            // Sides within the region are met twice, from both: they cancel. What is left is the skin.
+            // Sides inside the region are visited twice, in opposite directions, and cancel; the skin
+            // remains.
             for (const std::size_t n : node) {
                 if (n < region_.free && region_.surface[n] >= 0) normal_[n] += area;
             }

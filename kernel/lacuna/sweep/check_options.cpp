@@ -10,7 +10,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// More threads than any machine this is built for has cores; far fewer than a system lets a process start.
+/// More threads than supported machines have cores, and far fewer than an operating system allows.
 constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)
@@ -19,7 +19,7 @@ constexpr int kMostThreads = 1024;
                        found(value));
 }
 
-/// For a member of an option that is a table.
+/// Refuse a value in a table option.
 [[noreturn]] void refuse_member(const std::string& option, const char* member, const Argument& must,
                                 const Argument& value)
 {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Millions of cells have a hundred thousand quads on their skin, each with four places to compare, so the
-// usual place has to cost a few operations. Quads come in rows: the facet that the last place was over, or
-// one beside it, is the one this place is over (`FacetWalk`), and the quad nearest to one place of a facet is
-// about the nearest to the next. Only what is certain is settled so; a tree answers for the rest.
+// Meshes of millions of cells have a hundred thousand quads on their skin, each with four points to compare,
+// so the usual point must cost only a few operations. Quads are stored in rows: the facet below the last
+// point, or one next to it, is below this point (`FacetWalk`), and the quad nearest to one point of a facet
+// is usually nearest to the next. These answers are used only if they are certain; otherwise a tree is
+// searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
 #include <lacuna/core/shared/parallel.h>
@@ -24,34 +25,35 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A quad whose diagonals miss each other by less than this share of its longest side is flat: two triangles
-/// stand for it, else four. A choice, not a measurement.
+/// A quad is treated as flat, as two triangles instead of four, if the gap between its diagonals is below
+/// this share of its longest side. A lower value makes more quads cost four triangles; a higher one hides
+/// real twist. Not measured.
 constexpr double kFlat = 1e-3;
-/// Quads, facets or points that are taken in one go, on one thread, with sums of their own: a choice, not a
-/// measurement.
+/// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
+/// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// Points this near a plane lie in it, as a share of the face's extent: rounding is a thousand times less.
+/// Relative tolerance for points in a plane, to the face's extent: rounding is a thousand times smaller.
 constexpr double kInPlane = 1e-12;
-/// Further off than this, in sides of the quad, the walk is not asked, nor believed: there the nearest place
-/// may be one across the face. A choice, not a measurement.
+/// Distances above this, in sides of the quad, are not taken from the walk, because another part of the face
+/// may be nearer. A lower value searches the tree more often. Not measured.
 constexpr double kFar = 0.25;
 
-/// A place of one skin and how far the other is from it.
+/// A point of one skin and its distance from the other.
 struct Sample {
     Vec3 point = Vec3::Zero();
-    double area = 0;      ///< that it stands for
-    double side = 0;      ///< of the quads there: what is allowed goes with it
+    double area = 0;      ///< that it represents
+    double side = 0;      ///< of the quads there; the allowed distance is proportional to it
     std::size_t quad = 0; ///< of the patch
     double distance = 0;
-    bool turned = false; ///< faces the other way
+    bool turned = false; ///< has the opposite orientation
 };
 
-/// What is kept of many samples.
+/// Statistics of many samples.
 struct Tally {
     double area = 0, sum = 0;
     double max_distance = -1;
     Vec3 place = Vec3::Zero();
-    Sample worst;       ///< the one furthest over what is allowed there; a turned one before all
+    Sample worst;       ///< the one that exceeds the allowed distance most; a turned one takes precedence
     double allowed = 0; ///< there
 
     void add(const Sample& sample, double most)
@@ -59,7 +61,7 @@ struct Tally {
         add_distance(sample.area, sample.area * sample.distance, sample.distance, sample.point);
         keep_worst(sample, most);
     }
-    /// Take in those that came after.
+    /// Add the samples that follow.
     void add(const Tally& later)
     {
         add_distance(later.area, later.sum, later.max_distance, later.place);
@@ -84,8 +86,8 @@ private:
     }
 };
 
-/// Tells the nodes on the border of a patch of quads from those inside: inside, every neighbour comes once
-/// before the node and once after it.
+/// Distinguishes nodes on the border of a patch from inner ones: around an inner node, each neighbour is once
+/// the predecessor and once the successor.
 std::vector<std::int64_t> border_turns(std::span<const Quad> quads, std::size_t node_count)
 {
     std::vector<std::int64_t> turn(node_count, 0);
@@ -156,7 +158,7 @@ private:
 
     // --- a flat face ----------------------------------------------------------------------------------
 
-    /// Whether the exact face lies in a plane.
+    /// Whether the exact face is planar.
     bool find_plane()
     {
         if (shape_.triangles.empty()) return false;
@@ -178,7 +180,8 @@ private:
                                     [&](const auto& bulges) { return std::ranges::any_of(bulges, bends); });
     }
 
-    /// On a plane no quad that is in it and faces its way is off inside, so that only borders are compared.
+    /// In a planar face, quads that lie in the plane with the right orientation cannot deviate inside, so
+    /// only borders are compared.
     void compare_flat()
     {
         take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
@@ -188,7 +191,7 @@ private:
         const std::vector<std::int64_t> turns = border_turns(quads_, skin_.points.size());
         const auto on_border = [&](Index n) { return turns[index(n)] != 0; };
         const FacetWalk walk(shape_.points, shape_.triangles);
-        std::vector<std::size_t> border; // quads with a node there
+        std::vector<std::size_t> border; // quads with a node on the border
         Tally tally;
         Index facet = -1;
         const auto add = [&](const Vec3& point, double side, std::size_t quad) {
@@ -225,7 +228,7 @@ private:
         return sample;
     }
 
-    /// Points on the border of the face, and middles of sides there, on the exact face, against those quads.
+    /// Compare border points of the face, and side midpoints on the exact face, with those quads.
     void compare_border(const FacetWalk& walk, const std::vector<std::size_t>& border)
     {
         const QuadTree tree = tree_of(border);
@@ -246,7 +249,7 @@ private:
 
     // --- a curved face --------------------------------------------------------------------------------
 
-    /// Nodes and centres of the quads and middles of their sides against the face, then the other way round.
+    /// Compare nodes, centres and side midpoints of the quads with the face, then the face with the quads.
     void compare_curved()
     {
         const FacetWalk walk(shape_.points, shape_.triangles);
@@ -258,7 +261,7 @@ private:
         compare_facets(walk, facet_of_centre);
     }
 
-    /// Each node once, with its first quad.
+    /// Each node once, with the first quad that has it.
     Tally compare_nodes(const FacetWalk& walk)
     {
         facet_of_node_.assign(skin_.points.size(), -1);
@@ -279,8 +282,8 @@ private:
         });
     }
 
-    /// The middles of a quad's sides, those of the patch's rim in one of the two patches there, and its
-    /// centre. @return the facet nearest to that.
+    /// Compare a quad's centre and side midpoints; midpoints on the patch's rim are compared in one of the
+    /// two patches. @return  the facet nearest to the centre
     Index compare_quad(const FacetWalk& walk, std::size_t q, Tally& tally) const
     {
         const Quad& quad = quads_[q];
@@ -299,10 +302,10 @@ private:
                             tally);
     }
 
-    /// Compare a place with the face, and add it.
-    /// @param hint    a facet near by, or -1.
-    /// @param across  area vector of the quad, where it is to face the same way.
-    /// @return the nearest facet.
+    /// Compare a point with the face, and add it.
+    /// @param hint    a nearby facet, or -1.
+    /// @param across  area vector of the quad, if its orientation is to be checked.
+    /// @return  the nearest facet.
     Index add_compared(const FacetWalk& walk, Index hint, const Vec3& across, Sample sample,
                        Tally& tally) const
     {
@@ -316,8 +319,9 @@ private:
             const double reach = foot ? std::abs(foot->height) : std::numeric_limits<double>::infinity();
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
-        // Far off, as the middle of a long quad on a bend is, the nearest facet may be one across the face.
-        constexpr double kNear = 0.1; // of the quad's width; a choice, not a measurement
+        // If the point is far off, as on a long quad in a bend, the nearest facet may be on the opposite part
+        // of the face. A higher factor accepts such facets. Not measured.
+        constexpr double kNear = 0.1; // of the quad's width
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
@@ -325,17 +329,17 @@ private:
         return found;
     }
 
-    /// How far a place is from the face; `facet` gets the one it is nearest to.
-    /// @param reach  that a facet is known to be within.
+    /// Distance of a point from the face; `facet` becomes the nearest facet.
+    /// @param reach  a facet is known to be within this distance.
     [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
                                           double reach = std::numeric_limits<double>::infinity()) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
         if (hit.triangle < 0)
-            hit = face_tree_.closest(point); // that height was found another way, and rounded
+            hit = face_tree_.closest(point); // that height was computed differently, with other rounding
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
-        // Beside the face its exact edge counts; over it only how high it bulges.
+        // Beside the face the exact edge is used; above it only the bulge.
         if (hit.barycentric.minCoeff() > 0) {
             const Vec3 normal = shape_.normal(facet);
             bulge = bulge.dot(normal) * normal;
@@ -345,13 +349,13 @@ private:
 
     // --- the other way round --------------------------------------------------------------------------
 
-    /// A place of the face that the quads near by did not settle.
+    /// A point of the face that nearby quads did not settle.
     struct Left {
         Vec3 point;
         double area = 0;
     };
 
-    /// Corners of the facets, and middles of sides and centres on the exact face, against the quads.
+    /// Compare corners of the facets, and side midpoints and centres on the exact face, with the quads.
     void compare_facets(const FacetWalk& walk, const std::vector<Index>& facet_of_centre)
     {
         const mesh::Incidence over = mesh::incidence(walk.size(), [&](const auto& visit) {
@@ -392,7 +396,7 @@ private:
         compare_left(left);
     }
 
-    /// Those that were left, by a tree of all quads.
+    /// Compare the unsettled points, using a tree of all quads.
     void compare_left(const std::vector<std::vector<Left>>& left)
     {
         std::vector<Left> rest;
@@ -406,7 +410,7 @@ private:
         }));
     }
 
-    /// For each facet, one near by that quads are over.
+    /// For each facet, a nearby one with quads above it.
     [[nodiscard]] static std::vector<Index> nearest_with_quads(const FacetWalk& walk,
                                                                const mesh::Incidence& over)
     {
@@ -423,14 +427,14 @@ private:
                 front.push_back(next);
             }
         }
-        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another piece of the face
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another component
         return near;
     }
 
-    /// Of a few of some quads, the one nearest to a place.
+    /// The quad nearest to a point among at most `kMost` of a list, taken at even steps.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        constexpr std::size_t kMost = 16; // looked at; a choice, not a measurement
+        constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
         double best = std::numeric_limits<double>::infinity();
         Index nearest = quads.front();
@@ -443,9 +447,9 @@ private:
         return index(nearest);
     }
 
-    /// The distance to the quads near a place, by walking from quad to quad: nothing where
-    /// that is far. No nearer than the nearest.
-    /// @param quad  to start with.
+    /// Distance to the quads near a point, found by walking from quad to quad; never less than the true
+    /// distance. Empty if it is large.
+    /// @param quad  start of the walk.
     [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
                                                      double area, std::size_t quad) const
     {
@@ -470,11 +474,11 @@ private:
         return sample;
     }
 
-    /// Go to the quad that a place is over, across the side it is furthest beyond, as far as there is one.
+    /// Walk to the quad below a point, each time across the side that the point is farthest beyond.
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
-        constexpr int kMostSteps = 64; // a choice, not a measurement
+        constexpr int kMostSteps = 64; // bound; longer walks end early. Not measured
         for (int step = 0; step < kMostSteps; ++step) {
             const Quad& q = quads_[quad];
             const std::array<Vec3, 4> c = corners(quad);
@@ -507,8 +511,8 @@ private:
         return box.squaredExteriorDistance(point);
     }
 
-    /// @param over  whether the foot is no further from the place than from the quad's sides, so that no
-    ///              other quad is nearer unless the skin turns back within that distance.
+    /// @param over  whether the foot point is no farther from the point than from the quad's sides: then no
+    /// other quad is nearer unless the skin folds back within that distance.
     [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
     {
         const std::array<Vec3, 4> c = corners(quad);
@@ -561,8 +565,8 @@ private:
 
     // --- what is kept ---------------------------------------------------------------------------------
 
-    /// Let `body(i, tally)` see all numbers below `count`, in blocks. The sums are those of the blocks, in
-    /// their order, whatever the number of threads.
+    /// Call `body(i, tally)` for all numbers below `count`, in blocks. Block sums are added in order, so the
+    /// result does not depend on the number of threads.
     template <class Body>
     Tally in_blocks(std::size_t count, const Body& body) const
     {
@@ -575,10 +579,11 @@ private:
         return all;
     }
 
-    /// What is allowed at a sample, more round a tip.
+    /// Allowed distance of a sample; larger around a tip.
     [[nodiscard]] double allowed(const Sample& sample) const
     {
-        constexpr double kReach = 2; // sides from the tip; a choice, not a measurement
+        constexpr double kReach =
+            2; // sides from the tip; a higher value relaxes the check in a larger area. Not measured
         const bool at_tip = limit_.length == 0 && std::ranges::any_of(tips_, [&](const Vec3& tip) {
                                 return (sample.point - tip).norm() < kReach * sample.side;
                             });
@@ -609,10 +614,11 @@ private:
             result_.misfit = Misfit::cut;
     }
 
-    /// Where a quad's nodes are on the face, the face bends away between them.
+    /// If a quad's nodes lie on the face, the face curves between them.
     void tell_straight_from_cut()
     {
-        constexpr double kOnFace = 0.25; // of the distance found; a choice, not a measurement
+        constexpr double kOnFace =
+            0.25; // of the distance found; a higher value reports more deviations as curvature. Not measured
         const Quad& quad = quads_[worst_];
         const Index row = mesh_.nodes_per_layer;
         std::size_t facet = 0;
@@ -625,7 +631,7 @@ private:
             most = sag;
             const Index from = skin_.node[index(quad[k])], to = skin_.node[index(quad[(k + 1) % 4])];
             result_.side = (b - a).norm();
-            // The nodes of the source are the first of the skin's, as of the mesh's.
+            // The nodes of the source come first in the skin, as in the mesh.
             result_.source_side = (skin_.points[index(to % row)] - skin_.points[index(from % row)]).norm();
             result_.along_layers = from / row != to / row;
         }
@@ -657,7 +663,7 @@ Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::s
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // All nodes of the first layer and the last, and those of the rim between, in the mesh's order.
+    // All nodes of the first and last layer, and the rim nodes between, in the mesh's order.
     const Index row = mesh.nodes_per_layer;
     std::set<Index> rim;
     for (const Segment& side : mesh.rim) rim.insert(side.begin(), side.end());

@@ -19,37 +19,40 @@ using namespace topology;
 
 namespace {
 
-/// Steps of the way: 90° on one part in 20 of it are 29° a step.
+/// Steps along the axis: a bend of 90° on a twentieth of it turns by 29° per step.
 constexpr std::size_t kSteps = 64;
-/// What turns further than this in one step is a corner, which no layer rounds [radian]. A choice.
+/// A larger turn in one step counts as a corner, which layers cannot resolve [radian]. A lower value ignores
+/// tight bends, a higher one concentrates layers at corners. Not measured.
 constexpr double kCorner = 40 * std::numbers::pi / 180;
-/// Side lines that say where the middle between them is: the fewest that can lie round it.
+/// Minimum number of side lines whose mean is used as the axis: one line alone is not in the middle.
 constexpr std::size_t kMiddle = 2;
-/// Columns go apart, round the edge of an end, where their middle moves by less than this part of what they
-/// do in the mean. A choice, not a measurement.
+/// Where the mean of the columns moves by less than this share of their mean length, the columns diverge, as
+/// around the edge of an end, and turns are ignored. A higher value ignores more turns. Not measured.
 constexpr double kSlow = 0.7;
-/// A layer over its neighbour, and the highest over the lowest, at most. Choices, not measurements.
+/// Maximum height ratio of neighbouring layers, and of all layers. Higher values resolve bends better at the
+/// cost of elongated cells. Not measured.
 constexpr double kMostBeside = 2, kMostInAll = 4;
-/// How much all turns count beside the length of the way, from mild to strong. A choice: from almost even to
-/// where most layers go to the bends.
+/// Weights of the total turning relative to the length of the axis, increasing: from nearly uniform layers to
+/// most layers in the bends.
 constexpr std::array<double, 6> kPulls{0.25, 0.5, 1, 2, 4, 8};
-/// Layers are drawn further where that saves this part of the volume at least: about what few would see, and
-/// what the loss may jump by from one number of layers to the next. A choice, not a measurement.
+/// A stronger concentration must reduce the volume error by at least this share of the volume: a hardly
+/// visible change, and about the change from one number of layers to the next. A higher value keeps layers
+/// uniform more often. Not measured.
 constexpr double kWorth = 2e-3;
 
-/// The middle of the columns at even steps.
+/// The mean of the columns, sampled at even steps.
 struct Way {
     std::array<Vec3, kSteps + 1> points{};
     std::array<Vec3, kSteps + 1> along{};    ///< unit vectors
-    std::array<double, kSteps + 1> turned{}; ///< up to each step, corners left out [radian]
-    double column = 0;                       ///< length of a column in the mean [model length]
+    std::array<double, kSteps + 1> turned{}; ///< total turning up to each step, without corners [radian]
+    double column = 0;                       ///< mean length of a column [model length]
 };
 
 Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
            const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
-    // One seam says nothing of the middle; where another linking surface does, that is enough.
+    // A single seam does not define the axis, but is not needed if another linking surface has side lines.
     const bool lines = std::ranges::any_of(links,
                                            [](const auto& link) { return link.lines.size() >= kMiddle; });
     const auto add = [&](const surface::LinkingSurface& link) {
@@ -78,14 +81,14 @@ Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
         const Vec3 in = way.points[i] - way.points[i - 1], out = way.points[i + 1] - way.points[i];
         const double turn = geometry::angle_between(in, out);
         if (turn > kCorner || in.norm() < slow || out.norm() < slow) continue;
-        way.turned[i] += turn / 2; // it is spread over the steps beside it
+        way.turned[i] += turn / 2; // the turn is split between both adjacent steps
         way.turned[i + 1] += turn / 2;
     }
     for (std::size_t i = 1; i <= kSteps; ++i) way.turned[i] += way.turned[i - 1];
     return way;
 }
 
-/// Values of even steps, between them.
+/// Interpolate values given at even steps.
 template <class Value>
 Value at_share(const std::array<Value, kSteps + 1>& values, double share)
 {
@@ -94,7 +97,8 @@ Value at_share(const std::array<Value, kSteps + 1>& values, double share)
     return values[i] + (at - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-/// Heights from 0 to 1 that share out the length of the way and `pull` times its turns, within the limits.
+/// Heights from 0 to 1 that distribute the length of the axis plus `pull` times its turning evenly, within
+/// the limits.
 std::vector<double> drawn_heights(const Way& way, int layers, double pull)
 {
     const double even = 1.0 / layers;
@@ -107,7 +111,7 @@ std::vector<double> drawn_heights(const Way& way, int layers, double pull)
     }
     const double highest = *std::ranges::max_element(wanted);
     for (double& height : wanted) height = std::max(height, highest / kMostInAll);
-    // Where heights grow by no more than this per length, layers grow by no more than the limit each.
+    // If heights grow by no more than this per length, neighbouring layers keep the limit of their ratio.
     const double growth = std::log(kMostBeside) / kSteps;
     std::array<double, kSteps + 1> passed{};
     const auto count_layers = [&](double scale) {
@@ -137,8 +141,8 @@ std::vector<double> drawn_heights(const Way& way, int layers, double pull)
     return heights;
 }
 
-/// Length of the way that flat sections of one area, across it at the heights, have between them: their
-/// volume over the area, exactly where the way turns in a plane.
+/// Length of the axis as enclosed between flat sections of equal area, normal to it at the heights: their
+/// volume over the area, which is exact if the axis turns in a plane.
 double length_between(const Way& way, const std::vector<double>& heights)
 {
     double length = 0;
@@ -150,7 +154,7 @@ double length_between(const Way& way, const std::vector<double>& heights)
     return length;
 }
 
-/// Whether nothing but their number says where layers lie.
+/// Whether only the number of layers is given, not their heights.
 bool by_count_alone(const OpenVolume& volume, const SweepOptions& options)
 {
     const bool beside = options.beside.settle || options.beside.shape != nullptr;

@@ -16,13 +16,13 @@ using namespace topology;
 
 namespace {
 
-/// Places from the start of an edge, or from its end, are asked for there.
+/// Add row positions at the start of an edge, or at its end.
 void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
 {
     rows[edge][at_end ? 1 : 0] = {std::move(places), face};
 }
 
-/// Rows along walls, on the edges of the source.
+/// Add the rows along walls, on the edges of the source.
 void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
 {
     const surface::RimRows rim = surface::rim_rows(volume, surface::linking_surfaces(volume), tables);
@@ -38,7 +38,7 @@ void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tab
     }
 }
 
-/// Rows along ends, on the side lines.
+/// Add the rows along ends, on the side lines.
 void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
 {
     for (const Role role : {Role::source, Role::target}) {
@@ -71,7 +71,7 @@ RowsOfEdges edge_rows(const AssemblyMember& member)
     } catch (const Cancelled&) {
         throw;
     } catch (const Error&) {
-        return {}; // the member's sweep says so, with its name
+        return {}; // the member's sweep reports it, with its name
     }
     return rows;
 }

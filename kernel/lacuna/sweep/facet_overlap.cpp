@@ -14,14 +14,15 @@ using namespace topology;
 
 namespace {
 
-/// Facets at an angle of less than this cosine are beside each other and not over each other. A choice:
-/// facets of one curved face, coarse on one side, are some 30° off each other.
+/// Facets at an angle with a smaller cosine count as adjacent, not as covering each other: 60°. Facets of the
+/// same curved face, coarse on one side, differ by some 30°. A lower value counts adjacent faces as overlap.
+/// Not measured.
 constexpr double kOver = 0.5;
-/// Pairs of facets between two looks at whether to stop.
+/// Pairs of facets between two checks for cancellation.
 constexpr std::size_t kLook = 1 << 16;
 
-/// A polygon over a plane: places in it, and the height over it. Clipping a triangle by seven lines gives ten
-/// corners at most.
+/// A polygon over a plane: positions in the plane, and heights over it. Clipping a triangle by seven lines
+/// gives at most ten corners.
 class Clipped {
 public:
     Clipped(std::span<const Vec3, 3> triangle) : count_(3)
@@ -29,7 +30,7 @@ public:
         std::copy(triangle.begin(), triangle.end(), corner_.begin());
     }
 
-    /// Keep where way · place >= from.
+    /// Keep the part with way · place >= from.
     void keep(const Vec3& way, double from)
     {
         std::array<Vec3, kMost> kept;
@@ -66,7 +67,7 @@ private:
     std::size_t count_;
 };
 
-/// Facets of a volume that come within a box, and the face of each.
+/// Facets of a volume that overlap a box, and the face of each.
 struct NearFacets {
     std::vector<Triangle> facets;
     std::vector<FaceId> face;
@@ -101,12 +102,12 @@ Eigen::AlignedBox3d box_of(const OpenVolume& volume, double margin)
     return box;
 }
 
-/// Distances that count for a pair of facets, the nearest first.
+/// Distance bounds of a pair of facets, the smallest first.
 struct Bounds {
     double limit = 0, window = 0, around = 0;
 };
 
-/// Add what a facet of the one has over it of a facet of the other.
+/// Add the part of one facet that a facet of the other face covers.
 void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& other, const Bounds& bounds,
                  FaceOverlap& overlap)
 {
@@ -136,7 +137,7 @@ void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& othe
         overlap.b.*of += area / std::abs(cosine);
         return area;
     };
-    if (cosine < 0) { // only what faces the other can be a face of both
+    if (cosine < 0) { // only faces with opposite orientation can be the same face of both
         if (!(add(bounds.around, &OverlapAreas::around) > 0)) return;
         if (!(add(bounds.window, &OverlapAreas::within) > 0)) return;
         for (const Vec3& p : piece.corners()) {

@@ -10,14 +10,16 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A foot this near a side is on it, as a share of the facet's altitude; rounding is a hundred times less.
+/// A foot point this close to a side lies on it, as a share of the facet's altitude; rounding is a hundred
+/// times smaller.
 constexpr double kOnSide = 1e-12;
-/// Height over longest side under which a facet has no inside to speak of: its gradients would be rounding.
+/// Facets with a smaller ratio of height to longest side are degenerate: their gradients would be rounding.
 constexpr double kThin = 1e-6;
-/// Up to this share of the facet's least altitude, a height is one over it and the facets beside it alone. A
-/// choice, not a measurement.
+/// Heights up to this share of the facet's minimum altitude are above this facet and its neighbours only. A
+/// higher value accepts more points without a tree and risks a nearer facet elsewhere. Not measured.
 constexpr double kLow = 0.1;
-/// Steps of a walk. Of points in rows the next one is one or two facets on; a choice, not a measurement.
+/// Maximum number of steps of a walk. For points in rows the next facet is one or two steps away; more steps
+/// help only after large jumps, for which a tree is faster. Not measured.
 constexpr int kMostSteps = 32;
 
 } // namespace
@@ -45,7 +47,7 @@ FacetWalk::FacetWalk(std::span<const Vec3> points, std::span<const Triangle> tri
                       points[index(triangles[i][2])]});
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        double least = 1; // cosine of the angle to a neighbour
+        double least = 1; // cosine of the largest angle to a neighbour
         for (const Index corner : triangles[i]) {
             for (const Index other : round.of(index(corner)))
                 least = std::min(least, frame_[i].normal.dot(frame_[index(other)].normal));
@@ -87,7 +89,7 @@ std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) c
         const double height = std::abs(foot.height);
         if (least < -kOnSide) {
             const Index next = across_[index(now)][(static_cast<std::size_t>(lowest) + 1) % 3];
-            if (next == before) return std::nullopt; // beside both: over the edge between them
+            if (next == before) return std::nullopt; // outside both: above the edge between them
             before = now;
             now = next;
             continue;

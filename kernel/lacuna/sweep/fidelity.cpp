@@ -18,21 +18,20 @@ using namespace topology;
 
 namespace {
 
-/// Distance allowed over the side of a quad, where no length is given; see FidelityOptions.
+/// Allowed distance over the side of a quad if no length is given; see FidelityOptions.
 constexpr double kShareOfSide = 0.25;
-/// The same within two sides of a tip, where four quads are as many as can be, and between two volumes: a
-/// whole side.
+/// The same within two sides of a tip, where at most four quads meet, and between two volumes: a whole side.
 constexpr double kShareAtTip = 1;
 
-/// It is never less than this part of the model's diagonal, or this one of the face's, whichever is smaller:
-/// gaps and overlaps of the faces of real parts are as large, and no mesh shows them.
+/// Lower bound of the allowed distance: this share of the model's diagonal or this share of the face's,
+/// whichever is smaller. Gaps and overlaps of faces in real parts are as large, and no mesh shows them.
 constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
 
-/// The mesh's volume may be off by this share of the sealed one. Six sides for a turn, the fewest that the
-/// size alone leaves, lose 17 % of a disc. A choice, not a measurement.
+/// Allowed difference between the mesh's volume and the sealed one. Six sides for a turn, the minimum that
+/// the size alone leaves, lose 17 % of a disc, so a lower value refuses these. Not measured.
 constexpr double kMostOfVolume = 0.2;
 
-/// A face the skin leaves out.
+/// A face that the skin omits.
 FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const DeviationLimit& limit)
 {
     FaceFidelity result;
@@ -80,7 +79,7 @@ double rounded_down(double value)
     return std::floor(value / step) * step;
 }
 
-/// The face that is furthest beyond what is allowed; null: none is.
+/// The face that exceeds the allowed distance most; null: none does.
 const FaceFidelity* worst_misfit(const Fidelity& fidelity)
 {
     const FaceFidelity* worst = nullptr;
@@ -91,12 +90,12 @@ const FaceFidelity* worst_misfit(const Fidelity& fidelity)
     return worst;
 }
 
-/// Names the layers, or the size, by which straight sides follow a face that bends away under them: a tenth
-/// below what would just do by their sag, as sides differ a little.
+/// Suggest the number of layers, or the size, with which straight sides follow the curvature of a face: a
+/// tenth finer than their sag requires, because side lengths vary.
 Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
                          const FidelityOptions& options)
 {
-    // The sag of a straight side grows with the square of its length, its share of the side with the length.
+    // The sag of a straight side grows with the square of its length; relative to the side it grows linearly.
     constexpr double kBelow = 0.9;
     const double share = kBelow * face.allowed / face.found;
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
@@ -132,7 +131,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
-    // Faces side by side: what a large one does on one thread is done beside others.
+    // Faces are compared in parallel: a large one that runs on one thread overlaps with others.
     RunContext quiet;
     quiet.threads = context.threads;
     quiet.cancel = context.cancel;

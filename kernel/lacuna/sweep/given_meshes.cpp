@@ -13,7 +13,7 @@ using namespace topology;
 
 namespace {
 
-/// Points of a face that are to be nodes: of its cells where those stay, else of its rim.
+/// Points of a face that must become nodes: those of its quads if they are kept, otherwise those of its rim.
 std::set<Index> nodes_to_keep(const Model& model, const Face& face, bool whole)
 {
     std::set<Index> nodes;

@@ -15,7 +15,8 @@ namespace lacuna::sweep {
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
-    // Every side offers each of its ends to the other; sides two quads share are offered twice, then weeded.
+    // Every side adds each of its ends to the other; sides shared by two quads are added twice, and
+    // duplicates are removed.
     mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
         for (const Quad& quad : quads) {
             for (std::size_t i = 0; i < 4; ++i) {
@@ -57,7 +58,7 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
             const Index to = q[(i + 1) % 4];
             const double across = (middle - (at(from) + at(to)) / 2).norm();
             const double length = (at(to) - at(from)).norm();
-            // A quad without width or a side without length says nothing of the other.
+            // A quad without width, or a side without length, gives no ratio.
             const double weight = across > 0 && length > 0 ? across / length : 0.5;
             add(from, to, weight);
             add(to, from, weight);
@@ -76,7 +77,7 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
         for (const Index next : graph.of(i)) parts.unite(index(next), i);
     }
     std::vector<Index> position(nodes, -1); // of fixed nodes in `fixed`
-    std::vector<char> has_fixed(nodes, 0);  // of each part, by its root
+    std::vector<char> has_fixed(nodes, 0);  // for each component, by its root
     for (std::size_t k = 0; k < fixed.size(); ++k) {
         position[index(fixed[k])] = static_cast<Index>(k);
         has_fixed[parts.find(fixed[k])] = 1;
@@ -121,8 +122,8 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Both triangles and the diagonal over a block of right-hand sides, row-major in the factor's order: kPacks
-/// packs of numbers. No number depends on how many there are.
+/// Forward and backward substitution and the diagonal for a block of right-hand sides, row-major in the
+/// factor's order: kPacks packs of numbers. The result of a number does not depend on how many there are.
 template <class Pack, int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
@@ -137,8 +138,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
         int p = begin[j];
         const int end = begin[j + 1];
-        // A column often has the next one's entries and that of its own: both go in one way through memory.
-        // What a row loses by each is subtracted in the same order.
+        // A column often has the entries of the next one plus its own: both are applied in one pass through
+        // memory. Subtractions keep the same order.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
             Pack next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];
@@ -176,7 +177,7 @@ template <int kNumbers>
 }
 #endif
 
-/// Of rows of `kNumbers`, with the widest vectors the machine has; the same bits on every machine.
+/// Solve rows of `kNumbers` with the widest vectors of the machine; bit-identical on every machine.
 template <int kNumbers>
 void substitute(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd& diagonal,
                 std::vector<double>& block)
@@ -224,7 +225,7 @@ void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3*
 
 void HarmonicSpread::solve(std::span<Vec3> load) const
 {
-    constexpr Index width = 4; // the last stays 0
+    constexpr Index width = 4; // the last number stays 0
     std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * width);
     for (std::size_t i = 0; i < place_.size(); ++i) {
         if (place_[i] >= 0) Vec3::Map(&block[index(width * place_[i])]) = load[i];

@@ -16,21 +16,23 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest regularisation, of a cell's volume: a choice, not a measurement.
+/// Smallest regularisation, relative to a cell's volume. A lower value makes the energy stiffer, a higher one
+/// leaves cells almost flat. Not measured.
 constexpr double kLeastEpsilon = 1e-3;
-/// Rounds of untangling, each with a smaller regularisation, and how many may pass without gain: bounds on
-/// the work, chosen and not measured.
+/// Maximum number of untangling rounds, each with a smaller regularisation, and of rounds without gain. More
+/// rounds trade time for hard cases. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// A share of what cells lack that counts as gain while untangling.
+/// Share of the total shortfall that counts as a gain while untangling.
 constexpr double kGain = 0.01;
-/// Sharpness of the second stage, round by round: at first all poor corners count, at last the worst alone.
+/// Exponent of the second stage in each round: low values weigh all poor corners, high ones only the worst.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
-/// Weight of the shape energy in the second stage: enough to keep lengths and not to fold.
+/// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// A gain in the least scaled Jacobian, or a share of what is lacking, that is worth moving nodes for.
+/// Minimum gain in the least scaled Jacobian, or in the share of the shortfall, that justifies moving nodes.
 constexpr double kWorthIt = 1e-4;
-/// How much the mean may fall for the least to rise: a choice, told in the header.
+/// Allowed decrease of the mean scaled Jacobian in exchange for a higher minimum; see the header. A higher
+/// value trades more of the mean.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
@@ -82,14 +84,15 @@ private:
         return options_.deadline && options_.deadline->passed();
     }
 
-    /// Better: a higher least, or, where that is as it was, cells that lack less.
+    /// Better: a higher minimum or, if it is unchanged, a smaller shortfall.
     static bool is_better(const RegionQuality& found, const RegionQuality& before)
     {
         if (found.least > before.least + kWorthIt) return true;
         return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
     }
 
-    /// One minimisation from `x`, the best place it passes kept; sliding nodes come back on their surfaces.
+    /// One minimisation from `x`. The best iterate is kept; sliding nodes are projected back onto their
+    /// surfaces.
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);
@@ -138,7 +141,7 @@ private:
         return places;
     }
 
-    /// Keep `x` where it is better.
+    /// Keep `x` if it is better.
     void keep(const Eigen::VectorXd& x, double mean_floor)
     {
         std::vector<Vec3> places = places_at(x);
@@ -161,7 +164,7 @@ private:
                                                                  0.04 * determinant * determinant);
             const double before = best_quality_.least;
             descend(x, -1);
-            // The worst cell may be the last to open: that others do is gain too.
+            // The worst cell may be the last to unfold, so progress of other cells counts as gain too.
             const double lacking = measure(region_, places_at(x), context_).lacking;
             const bool gain = best_quality_.least > before + kWorthIt ||
                               lacking < least_lacking * (1 - kGain);
@@ -173,7 +176,7 @@ private:
 
     void optimise(bool was_folded)
     {
-        // What was folded has no mean worth keeping.
+        // The mean of a folded mesh is not worth keeping.
         const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {
@@ -192,7 +195,7 @@ private:
     RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
     std::vector<Vec3> best_ = places_of(mesh_, region_);
     RegionQuality best_quality_ = measure(region_, best_, context_);
-    double work_ = 0; ///< cells evaluated
+    double work_ = 0; ///< number of cell evaluations
 };
 
 } // namespace

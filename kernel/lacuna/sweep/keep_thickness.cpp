@@ -21,13 +21,13 @@ using namespace topology;
 
 namespace {
 
-/// Rounds of moving; each leaves what the bends within a cell make of the last. More were never needed on
-/// tapered, twisted and bulging walls; a bound on the work.
+/// Bound on the rounds of moves; each round corrects the errors that bends within a cell left in the last.
+/// Tapered, twisted and bulging walls never needed more.
 constexpr int kRounds = 8;
-/// A row is met when it is off its thickness by less than this share: a tenth of what is allowed.
+/// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
-/// A column that holds a node at a height: one wall's, or those of two where rows cross.
+/// A column that holds a node at a height: one wall's, or two walls' where rows cross.
 struct Hold {
     std::size_t column;
     double height;
@@ -110,7 +110,7 @@ private:
         }
     }
 
-    /// Columns and rows that stay where they are: on corners, on edges between walls, on given meshes.
+    /// Find fixed columns and rows: at corners, on edges between walls, on given meshes.
     void find_still()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
@@ -149,7 +149,7 @@ private:
 
     // --- normals ------------------------------------------------------------------------------------
 
-    /// Inward normal of the wall over a side of the rim, at one of its ends.
+    /// Inward normal of the wall over a side of the rim, at one of the side's ends.
     [[nodiscard]] Vec3 side_normal(std::size_t b, std::size_t side, std::size_t node, std::size_t layer) const
     {
         const Vec3 along = at(layer, parts_.rim_node(b, side + 1)) - at(layer, parts_.rim_node(b, side));
@@ -160,8 +160,8 @@ private:
         return normal.stableNormalized();
     }
 
-    /// Of the walls under a column: the mean of their unit normals, so that a height along it is the mean of
-    /// the heights over them.
+    /// Mean of the unit normals of the walls below a column: a height along it is the mean of the heights
+    /// over both walls.
     [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
     {
         const std::size_t n = parts_.size_of(column.link);
@@ -171,7 +171,7 @@ private:
         return column.before && column.after ? Vec3(normal / 2) : normal;
     }
 
-    /// Of a layer's quads at a node.
+    /// Normal of a layer's quads at a node.
     [[nodiscard]] Vec3 layer_normal(std::size_t node, std::size_t layer) const
     {
         Vec3 normal = Vec3::Zero();
@@ -203,7 +203,7 @@ private:
 
     struct Reached {
         double asked = 0, least = std::numeric_limits<double>::infinity(), most = 0;
-        double off = 0; ///< largest share by which a row misses its thickness
+        double off = 0; ///< largest relative thickness error
         double off_asked = 0, off_found = 0;
         Vec3 where = Vec3::Zero();
         FaceId face;
@@ -307,13 +307,13 @@ private:
         put_on_ends();
     }
 
-    /// Whether the edges within the source are edges of a layer's face.
+    /// Whether edges between faces of the source are edges of the layer's face too.
     [[nodiscard]] bool has_edges(std::size_t layer) const
     {
         return layer == 0 || (layer == layers_ && !parts_.target_edges.empty());
     }
 
-    /// Spread the moves of rims and rows over layers whose inner edges hold nodes, or over the others.
+    /// Spread the moves of rims and rows over the layers whose inner edges hold nodes, or over the others.
     void spread_moves(const std::vector<Vec3>& before, bool with_edges)
     {
         std::vector<std::size_t> layers;
@@ -343,7 +343,7 @@ private:
         }
     }
 
-    /// Rows that end on edges between faces of an end: their nodes go along these.
+    /// Rows that end on edges between faces of an end: move their nodes along these edges.
     void slide_on_inner_edges()
     {
         for (const auto& [edge, chain] : parts_.source.on_edge) {
@@ -366,15 +366,15 @@ private:
         }
     }
 
-    /// Put a node at the heights it is held at, within its layer: as far along the rim from its foot as on
-    /// the source, as far off the layer's plane there as it was. Where the layers put nodes of thin rows does
-    /// not count.
+    /// Move a node within its layer to its required heights: at the same position along the rim as on the
+    /// source, and at its current distance from the layer's plane. The initial positions of thin rows are
+    /// ignored.
     void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
         const std::size_t holds = std::min<std::size_t>(holders.size(), 2);
         const RowColumn& own = columns_[holders[0].column];
         const Vec3& foot = at(layer, parts_.rim_node(own.link, own.node));
-        // The quads inside the rows are the larger ones, and tell how the layer lies.
+        // The larger quads beyond the rows define the layer's normal.
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
@@ -389,7 +389,7 @@ private:
             at(layer, node) = foot + lean + inward * ((holders[0].height - lean.dot(normal)) / across);
             return;
         }
-        // Where rows cross, the heights over both walls say where.
+        // Where rows cross, the heights over both walls determine the position.
         std::array<Vec3, 2> normal{Vec3::Zero(), Vec3::Zero()}, within = normal;
         std::array<double, 2> off{};
         for (std::size_t h = 0; h < holds; ++h) {
@@ -402,14 +402,14 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        constexpr double kSameWay = 1e-3; // walls that all but go on into each other; a choice
+        constexpr double kSameWay = 1e-3; // treats nearly tangent walls as one; not measured
         if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }
 
-    /// Rows that end on other walls: their nodes there go along the layer's rim to their heights, and the
-    /// nodes beyond follow.
+    /// Rows that end on other walls: move their nodes there along the layer's rim to the required heights,
+    /// and the nodes beyond accordingly.
     void slide_on_walls()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
@@ -423,7 +423,7 @@ private:
         }
     }
 
-    /// The column over a rim node whose first node is another one's neighbour, or null.
+    /// The column over a rim node whose first row node is the given neighbour; null: none.
     [[nodiscard]] const RowColumn* column_along(Index foot, Index next) const
     {
         for (const RowColumn& column : columns_) {
@@ -449,15 +449,16 @@ private:
         }
     }
 
-    /// Heights over one end of a line of nodes.
+    /// Required heights at one end of a line of nodes.
     struct HeightsOver {
         int table = -1; ///< none
         Vec3 normal = Vec3::Zero();
     };
     using Places = std::map<std::size_t, double>;
 
-    /// Places on a line of nodes, in sides of it: of its ends, of nodes in `still`, and of those that are to
-    /// have heights over its start and its end; nothing where there is no room, which what is reached tells.
+    /// Positions on a line of nodes, measured in its sides: of its ends, of nodes in `still`, and of nodes
+    /// with required heights over its start and end. Empty if there is no room; the final thickness check
+    /// reports that.
     [[nodiscard]] std::optional<Places> places_at(const std::vector<Vec3>& line,
                                                   const std::array<HeightsOver, 2>& ends,
                                                   const std::set<std::size_t>& still = {}) const
@@ -483,7 +484,7 @@ private:
         return place;
     }
 
-    /// Of the nodes that rows over columns at the start and at the end of a line end on.
+    /// Positions of nodes where rows over columns at both ends of a line end.
     [[nodiscard]] std::optional<Places> row_places(const std::vector<Vec3>& line, std::size_t layer,
                                                    const RowColumn* low, const RowColumn* high) const
     {
@@ -493,7 +494,7 @@ private:
         return places_at(line, {over(low), over(high)});
     }
 
-    /// Move the nodes between corners of the rim to new places along it.
+    /// Move the nodes between corners of the rim to new positions along it.
     void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
                     const std::vector<std::pair<std::size_t, double>>& moved)
     {
@@ -546,7 +547,7 @@ private:
         for (std::size_t i = 0; i < nodes.size(); ++i) at(layer, nodes[i]) = points[i];
     }
 
-    /// Nodes of both ends that lie within one face, back on it.
+    /// Project nodes of both ends that lie within one face back onto it.
     void put_on_ends()
     {
         for (const std::size_t end : {0, 1}) {
@@ -561,7 +562,7 @@ private:
                 const FaceId face = faces[index(around.front())];
                 const bool one = std::ranges::all_of(around,
                                                      [&](Index q) { return faces[index(q)] == face; });
-                // The facets of a void end leave out what lies between them and a rim that is curved.
+                // The facets of a void end do not cover the area next to a curved rim.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
                 if (one && !near_rim && model_[face].kind != "plane") on_face[face].push_back(node);
@@ -595,7 +596,7 @@ private:
         put_on_walls();
     }
 
-    /// Nodes on walls that were moved along their columns, back on the walls and on the edges between them.
+    /// Project nodes on walls that moved along their columns back onto the walls and the edges between them.
     void put_on_walls()
     {
         std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall;
@@ -628,7 +629,7 @@ private:
     std::vector<Vec3>& nodes_;
     const RunContext& context_;
     const std::size_t count_ = parts_.source.quads.nodes.size(), layers_ = index(parts_.layers);
-    std::size_t rim_ = 0;   ///< source nodes on the rim: they come first
+    std::size_t rim_ = 0;   ///< number of source nodes on the rim; they come first
     std::set<Index> inner_; ///< source nodes on edges between faces of the source
     std::vector<RowColumn> columns_;
     std::map<Index, std::vector<Hold>> row_nodes_;
@@ -636,7 +637,7 @@ private:
     std::vector<std::vector<char>> still_column_;
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
-    std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with
+    std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with them
     std::map<std::pair<std::size_t, bool>, std::vector<double>> places_;
     std::map<FaceId, surface::Projector> projectors_;
 };

@@ -9,8 +9,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Columns of a matrix by which a node is multiplied, in the order in which they are added: for x and y the
-/// first, second and third, for z the second, third and first. The last number is idle.
+/// Matrix columns that multiply a node, in order of addition: for x and y the first, second and third; for z
+/// the second, third and first. The last number is unused.
 struct Columns {
     Four column[3];
 };
@@ -23,7 +23,7 @@ Columns columns_of(const Eigen::Matrix3d& matrix)
     return columns;
 }
 
-/// A layer's map, and where its nodes go.
+/// A layer's map, and the output position of its nodes.
 struct Layer {
     Columns from_source, from_target;
     Four shift;
@@ -31,7 +31,7 @@ struct Layer {
 };
 using Layers = std::array<Layer, HarmonicSpread::kFields>;
 
-/// What the columns are multiplied by.
+/// Factors of the columns.
 struct Factors {
     Four first, second, third;
 
@@ -44,7 +44,7 @@ struct Factors {
     }
 };
 
-/// Rows of residuals lie in another order than nodes: they are fetched ahead.
+/// Residuals are stored in another order than nodes, so they are prefetched.
 LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
                                         std::size_t end)
 {

@@ -13,10 +13,10 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A plan and what it is placed by.
+/// A plan and the data computed from it to place its nodes.
 struct Placed {
     std::shared_ptr<const LayerPlan> plan;
-    std::vector<Index> on_rim; ///< of each source node, its place on the rim; -1: inside
+    std::vector<Index> on_rim; ///< for each source node, its index on the rim; -1: inside
     LayerPlacer placer;
 
     Placed(std::shared_ptr<const LayerPlan> own, const RunContext& context)
@@ -46,7 +46,7 @@ void put_plan(A& with, Plan& plan)
     with(plan.options), with(plan.laid), with(plan.middles);
 }
 
-/// Lay nodes elsewhere as the plan says.
+/// Layers with the moved nodes of the plan.
 mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan)
 {
     if (plan->laid.empty()) return nodes;
@@ -76,7 +76,7 @@ mesh::HexMesh cells_of(const LayerPlan& plan)
     return mesh;
 }
 
-/// What the middle nodes of a plan are placed by.
+/// The data from which the middle nodes of a plan are placed.
 struct Curved {
     std::shared_ptr<const LayerPlan> plan;
     mesh::LayeredNodes corners;
@@ -100,7 +100,7 @@ struct Curved {
     }
 };
 
-/// Nodes with those in the middle that the plan has.
+/// Nodes including the plan's middle nodes.
 mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan,
                                 const RunContext& context)
 {
@@ -113,7 +113,7 @@ mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<
     return nodes;
 }
 
-/// What each of a team does.
+/// The share of one process of a team.
 LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
                           const RunContext& context)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Every inner layer l is, before its rim residual is spread, (1 - h) · A(source node) + h · B(target node), h
-// the layer's height, A and B the affine maps of the source's and the target's rim onto the layer's. Where an
-// affine motion takes rim to rim the two agree, and the sum is the motion itself.
+// Before the rim residual is spread, every inner layer is (1 - h) · A(source node) + h · B(target node), with
+// h the layer's height, and A and B the affine maps from the source's and the target's rim to the layer's
+// rim. If the rims are related by an affine motion, both terms agree and the sum is that motion.
 #include <lacuna/sweep/detail/layer_placer.h>
 
 #include <lacuna/core/error.h>
@@ -19,7 +19,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Mean over the columns of the part of their length that lies below each layer.
+/// Relative height of each layer, as the mean over the columns of the length below it.
 std::vector<double> mean_heights(const RimColumns& columns)
 {
     const auto layers = index(columns.layers);
@@ -31,7 +31,7 @@ std::vector<double> mean_heights(const RimColumns& columns)
             const std::size_t at = l * columns.rim.size() + k;
             length[l] = length[l - 1] + (columns.points[at] - columns.points[at - columns.rim.size()]).norm();
         }
-        if (!(length[layers] > 0)) continue; // a vertex source and target share
+        if (!(length[layers] > 0)) continue; // source and target share this vertex
         ++counted;
         for (std::size_t l = 1; l <= layers; ++l) heights[l] += length[l] / length[layers];
     }
@@ -142,14 +142,14 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         residuals_.clear();
         return;
     }
-    // The factorisation takes one thread: another one has pages cleared meanwhile, where there is one.
+    // The factorisation uses one thread; a second one, if available, clears memory pages meanwhile.
     std::atomic<bool> enough{false};
     const Background<bool> clearing(context, [&enough, room](const RunContext&) {
         clear_pages(room.data(), room.size_bytes(), enough);
         return true;
     });
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
-    // Of both ends together, so that it does not matter which of them is called the source.
+    // Both ends are used, so that the result does not depend on which one is the source.
     const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
     std::array<std::vector<double>, 2> weights;
     parallel_for(context, 2, 1, [&](std::size_t begin, std::size_t end) {
@@ -190,7 +190,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             });
         });
     } else {
-        // A chunk of both ends is 24 kB, which stays in the nearest cache while all its layers are written.
+        // A chunk of both ends takes 24 kB, which stays in the first-level cache while all its layers are
+        // written.
         constexpr std::size_t kChunk = 512;
         parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
             each_group(0, index(groups), [&](Vec3* layer, std::size_t i, std::size_t count) {
@@ -198,7 +199,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             });
         });
     }
-    constexpr std::size_t kRows = 16; // of the rim, that are worth a thread: a choice
+    constexpr std::size_t kRows = 16; // rim rows per thread; fewer are not worth one. Not measured
     parallel_for(context, index(last - first), kRows, [&](std::size_t begin, std::size_t end) {
         for (int l = first + static_cast<int>(begin); l < first + static_cast<int>(end); ++l) {
             const std::span<const Vec3> row = columns_.row(l);

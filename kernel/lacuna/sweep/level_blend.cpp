@@ -28,8 +28,8 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
     std::vector<std::uint8_t> seen(mesh.middles.sides.size(), 0);
-    // Sides as their quads run them: what is a quad's side is the neighbour's the other way, so that from
-    // quad to quad they stay parallel.
+    // Directions of sides as their quads run: a side has the opposite direction in the neighbouring quad, so
+    // directions stay parallel from quad to quad.
     const auto walk = [&](std::size_t start) {
         const std::size_t begin = steps_.size();
         bool closed = false;
@@ -59,7 +59,7 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
                 walk(side);
 }
 
-/// Hands each side of a chord that has known ones, and what is blended there, local, to `take`.
+/// Call `take` for each side of a chord with known sides, with its blended bend in local coordinates.
 template <class Take>
 void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                             const std::vector<Vec3>& bend, const Take& take) const
@@ -89,7 +89,7 @@ void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& 
         local.resize(knots.size());
         for (std::size_t k = 0; k < knots.size(); ++k)
             local[k] = frame(knots[k]).local(bend[index(step(knots[k]).side)]);
-        // From knot to knot; of a closed chord from the last on to the first.
+        // From knot to knot; in a closed chord also from the last to the first.
         const std::size_t spans = knots.size() - (chord.closed ? 0 : 1);
         for (std::size_t k = 0; k < knots.size(); ++k) take(step(knots[k]).side, frame(knots[k]), local[k]);
         for (std::size_t k = 0; k < spans; ++k) {
@@ -140,7 +140,7 @@ ColumnWindow column_window(int layers, int layer)
 
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
 {
-    constexpr double kMost = 0.2; // of the side: past a quarter cells turn over
+    constexpr double kMost = 0.2; // of the side; beyond a quarter, cells invert
     const std::size_t count = column.size();
     std::array<double, ColumnWindow::kMost> t{};
     for (std::size_t i = 1; i < count; ++i) t[i] = t[i - 1] + (column[i] - column[i - 1]).norm();
@@ -157,7 +157,7 @@ Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
             if (!(t[i] != t[j])) return Vec3::Zero();
             weight *= (s - t[j]) / (t[i] - t[j]);
         }
-        bend += weight * (column[i] - middle); // weights add up to 1
+        bend += weight * (column[i] - middle); // the weights sum to 1
     }
     const double size = bend.norm();
     return size > kMost * length ? Vec3(bend * (kMost * length / size)) : bend;

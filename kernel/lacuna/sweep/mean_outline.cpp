@@ -19,21 +19,22 @@ using namespace topology;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// A quad's corner may be as wide as this on either end. A choice, not a measurement.
+/// Maximum corner angle of a quad on either end. A higher value accepts flatter corners, a lower one moves
+/// more nodes inward. Not measured.
 constexpr double kWidest = 150 * kDegree;
-/// Of the angle that quads fill as right angles, what may lack: near half a right angle one quad less fits. A
-/// node that lacks more is drawn in until it lacks less. Choices, not measurements.
+/// The shortfall from the angle that right-angled quads would fill: near 45° one quad fewer fits. A node with
+/// a larger shortfall than the first is moved inward until it is below the second. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 constexpr double kRight = 90 * kDegree;
 
-/// The angle inside at b, the region on the left of a, b, c [0, 2 π).
+/// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
 double inner_angle(const Vec2& a, const Vec2& b, const Vec2& c)
 {
     const Vec2 in = b - a, out = c - b;
     return std::numbers::pi - std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
 }
 
-/// Both rims in the plane of the source's, and their mean.
+/// Both rims in the plane of the source's rim, and their mean.
 struct FlatRims {
     Vec3 origin, x, y;
     std::vector<Vec2> low, high, mean;
@@ -59,7 +60,7 @@ FlatRims flat_rims(const mesh::QuadMesh& source, const RimColumns& columns)
     return rims;
 }
 
-/// Draw in the nodes of a loop whose quads would be too wide on one of the ends.
+/// Move nodes of a loop inward if their quads would have too large angles on one of the ends.
 void draw_in(const std::vector<Index>& loop, FlatRims& rims)
 {
     const std::size_t n = loop.size();
@@ -92,7 +93,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     const std::vector<FaceId> faces = volume.faces(Role::source);
     if (faces.size() != 1 || volume.faces(Role::target).size() != 1)
         throw NotSweepable(refusal("an end has several faces"));
-    // The rim's nodes alone, numbered as the columns are.
+    // Only the rim nodes, numbered like the columns.
     FlatRims rims = flat_rims(source.quads, columns);
     quads::PlanarRegion region;
     double largest = 0;

@@ -9,11 +9,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Bends below this share of a side are none: what projections leave. Straight cells then stay straight, to
-/// the bit.
+/// Bends below this share of a side are zero: the error of projections. Straight cells then stay exactly
+/// straight.
 constexpr double kNoBend = 1e-9;
-/// What the columns' cubics leave of the walls' bends is spread over the layers where it is more than this
-/// share of a side; below, cells do not feel it. A choice, not a measurement.
+/// The bends of walls beyond the columns' cubics are spread over the layers if they exceed this share of a
+/// side. A lower value costs time without effect on the cells. Not measured.
 constexpr double kSpread = 1e-3;
 
 bool any(const std::vector<Vec3>& vectors)
@@ -37,7 +37,7 @@ SkinPlaces::SkinPlaces(const mesh::HexMesh& mesh) : layers_(index(mesh.layers))
     }
 }
 
-/// The corners of some levels, made if the mesh does not hold them.
+/// The corner nodes of some levels, generated if the mesh does not hold them.
 class MiddlePlacer::Corners {
 public:
     /// Levels [first, last).
@@ -89,7 +89,7 @@ std::vector<Vec3> MiddlePlacer::bends_of_end(int level, const Vec3* nodes) const
     return bends;
 }
 
-/// Levels lie between the ends by the means of their nodes.
+/// The position of a level between the ends follows from the means of its nodes.
 void MiddlePlacer::blend_ends(const RunContext& context)
 {
     for (const int level : {0, mesh_.layers}) {
@@ -121,12 +121,12 @@ void MiddlePlacer::blend_ends(const RunContext& context)
     share_.back() = 1;
 }
 
-/// How the walls' columns bend beyond their cubics.
+/// Compute the bends of the walls' columns beyond their cubics.
 void MiddlePlacer::bend_columns(const RunContext& context)
 {
     std::vector<Index> rim;
     for (const Segment& side : mesh_.rim) rim.push_back(side[0]);
-    double most = 0, left = 0; // bend of the rim's columns, and without their cubics, over the side
+    double most = 0, left = 0; // maximum bend of the rim's columns over the side, and without their cubics
     beyond_.resize(index(mesh_.layers) * rim.size());
     for (int l = 0; l < mesh_.layers; ++l) {
         for (std::size_t k = 0; k < rim.size(); ++k) {
@@ -158,7 +158,7 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     const Corners corners(corners_, low.first, std::max(high.first + high.count, last + 1), context);
     const std::size_t period = places_.side(1, 0), on_level = places_.upright(0, 0);
     const auto layers = index(last - first);
-    // Of a level, or of a layer: what it has begins `skip` after the level below.
+    // Call `visit` for a level or a layer, whose nodes begin `skip` after the level below.
     const auto each = [&](std::size_t count, std::size_t skip, const auto& visit) {
         parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -177,7 +177,7 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     each(layers, 0, [&](int l, Vec3* at) { place_layer_centres(l, corners, at); });
 }
 
-/// The sides on a level: the rim's as on the skin, the others bent with them.
+/// Place the middles of sides on a level: rim sides as on the skin, the others blended from these.
 void MiddlePlacer::place_level(int level, const Corners& corners, Vec3* out) const
 {
     const Vec3* nodes = corners.level(level);
@@ -203,7 +203,7 @@ void MiddlePlacer::place_level(int level, const Corners& corners, Vec3* out) con
         if (rim_side_[s] == 0) out[s] += bends[s];
 }
 
-/// The upright sides of a layer.
+/// Place the middles of the upright sides of a layer.
 void MiddlePlacer::place_columns(int layer, const Corners& corners, Vec3* out) const
 {
     const auto [first, count] = column_window(mesh_.layers, layer);
@@ -221,7 +221,7 @@ void MiddlePlacer::place_columns(int layer, const Corners& corners, Vec3* out) c
     }
 }
 
-/// The middles of the quads on a level.
+/// Place the centres of the quads on a level.
 void MiddlePlacer::place_level_centres(int level, const Corners& corners, Vec3* out) const
 {
     const Vec3* nodes = corners.level(level);
@@ -241,7 +241,8 @@ void MiddlePlacer::place_level_centres(int level, const Corners& corners, Vec3* 
     }
 }
 
-/// The middles of the faces over the sides of a level, and of the cells. @param out  from the level below
+/// Place the centres of the faces over the sides of a level, and of the cells. @param out  starts at the
+/// level below
 void MiddlePlacer::place_layer_centres(int layer, const Corners& corners, Vec3* out) const
 {
     const Vec3 *below = corners.level(layer), *above = corners.level(layer + 1);

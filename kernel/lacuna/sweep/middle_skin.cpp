@@ -19,13 +19,13 @@ using namespace topology;
 
 namespace {
 
-/// A node lies on facets or on an edge that is no further from it than this, over the side. What projections
-/// leave is far less, a void face's facets are far more from the nodes of walls that bend.
+/// A node lies on facets or an edge if its distance is below this share of the side. The error of projections
+/// is far smaller; nodes of bent walls are much farther from a void face's facets.
 constexpr double kOn = 1e-6;
 
-/// A side of the skin, and the patches of the two quads beside it.
+/// A side of the skin, and the patches of the two quads adjacent to it.
 struct SkinSide {
-    std::size_t place = 0; ///< of its middle
+    std::size_t place = 0; ///< index of its middle node
     Index from = 0, to = 0;
     Index patch = -1, other = -1;
 };
@@ -55,7 +55,7 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
     return sides;
 }
 
-/// Edges of a model as curves to find places on.
+/// The edges of a model as curves, for finding positions on them.
 class EdgeFinder {
 public:
     explicit EdgeFinder(const Model& model) : model_(model)
@@ -70,16 +70,16 @@ public:
 
     struct Place {
         EdgeId edge;
-        double fraction = 0; ///< of its length
+        double fraction = 0; ///< share of its length
     };
-    /// The place on the edges between two faces that is half way between two places; nothing where there is
-    /// no such edge, or it is not the side's.
+    /// The position halfway between two points on the edges between two faces; empty if there is no such
+    /// edge, or if the side does not lie on it.
     std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
     {
         const auto found = between_.find(std::minmax(one, other));
         if (found == between_.end()) return std::nullopt;
         const double length = (to - from).norm();
-        // All edges of the pair as one tree says which edge it is.
+        // One tree of all edges between the two faces finds the edge.
         const Curve& all = curve_of(found->second);
         const geometry::FacetTree::Hit hit = all.tree.closest((from + to) / 2);
         if (hit.triangle < 0) return std::nullopt;
@@ -99,13 +99,13 @@ public:
     }
 
 private:
-    /// Nodes of an edge are on it, and on its chords but for what they sag.
+    /// Nodes of an edge lie on it, and deviate from its chords by no more than their sag.
     static constexpr double kNear = 0.1;
 
     struct Curve {
         geometry::FacetTree tree;
-        std::vector<EdgeId> edge; ///< of each side
-        std::vector<double> arc;  ///< of the first edge
+        std::vector<EdgeId> edge; ///< for each side
+        std::vector<double> arc;  ///< of the edge's start, for each edge
     };
 
     Curve& curve_of(const std::vector<EdgeId>& edges)
@@ -124,7 +124,7 @@ private:
         curve.arc = geometry::arc_lengths(surface::edge_line(model_, edges.front()));
         return curve;
     }
-    /// Running length of the closest place, and how far it is.
+    /// Running length of the closest point, and its distance.
     static std::pair<double, double> position(const Curve& curve, const Vec3& point)
     {
         const geometry::FacetTree::Hit hit = curve.tree.closest(point);
@@ -138,7 +138,7 @@ private:
     std::map<std::vector<EdgeId>, Curve> curves_;
 };
 
-/// Whether the quads of a face's own mesh are those of the skin.
+/// Whether the given quads of a face are those of the skin.
 bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quads.empty(); }
 
 class SkinPlacer {
@@ -178,7 +178,8 @@ private:
     {
         return (corners_[side.to] - corners_[side.from]).norm();
     }
-    /// Where rounding alone is between a place and the straight side's, the side is straight to the bit.
+    /// If a position differs from the straight side's midpoint by rounding only, the side is exactly
+    /// straight.
     void settle(const SkinSide& side, const Vec3& at)
     {
         constexpr double kRounding = 1e-12; // of the side
@@ -219,7 +220,7 @@ private:
                                                corners_[side.to]);
             if (found) on_edge[found->edge].emplace_back(found->fraction, &side);
         }
-        for (const auto& [edge, members] : on_edge) { // one call an edge: exact curves work in bulk
+        for (const auto& [edge, members] : on_edge) { // one call per edge: exact curves are evaluated in bulk
             check_cancelled(context_);
             std::vector<double> fractions;
             for (const auto& [fraction, side] : members) fractions.push_back(fraction);
@@ -229,7 +230,7 @@ private:
         }
     }
 
-    /// Sides of a given mesh of order 1 are straight, and stay.
+    /// Keep the sides of a given mesh of order 1 straight.
     void keep_straight()
     {
         for (const SkinSide& side : sides_)
@@ -238,7 +239,7 @@ private:
                 skin_.set(side.place, Middle::settled);
     }
 
-    /// A corner by its level and its node of the source.
+    /// A corner by its level and source node.
     [[nodiscard]] Vec3 corner(int level, Index node) const
     {
         return corners_[level * mesh_.nodes_per_layer + node];
@@ -269,7 +270,7 @@ private:
             if (known[s] == 0) skin_.node(place(s)) = between(s) + bends[s];
     }
 
-    /// Sides along the rows of walls: between the rows above and below that are known, in frames that turn
+    /// Sides along the rows of walls: blend the bends of known rows above and below, in frames that rotate
     /// with the wall.
     void blend_rows()
     {
@@ -321,7 +322,7 @@ private:
             }
     }
 
-    /// @param ends  those of source and target; else those of the walls.
+    /// @param ends  true: faces of source and target; false: walls.
     void project(bool ends)
     {
         std::map<FaceId, std::vector<const SkinSide*>> of_face;
@@ -331,7 +332,7 @@ private:
             if (skin_.state(side.place) != Middle::open) continue;
             const bool on_end = side.place < first_on_walls || side.place >= target;
             if (on_end != ends) continue;
-            // Of a side between two faces without an edge, the one that has a surface.
+            // A side between two faces without an edge is projected onto the face that has a surface.
             const bool other = model_[face(side.patch)].surface == nullptr &&
                                model_[face(side.other)].surface != nullptr;
             of_face[face(other ? side.other : side.patch)].push_back(&side);
@@ -362,7 +363,7 @@ private:
         (exact ? counts_.exact : counts_.facets) += sides.size();
     }
 
-    /// Middles that are given of the skin's quads; not a number where none is.
+    /// The given centres of the skin's quads; NaN where none is given.
     [[nodiscard]] std::vector<Vec3> given_centres() const
     {
         std::vector<Vec3> found(mesh_.skin_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -381,8 +382,8 @@ private:
         return found;
     }
 
-    /// Put the middles of the skin's quads where they are given, else where those of their sides put them,
-    /// and project these where their faces say so.
+    /// Place the centres of the skin's quads: as given, or from the middles of their sides, projected if the
+    /// face requires it.
     void place_centres()
     {
         const std::vector<Vec3> given = given_centres();
@@ -413,7 +414,7 @@ private:
             for (const std::size_t place : places) points.push_back(skin_.node(place));
             surface::Projector(model_, {face}).project(points, context_);
             for (std::size_t i = 0; i < places.size(); ++i) {
-                constexpr double kRounding = 1e-14; // of the model: below it, flat quads stay flat to the bit
+                constexpr double kRounding = 1e-14; // of the model; below it, flat quads stay exactly flat
                 Vec3& at = skin_.node(places[i]);
                 if ((points[i] - at).norm() > kRounding * model_.diagonal) at = points[i];
                 skin_.set(places[i], Middle::settled);

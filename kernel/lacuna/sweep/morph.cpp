@@ -14,15 +14,16 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A worst quad this much below the source's is as good as the source's. A choice, not a measurement.
+/// A worst quad this much below the source's counts as equal. A higher value smooths less often. Not
+/// measured.
 constexpr double kSameQuality = 0.01;
-/// Below this share of the model's worst quad other images of the source are tried. A choice, not a
-/// measurement.
+/// If the worst quad is below this share of the model's worst quad, other images of the source are tried. A
+/// higher value tries them more often, which costs time. Not measured.
 constexpr double kStandsUp = 0.5;
-/// Moves below this part of the rim are what a projection leaves of a point that lies on the surface already.
+/// Moves below this share of the rim's size count as zero: the projection error of points on the surface.
 constexpr double kOnSurface = 1e-9;
 
-/// The mesh's graph, and its factor with the rim fixed.
+/// The mesh's graph, and its factorisation with the rim fixed.
 struct Spreader {
     NodeGraph graph;
     std::vector<double> weights;
@@ -35,7 +36,7 @@ struct Spreader {
     {
     }
 };
-/// Makes it when first asked for: affine images on planes need none.
+/// Creates it on first use: affine images on planes need none.
 using AskSpreader = std::function<const Spreader&()>;
 
 struct Guess {
@@ -43,14 +44,14 @@ struct Guess {
     bool affine = true; ///< the rims are related by an affine motion
 };
 
-/// Put the rim where the last row of the columns is.
+/// Move the rim to the last row of the columns.
 void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
 {
     const std::span<const Vec3> high = columns.row(columns.layers);
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
-/// Nodes where the rims put them, the surface not asked.
+/// Node positions from the rims alone, without the surface.
 Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, const AskSpreader& spreader,
                       const RunContext& context)
 {
@@ -75,8 +76,8 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, c
     return guess;
 }
 
-/// The source itself, moved as its rim is: what a skin far from its rims (a bent tube swept through its
-/// thickness) asks for, where an affine map fitted to the rims alone says nothing.
+/// The source, displaced like its rim: suits a skin far from its rims, such as a bent tube swept through its
+/// thickness, for which an affine fit of the rims alone is meaningless.
 std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns,
                             const AskSpreader& spreader, const RunContext& context)
 {
@@ -90,9 +91,9 @@ std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& colu
     return nodes;
 }
 
-/// Every node in the weighted mean of its neighbours, the rim where it is to be: folds of the source that
-/// stand up (pockets, bosses, steps) come down flat side by side, where an affine map lays them on each
-/// other.
+/// Every inner node is the weighted mean of its neighbours, with the rim in its final position. Raised parts
+/// of the source (pockets, bosses, steps) are then mapped side by side, where an affine map would overlap
+/// them.
 std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns& columns,
                                  const AskSpreader& spreader, const RunContext& context)
 {
@@ -114,7 +115,7 @@ std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns&
     return result;
 }
 
-/// Nodes of a mesh with its worst quad.
+/// Nodes of a mesh, and its worst quad.
 struct Candidate {
     std::vector<Vec3> nodes;
     double worst = -1;
@@ -127,9 +128,8 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// A deep bowl above a flat rim: the closest places to the flat guess are crowded on the rim. Guesses bulged
-/// to either side, as a membrane under pressure is, meet it evenly; the one whose image has the best worst
-/// quad is taken.
+/// For a deep bowl above a flat rim, the closest points to the flat guess crowd at the rim. Guesses bulged to
+/// either side, like a membrane under pressure, map more evenly; the image with the best worst quad is used.
 Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
                        const std::vector<Vec3>& guess, const HarmonicSpread& spread,
                        const SurfaceSmoother& smoother, Candidate best, const RunContext& context)
@@ -153,7 +153,7 @@ Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
     return best;
 }
 
-/// The best mesh that can be found from `found` on, until the worst quad is good enough.
+/// Smooth the mesh from `found` until the worst quad is good enough; the best mesh found.
 Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, const std::vector<Vec3>& guess,
                    const AskSpreader& spreader, std::span<const Index> free_nodes,
                    const SurfaceProjector& project, double good_enough, Candidate found,
@@ -187,7 +187,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     result.worst_source = worst_quad(source.quads, source.nodes, context);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes, context)};
-    // What an affine map takes from the source's quads is the rims' doing; the rest can be improved.
+    // Quality lost by an affine map is due to the rims; smoothing can improve only the rest.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};

@@ -17,7 +17,7 @@ using namespace topology;
 
 namespace {
 
-/// Target places of the nodes that are known before any face is filled; empty for the others.
+/// Target positions of nodes that are known before any face is filled; empty for others.
 std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source, const RimColumns& columns,
                                               const surface::Seeds& seeds, const surface::Imprint& imprint)
 {
@@ -38,10 +38,10 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
     return places;
 }
 
-/// The quads over one target face as a mesh of their own.
+/// The quads on one target face as a separate mesh.
 struct Part {
     mesh::QuadMesh mesh;
-    std::vector<Index> node; ///< of the whole mesh
+    std::vector<Index> node; ///< node of the whole mesh, for each node
     RimColumns columns;      ///< one layer
 };
 

@@ -22,28 +22,28 @@ using namespace topology;
 
 namespace {
 
-/// A gap of more than this part of the smaller member is one, whatever the tolerance. A choice: half of the
-/// largest tolerance a model can have.
+/// A gap wider than this share of the smaller member is intended, whatever the tolerance: half of the largest
+/// tolerance a model can have. A higher value reports more intended gaps. Not measured.
 constexpr double kWidest = 5e-3;
-/// Share of what is within four windows that is within one: of faces that part from each other evenly a
-/// quarter is, of those that bend apart from where they touch a half.
+/// Minimum share of the area within four windows that is within one: faces that diverge linearly have a
+/// quarter, faces that curve away from a contact a half.
 constexpr double kStaysNear = 0.6;
-/// An overlap that is a smaller part of both faces counts only where it is wider than the window.
+/// An overlap that covers a smaller share of both faces counts only if it is wider than the window.
 constexpr double kPart = 0.05;
-/// Vertices of one rim stand for those of another that are no further away than this times the rims are:
-/// corners of 30° are off by twice as far as their sides.
+/// Vertices of two rims correspond if their distance is at most this factor times that of the rims: corners
+/// of 30° differ by twice the distance of their sides.
 constexpr double kCorner = 4;
-/// Faces of which this share of what touches is apart are joined in part.
+/// Faces are only partly joined if more than this share of the contact is apart.
 constexpr double kApart = 0.05;
-/// Where a face covers part of another, corners are laid onto that within the tolerance and along its rim
-/// within the tolerance too, so that they are off by up to the root of two times it.
+/// If a face covers part of another, corners are moved onto it within the tolerance, and along its rim within
+/// the tolerance too, so they may be off by √2 times the tolerance.
 constexpr double kLaid = 1.5;
-/// Faces of which this share lies over the other are over each other as a whole.
+/// A face lies entirely over another if at least this share of it does.
 constexpr double kWhole = 0.98;
-/// Places an edge is asked at.
+/// Sample points of an edge.
 constexpr int kAsked = 64;
 
-/// Vertices of a face's rim that are more than the starts of closed edges.
+/// Vertices of a face's rim, except starts of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {
     std::vector<Vec3> corners;
@@ -56,7 +56,7 @@ std::vector<Vec3> corners_of(const Model& model, FaceId face)
     return corners;
 }
 
-/// Whether two faces have an edge in common, within a tolerance.
+/// Whether two faces have a common edge, within a tolerance.
 bool have_common_edge(const Model& a, FaceId face_a, const Model& b, FaceId face_b, double tolerance)
 {
     for (const EdgeId e : rim_edges(a, face_a)) {
@@ -121,7 +121,7 @@ public:
         }
     }
 
-    /// Edges of both members along faces of the other.
+    /// Find edges of both members along faces of the other.
     void find_edges(std::vector<NearMiss>& found, const RunContext& context)
     {
         find_edges(pair_.a, one_, pair_.b, other_, found, context);
@@ -145,7 +145,7 @@ private:
                overlap.b.within >= kPart * face_area(other_.volume->model, faces.second);
     }
 
-    /// Faces that lie on each other in part, and are off each other by little for the rest.
+    /// Refuse faces that coincide in part and are slightly apart elsewhere.
     void refuse_parted(const Faces& faces, const FaceOverlap& overlap) const
     {
         if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
@@ -180,7 +180,7 @@ private:
         miss.message = message_of(miss, "assembly.near_miss", "");
     }
 
-    /// @param more  follows the text.
+    /// @param more  appended to the text.
     [[nodiscard]] Message message_of(const NearMiss& miss, const char* code, const char* more) const
     {
         const bool of_b = miss.edge && miss.edge_of == miss.b;
@@ -260,7 +260,7 @@ private:
         }
     }
 
-    /// Whether a face of the member is over one of the other.
+    /// Whether a face of the member is close to one of the other member.
     [[nodiscard]] bool is_near(std::size_t member, FaceId face) const
     {
         return std::ranges::any_of(near_, [&](const Faces& faces) {
@@ -271,7 +271,7 @@ private:
     const NearPair& pair_;
     const AssemblyMember &one_, &other_;
     std::span<const std::vector<double>> sag_;
-    const std::vector<std::vector<bool>>& shared_; ///< of each member's faces: someone has it too
+    const std::vector<std::vector<bool>>& shared_; ///< for each face of the members: some member shares it
     std::set<Faces> near_;
 };
 

@@ -9,10 +9,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Passes of the smoother over each layer: a choice, not a measurement.
+/// Smoothing passes over each layer. More passes make steps smoother, but blur the layer's shape. Not
+/// measured.
 constexpr int kPasses = 5;
 
-/// Every node that is not on the rim to the mean of its neighbours.
+/// Move every node that is not on the rim to the mean of its neighbours.
 void smooth(std::vector<Vec3>& layer, const NodeGraph& graph, const std::vector<char>& on_rim)
 {
     std::vector<Vec3> next = layer;
@@ -46,7 +47,7 @@ LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec
     result.nodes = layer;
     for (int l = 1; l < columns.layers; ++l) {
         check_cancelled(context);
-        // The rim's steps along its nodes' normals, spread over the inside; a step is the first coordinate.
+        // Spread the rim's steps along node normals over the inside; the first coordinate holds the step.
         const std::vector<Vec3> normals = node_normals(source.quads, layer);
         const std::span<const Vec3> low = columns.row(l - 1), high = columns.row(l);
         std::vector<Vec3> steps(columns.rim.size()), step(count, Vec3::Zero());

@@ -18,27 +18,32 @@ using namespace topology;
 
 namespace {
 
-/// Places along each column at which the size is asked: a choice, not a measurement.
+/// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
+/// measured.
 constexpr int kSamples = 32;
-/// Sizes along the sweep that differ by a smaller share are one, and layers are even: less than can be seen.
+/// Sizes along the sweep that differ by a smaller share are equal, and layers are uniform: the difference is
+/// invisible.
 constexpr double kSameSize = 1e-3;
-/// Heights that walls give are those of an end's rows where each is off by less than this part of its
-/// thickness: what rows keep to.
+/// Heights given by walls agree with an end's rows if each differs by less than this share of its thickness:
+/// the tolerance of rows.
 constexpr double kSameRow = 0.02;
 
-/// Chords that say how far a column turns: what bends on less is no bend of the sweep. A choice.
+/// Chords that represent a column when its turning is measured. More chords would count local dents as bends
+/// of the sweep, fewer would miss bends. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
-/// What is known of the columns between both rims, in the mean.
+/// Mean data of the columns between both rims.
 struct Columns {
     double length = 0;
     double turning = 0; ///< from the source to the target [radian]
-    double sides = 0;   ///< that the size in the middle of each asks for
-    /// Sides the size asks for from the source to each of some even steps; empty: it is one along the sweep.
+    double sides = 0;   ///< number of layers by the size in the middle of each column
+    /// Layers required by the size from the source to evenly spaced positions; empty: the size is constant
+    /// along the sweep.
     std::vector<double> wanted;
 };
 
-/// How far a column turns on the way: bends between chords, those at both ends like the others [radian].
+/// Turning angle of a column: bends between chords, with the bends at both ends estimated from their
+/// neighbours [radian].
 double turning_of(const std::vector<Vec3>& points)
 {
     const std::size_t step = (points.size() - 1) / kTurnChords;
@@ -50,7 +55,7 @@ double turning_of(const std::vector<Vec3>& points)
     return sum * kTurnChords / (kTurnChords - 1);
 }
 
-/// @param middle  size at the middle of a column. @param size  size all along; null: not asked for.
+/// @param middle  size at the middle of a column. @param size  size along the columns; null: not used.
 Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                    const surface::SizeField& middle, const surface::SizeField& size,
                    const RunContext& context)
@@ -83,7 +88,7 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
     return mean;
 }
 
-/// Layers that the bends of the columns ask for, at `curvature` a full turn.
+/// Layers required by the bends of the columns, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
     constexpr double kRounding = 1e-6;
@@ -91,14 +96,15 @@ int bend_layers(const Columns& columns, const SweepOptions& options)
         std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kRounding));
 }
 
-/// Layers about as high as the quads are wide, `least` at least. @throw InvalidInput  more than can be
-/// numbered.
+/// Layers about as high as the quads are wide, at least `least`. @throw InvalidInput  more layers than node
+/// numbers allow.
 std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
 {
     if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {
-        throw InvalidInput(Message("sweep.too_many", "about {:.2g} layers would be needed at the size",
+        throw InvalidInput(Message("sweep.too_many",
+                                   "this size needs about {:.2g} layers, more than node numbers allow",
                                    needed(columns.sides))
-                               .remedy("give 'layers'"));
+                               .remedy("give 'layers' or a larger 'size'"));
     }
     spec.count = std::max(least, static_cast<int>(std::lround(columns.sides)));
     return layer_heights(spec);

@@ -19,7 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// Skin nodes within one face slide on it; those between faces stay, as do those of faces that keep their own
+/// Skin nodes inside a face slide on it; nodes between faces are fixed, as are nodes of faces with given
 /// quads.
 std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                                  const std::set<FaceId>& kept)
@@ -37,7 +37,7 @@ std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<Fa
     return surface;
 }
 
-/// The edge at a vertex that leads towards a place; invalid: none does.
+/// The edge that leads from a vertex towards a point; invalid: none.
 EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
 {
     const Vec3 way = (to - model.at(model[vertex].point)).stableNormalized();
@@ -57,7 +57,7 @@ EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
     return nearest;
 }
 
-/// What keeps a cell without volume, and what to try.
+/// Describe why a cell has no volume, and what to try.
 Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::HexMesh& mesh,
                  const Model& model)
 {
@@ -104,7 +104,7 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     const bool poor = proof.finding ? quality::can_be_improved(proof.finding->fault)
                                     : proof.quality.min_scaled_jacobian < improving.good_enough;
     if (!options.improve || !poor) return proof;
-    std::map<Index, surface::Projector> projectors; // made when first asked for
+    std::map<Index, surface::Projector> projectors; // created on first use
     const auto project = [&](Index patch, std::span<Vec3> points) {
         projectors.try_emplace(patch, model, std::vector<FaceId>{faces[index(patch)]})
             .first->second.project(points, context);

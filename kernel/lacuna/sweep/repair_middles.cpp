@@ -14,13 +14,15 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Rounds over the invalid cells. A choice, not a measurement.
+/// Rounds over the invalid cells; each may spoil neighbours that the next repairs. More cost time. Not
+/// measured.
 constexpr int kRounds = 4;
-/// Halvings of the step of a search, which starts at a tenth of the side. A choice, not a measurement.
+/// Halvings of the search step, which starts at a tenth of the side. More steps cost time for smaller moves.
+/// Not measured.
 constexpr int kSteps = 4;
 constexpr double kFirstStep = 0.1;
 
-/// Middles of the faces of a cell and of the cell: they follow from those of the sides, but for settled ones.
+/// Recompute the centres of a cell and its faces from the middles of their sides, except settled ones.
 void place_centres(mesh::HexMesh& mesh, const SkinMiddles& skin, std::size_t cell)
 {
     const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
@@ -61,7 +63,7 @@ public:
     }
 
 private:
-    /// The cells that have side `e` of a cell.
+    /// The cells that contain side `e` of a cell.
     std::vector<std::size_t> cells_round(std::size_t cell, std::size_t e) const
     {
         const std::size_t quads = mesh_.quads.size(), layer = cell / quads, q = cell % quads;
@@ -90,7 +92,8 @@ private:
         return least;
     }
 
-    /// Straight, half bent, then a search along the axes: what leaves the worst of the cells best.
+    /// Try the straight position, half the bend, then a search along the axes; keep the best for the worst
+    /// cell.
     void improve(std::size_t place, const std::vector<std::size_t>& cells, const Vec3& a, const Vec3& b)
     {
         Vec3& node = mesh_.middles.nodes[place];
@@ -109,10 +112,10 @@ private:
         if (!bend.isZero(0))
             for (const double share : {0.0, 0.5, 1.5}) offer(straight + share * bend);
         double step = kFirstStep * (b - a).norm();
-        // Of the skin, what no geometry holds goes no way but back.
+        // Unsettled middle nodes on the skin may only move back towards the straight side.
         for (int i = 0; i < kSteps && skin_.state(place) == Middle::inside; ++i, step /= 2)
             for (int d = 0; d < 6; ++d) offer(Vec3(best + (d % 2 == 0 ? step : -step) * Vec3::Unit(d / 2)));
-        least(cells); // leaves the centres where they belong
+        least(cells); // restores the centres
     }
 
     mesh::HexMesh& mesh_;
@@ -122,7 +125,7 @@ private:
     const mesh::Incidence at_side_ = mesh::quads_at_nodes(mesh_.middles.side_of, mesh_.middles.sides.size());
 };
 
-/// The most of a cell's bends at which it is valid, 0…1.
+/// The largest share of a cell's bends with which it is valid [0, 1].
 double valid_share(const std::array<Vec3, 27>& nodes)
 {
     const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(nodes).first<8>());
@@ -136,7 +139,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
     return low;
 }
 
-/// The side of the cell that bends most of those the skin holds.
+/// Report the most bent side of the cell among those fixed by the skin.
 [[noreturn]] void refuse(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                          const std::vector<FaceId>& faces, const SkinMiddles& skin, std::size_t cell,
                          std::size_t count)
@@ -174,7 +177,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         face = entity_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
-    // A bend over its side goes with the side's length; what is named is a tenth below.
+    // The relative bend of a side is proportional to its length; the suggested size is a tenth lower.
     constexpr double kBelow = 0.9;
     const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
     constexpr std::size_t kFirstUpright = 16;
@@ -188,7 +191,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         "The middle node of a side on {} belongs at {}, {:.2g} off a side of {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
-    // What the bend asks for was found to help where the straight cell is a good one.
+    // The size that the bend requires was found to help if the straight cell is good.
     constexpr double kGood = 0.3;
     if (straight < kGood)
         throw NotSweepable(std::move(refusal).remedy(

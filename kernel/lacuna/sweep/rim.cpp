@@ -18,7 +18,7 @@ constexpr const char* kColumns = "sweep.columns"; // code of the errors of this 
 
 NamedEntity source_node(Index node) { return {"source node", node}; }
 
-/// Column over each source node; -1 for none.
+/// Column over each source node; -1: none.
 std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<Index> column(source.nodes.size(), -1);
@@ -37,13 +37,13 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns
     return column;
 }
 
-/// The row must hold the very nodes of the mesh it ends on, up to what a projection leaves.
+/// Check that the row has the same nodes as the mesh at its end, up to projection errors.
 void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes, const char* end)
 {
     const std::span<const Vec3> row = columns.row(layer);
     double reach = 0;
     for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
-    constexpr double kProjection = 1e-6; // what given faces are held to, by their size
+    constexpr double kProjection = 1e-6; // the tolerance for given faces, relative to their size
     for (std::size_t k = 0; k < row.size(); ++k) {
         const Vec3& node = nodes[index(columns.rim[k])];
         const double gap = (row[k] - node).norm();
@@ -144,7 +144,7 @@ RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, 
     if (points_.rank() < 3) return;
     double rim_reach = 0;
     for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
-    // No node may lie further out than the rim's own farthest point again: beyond, the map extrapolates.
+    // No node may be farther out than twice the rim's farthest point: there the map extrapolates.
     spans_inside_ = std::ranges::all_of(nodes,
                                         [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
 }

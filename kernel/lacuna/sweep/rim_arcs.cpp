@@ -13,15 +13,15 @@ using namespace topology;
 
 namespace {
 
-/// Arcs are wrong by up to this part of their height: a parabola is off a circle of seven chords by a tenth,
-/// and curves that bend unevenly by more. A choice.
+/// Assumed relative error of an arc's height: a parabola differs by a tenth from a circle of seven chords,
+/// and more from unevenly bent curves. A higher value accepts rims farther apart. Not measured.
 constexpr double kArcError = 0.25;
 
-/// Edges that go on into each other with a smaller angle than that of this cosine, 20°, are one curve. A
-/// choice: circles are split into edges of as little as a chord each where they were imprinted.
+/// Cosine of 20°: edges that meet at a smaller angle are one curve, since imprints may split circles into
+/// edges of single chords. A smaller angle would break coarse circles at their vertices. Not measured.
 constexpr double kGoesOn = 0.94;
 
-/// The curvature at the point between two chords, as a vector to the inside; none at a corner.
+/// Curvature vector at the point between two chords, pointing inward; empty at a corner.
 std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double least_cosine)
 {
     const double a = before.norm(), b = after.norm();
@@ -29,8 +29,7 @@ std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double leas
     return Vec3((after / b - before / a) / ((a + b) / 2));
 }
 
-/// The chords of one loop, round and round; where an edge of it starts at a point, that is a corner unless
-/// it goes on.
+/// Add the chords of a closed loop. The start of an edge is a corner unless the curve continues smoothly.
 void add_chords(const std::vector<Vec3>& points, const std::vector<bool>& starts,
                 std::vector<RimChord>& chords)
 {

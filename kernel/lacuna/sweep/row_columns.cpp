@@ -17,17 +17,17 @@ using namespace topology;
 
 namespace {
 
-/// Source nodes of the rows over both ends of a side of the rim, from the lowest.
+/// Source nodes of the rows over both ends of a rim side, starting from the rim.
 struct RowSide {
     int table = -1;
     std::vector<Index> before, after;
 };
 
-/// The sides of a source's quads, 4 · quad + side.
+/// The sides of the source's quads, numbered 4 · quad + side.
 struct SourceSides {
     const std::vector<Quad>& quads;
-    std::vector<Index> partner;                       ///< across each side
-    std::unordered_map<std::uint64_t, Index> between; ///< between two nodes
+    std::vector<Index> partner;                       ///< adjacent side of the neighbouring quad
+    std::unordered_map<std::uint64_t, Index> between; ///< side between two nodes
 
     explicit SourceSides(const mesh::QuadMesh& source)
         : quads(source.quads), partner(mesh::opposite_sides(quads, static_cast<Index>(source.nodes.size())))
@@ -71,7 +71,7 @@ RowSide rows_over(const SweptParts& parts, const surface::LayerTables& tables, c
     return row;
 }
 
-/// One column where the rows over both sides of a node have the same nodes over it, else one each.
+/// Add one column if the rows over both sides of a node have the same nodes above it, otherwise one for each.
 void add_columns(std::size_t b, std::size_t i, const RowSide& before, const RowSide& after,
                  std::vector<RowColumn>& columns)
 {
@@ -137,9 +137,9 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
             arc += std::sqrt(squared);
         }
     }
-    // The exact curve runs a little unlike its polyline: two steps were enough in all cases tried.
+    // The exact curve differs slightly from its polyline: two steps sufficed in all cases tried.
     constexpr int kSteps = 4;
-    constexpr double kStep = 1e-5; // of the length, for the tangent; a choice
+    constexpr double kStep = 1e-5; // of the length, for the tangent; not measured
     const double step = kStep * chain.length();
     Vec3 point = p;
     for (int i = 0; i < kSteps; ++i) {

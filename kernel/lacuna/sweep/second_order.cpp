@@ -10,7 +10,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Of 20 nodes a cell the other seven take numbers too: the skin is compared by all, see `finer_skin()`.
+/// Cells of 20 nodes also use numbers for the other seven: the skin is compared with all of them, see
+/// `finer_skin()`.
 void check_amount(const mesh::HexMesh& mesh)
 {
     const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
@@ -22,7 +23,7 @@ void check_amount(const mesh::HexMesh& mesh)
                            .remedy("ask for a larger 'size' or fewer 'layers'"));
 }
 
-/// The quality of a mesh whose nodes are left to be made, and they; none where cells are not valid so.
+/// The quality of a mesh whose nodes are generated on demand, and these nodes; empty if cells are not valid.
 Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh, const PlacedSkin& skin,
                           const Crew* crew, const RunContext& context)
 {
@@ -34,7 +35,7 @@ Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh,
     return result;
 }
 
-/// Make the middle nodes, and move those of cells that are not valid. @return  how many cells that were
+/// Store the middle nodes, and move those of invalid cells. @return  number of cells that were invalid
 std::size_t hold_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                          const std::vector<FaceId>& faces, const SkinMiddles& skin, Elevated& result,
                          const RunContext& context)
@@ -91,8 +92,8 @@ Vec3 middle_of_skin_quad(const mesh::SkinNodes& skin, std::size_t i)
     return middle;
 }
 
-/// Finds a node of the finer skin: on a level the corners, the middles of the sides and of the quads follow
-/// each other, and so do the upright sides, the faces and the cells between two of them.
+/// Finds a node of the finer skin. On a level, corners, side midpoints and quad centres follow each other;
+/// between two levels, upright sides, faces and cells.
 class FinerNodes {
 public:
     explicit FinerNodes(const mesh::SkinNodes& skin)
@@ -132,7 +133,7 @@ private:
 
     mesh::SkinNodes skin_;
     mesh::MiddlePlaces places_;
-    std::vector<std::size_t> rim_of_; ///< of each side of the source, where it is on the rim
+    std::vector<std::size_t> rim_of_; ///< for each side of the source, its index on the rim
 };
 
 } // namespace

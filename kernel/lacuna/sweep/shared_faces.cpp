@@ -22,30 +22,33 @@ using namespace topology;
 
 namespace {
 
-/// Faces of which this share lies on the other are one if their rims are: chords of a rim that is coarse in
-/// one leave parts of a flat face uncovered, facets of either fineness leave the rim of a curved one to each
-/// other.
+/// If at least this share of each face lies on the other, they are the same face, provided that their rims
+/// agree. Coarse chords of a rim leave parts of a flat face uncovered; facets of different fineness leave
+/// gaps next to the rim of a curved face.
 constexpr double kMostly = 0.5;
-/// Faces that share less touch along their rims.
+/// Faces that share a smaller fraction only touch along their rims.
 constexpr double kNothing = 1e-3;
-/// Points of one rim may be off the chords of another by this times their sag: it is an estimate.
+/// Points of one rim may be off the chords of the other by this factor times their sag, because the sag is an
+/// estimate.
 constexpr double kRimSag = 1.5;
-/// Faces that touch along a rim and bend away are within their facets' own error for less than this share.
+/// Faces that touch along a rim and curve away from each other are within the facet error for a smaller
+/// share.
 constexpr double kAlongRim = 0.5;
-/// Places nearer to a volume's skin than this part of its diagonal are on it: facets of curved faces differ.
+/// Points within this share of a volume's diagonal from its skin lie on it, because facets of curved faces
+/// differ.
 constexpr double kInside = 5e-3;
-/// A face ready to be compared.
+/// A face prepared for comparison.
 struct Side {
     const OpenVolume* volume = nullptr;
     FaceId face;
     Eigen::AlignedBox3d box;
-    double sag = 0; ///< how far the facets may be off what they stand for [model length]
+    double sag = 0; ///< estimated maximum distance of the facets from the true surface [model length]
 
     [[nodiscard]] const Model& model() const { return volume->model; }
     [[nodiscard]] const Face& face_data() const { return model()[face]; }
 };
 
-/// The points of a face's loops, a chain each.
+/// The points of a face's loops, as one chain each.
 std::vector<std::vector<Vec3>> chains_of(const Side& side)
 {
     std::vector<std::vector<Vec3>> chains;
@@ -57,7 +60,7 @@ std::vector<std::vector<Vec3>> chains_of(const Side& side)
     return chains;
 }
 
-/// How far a rim is off another where it is furthest.
+/// Maximum distance of a rim from another.
 struct RimOff {
     double distance = 0;
     Vec3 place = Vec3::Zero();
@@ -83,7 +86,7 @@ RimOff rim_off(const Side& one, const Side& other)
     return off;
 }
 
-/// Whether the loops of a face run along those of another.
+/// Whether the loops of one face lie on those of another.
 bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 {
     const RimOff off = rim_off(one, other);
@@ -92,24 +95,24 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
-/// Whether faces within two boxes can share more than a line: the boxes do where each is widened by a limit.
+/// Whether faces in two boxes can share more than a line: the boxes do so if each is widened by a limit.
 bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
 {
     const Vec3 common = (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).array() + limit;
     return common.minCoeff() >= 0 && (common.array() > 2 * limit).count() > 1;
 }
 
-/// What two faces of two members have in common.
+/// The relation of two faces of two members.
 struct InCommon {
     bool any = false, whole = false;
-    double limit = 0; ///< how far the facets may be off each other
-    /// Of a part; where there is nothing, why both volumes overlap.
+    double limit = 0; ///< maximum distance of the facets of the same surface
+    /// Reason if a part is shared; if nothing is shared, the reason for overlapping volumes.
     std::optional<Message> refusal;
-    double apart = 0; ///< of what is taken for one: how far the arcs of the rims are off each other
-    double sag = 0;   ///< and how far their chords may be off those
+    double apart = 0; ///< for one common face: distance of the arcs of both rims
+    double sag = 0;   ///< maximum distance of their chords from these
 };
 
-/// One face in two members, the rims of which may be apart. @return  whether they are one all the same
+/// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {
@@ -138,13 +141,13 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
                     needed(joining_tolerance(one.model(), std::max(apart, off.distance)))));
 }
 
-/// @param overlap  null: nothing of one is near the other
+/// @param overlap  null: no part of one face is near the other
 InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                    const FaceOverlap* overlap, double tolerance, double window)
 {
     const double limit = tolerance + one.sag + other.sag;
     if (!share_area(one.box, other.box, limit)) return {};
-    // A face that was made where none was given is the one that is given there.
+    // A face that closed an opening is the neighbour's given face in the same place.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
     if (!same && overlap == nullptr) return {};
@@ -157,7 +160,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // Faces on either side of a curve of which each has other chords.
+        // Faces on both sides of a curve for which they have different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -165,7 +168,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         }
         same = there >= kMostly && back >= kMostly && overlap->a.same_way <= 0.5 * overlap->a.on &&
                rims_agree(a, one, b, other, tolerance, window, common);
-        // Faces that bend away from each other along a common rim are near each other there, and no more.
+        // Faces that curve away from each other at a common rim are close only along it.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
         percent_a = 100 * std::min(there, 1.0);
         percent_b = 100 * std::min(back, 1.0);
@@ -198,7 +201,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     return common;
 }
 
-/// Rims that are within the sag of their chords and yet not on one curve: what is between them is filled.
+/// Rims that agree within the sag of their chords but do not lie on one curve: the gap is closed.
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
@@ -219,11 +222,11 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     return miss;
 }
 
-/// Facets of a volume of which the middles are asked whether they are within another.
+/// Facets of a volume whose midpoints are tested for lying inside another volume.
 constexpr std::size_t kAsked = 64;
 
-/// Refuse a volume some of whose skin is within another's by more than the facets of either may be off; what
-/// is within one that is open no one can say.
+/// Refuse a volume if part of its skin is inside another by more than the facet error of both. An open volume
+/// has no inside and is not checked.
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
                  std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b)
@@ -260,8 +263,8 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
 
 } // namespace
 
-/// Facets that bend by an angle where they meet stand for an arc that is off them by about an eighth of it,
-/// times their height over the side they share.
+/// Facets that meet at an angle represent an arc that deviates from them by about an eighth of that angle
+/// times their height over the common side.
 double facet_sag(const Model& model, const Face& face)
 {
     double sag = 0;

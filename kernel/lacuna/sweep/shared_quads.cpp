@@ -10,16 +10,16 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Nodes of some quads with their places along a slanted line.
+/// Nodes of some quads, sorted along an oblique line.
 struct NodesOf {
     QuadsAlone alone;
-    std::vector<Vec3> places;                   ///< of its nodes
-    std::vector<std::pair<double, Index>> line; ///< place along the line and number of the node, sorted
+    std::vector<Vec3> places;                   ///< of each node
+    std::vector<std::pair<double, Index>> line; ///< position along the line and index of the node, sorted
 
     NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads)
         : alone(quads_alone({quads.begin(), quads.end()}))
     {
-        // No direction that the rows of a mesh are likely to have.
+        // A direction that mesh rows are unlikely to have.
         const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
         for (const Index n : alone.nodes) {
             line.emplace_back(slanted.dot(skin[n]), static_cast<Index>(places.size()));
@@ -29,13 +29,13 @@ struct NodesOf {
     }
 };
 
-/// Of each own node the other's, by place in the lists; empty where one has none.
+/// For each own node, the other mesh's node in the same place, as list indices; empty if one has none.
 std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within)
 {
     std::vector<Index> twin(a.places.size(), -1);
     std::vector<char> used(b.places.size(), 0);
     std::size_t first = 0;
-    // Rounding of the places along the line themselves.
+    // Includes the rounding of positions along the line.
     const double slack = within +
                          1e-15 * std::max(std::abs(a.line.front().first), std::abs(a.line.back().first));
     for (const auto& [at, place] : a.line) {
@@ -55,7 +55,7 @@ std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within
     return twin;
 }
 
-/// Quads by their nodes in rising order, in rising order.
+/// Sort the nodes of each quad, and then the quads.
 std::vector<Quad> sorted(std::vector<Quad> quads)
 {
     for (Quad& quad : quads) std::ranges::sort(quad);

@@ -21,7 +21,7 @@ NamedEntity beyond(const Model& model, EdgeId edge, FaceId face)
     return entity_of(model, edge);
 }
 
-/// What a narrow place asks for.
+/// The size required by a narrow place.
 std::string width_in_words(const Model& model, const surface::SizeCause& cause)
 {
     const NamedEntity a = beyond(model, *cause.edge, cause.face), b = beyond(model, *cause.other, cause.face);
@@ -30,7 +30,7 @@ std::string width_in_words(const Model& model, const surface::SizeCause& cause)
                      cause.width, sides);
 }
 
-/// The rim edge whose bends make its sides the shortest.
+/// The rim edge whose curvature requires the shortest sides.
 std::string bends_in_words(const Model& model, const surface::Seeds& seeds)
 {
     double least = std::numeric_limits<double>::infinity();

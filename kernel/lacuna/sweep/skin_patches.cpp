@@ -16,8 +16,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
                                 const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
                                 mesh::HexMesh& mesh)
 {
-    const std::vector<std::vector<std::string>> groups = skin_groups(volume); // of each face
-    std::vector<FaceId> faces;                                                // of each patch
+    const std::vector<std::vector<std::string>> groups = skin_groups(volume); // for each face
+    std::vector<FaceId> faces;                                                // for each patch
     std::map<FaceId, Index> patches;
     const auto patch_of = [&](FaceId face) {
         const auto [found, fresh] = patches.try_emplace(face, static_cast<Index>(faces.size()));
@@ -33,8 +33,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     for (const FaceId face : ends.source) mesh.source_patch.push_back(patch_of(face));
     for (const FaceId face : ends.target) mesh.target_patch.push_back(patch_of(face));
 
-    // A linking surface's sides run with the linking surface or against it; each side of the rim finds its
-    // place by the nodes it joins.
+    // A linking surface's sides run with its direction or against it; each rim side is found by its two
+    // nodes.
     struct RimPosition {
         std::size_t link, side;
     };

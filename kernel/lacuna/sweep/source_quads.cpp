@@ -23,20 +23,21 @@ using namespace topology;
 
 namespace {
 
-/// Quads on the source that narrow places may ask for where nobody asked for quads across them. A ring of
-/// three quads in a width of a 200th of its radius has some 8,000. A choice, not a measurement.
+/// Maximum number of source quads that narrow places may cause by default. A ring of three quads across a
+/// width of a 200th of its radius has some 8,000. A lower value leaves more narrow places coarse; a higher
+/// one allows surprisingly large meshes. Not measured.
 constexpr double kMostForWidth = 20000;
 
-/// Cells that a size or a number of layers alone may ask for: what fills a large workstation's memory in a
-/// solver, and is more often a length in the wrong unit than meant. A choice, not a measurement.
+/// Maximum number of cells if only the size or only the number of layers is given: more would fill a large
+/// workstation's memory in a solver, and often come from a length in the wrong unit. Not measured.
 constexpr double kMostUnasked = 50e6;
 
-/// Sides that faces of a role are expected to have: quads with a power of 2, sides across them with 1. Where
-/// some came with quads that stay, all count as those, else as the size asks.
+/// Expected number of sides on faces of a role: quads with a power of 2, sides across them with 1. If some
+/// faces keep given quads, all count like these, otherwise by the size.
 double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
                   const SweepOptions& options)
 {
-    constexpr std::size_t kSamples = 64; ///< facets a face; a rough count will do
+    constexpr std::size_t kSamples = 64; ///< facets per face; a rough count suffices
     const bool kept = role == Role::wall || options.quads == Quads::automatic || options.quads == Quads::keep;
     double by_size = 0, given = 0, given_area = 0, all_area = 0;
     for (const FaceId id : volume.faces(role)) {
@@ -61,8 +62,8 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
-/// Quads that sides by the turns of the rims ask for beyond those by the size. Where sides grow by 0.3 for
-/// each length off the rim, as the paver grades, they are as many as the integral of their inverse square.
+/// Additional quads due to the curvature of the rims. If sides grow by 0.3 per length away from the rim, as
+/// in the paver, their number is the integral of the inverse square of the side.
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
@@ -81,8 +82,8 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
     return more / kGrading;
 }
 
-/// Cells that are to be expected, by areas, lengths and given meshes alone. What could never be numbered is
-/// refused at once, instead of filling the memory first.
+/// Estimate the number of cells from areas, lengths and given meshes. Numbers that can never be stored are
+/// refused here, before memory fills.
 ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                              KnownLinks& links, const RunContext& context)
 {
@@ -100,7 +101,7 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
                 found(quads), found(asked))
                 .remedy("ask for a larger 'size' or fewer 'layers'"));
     if (layers > 0 && options.size) return {quads * layers, 0};
-    if (layers == 0) { // walls are as wide as the rims of both ends in the mean
+    if (layers == 0) { // the mean width of walls is that of both rims
         double width = 0;
         for (const Role end : {Role::source, Role::target})
             for (const Rim& rim : rims(volume.model, volume.faces(end)))
@@ -139,7 +140,7 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
             throw NotSweepable(std::move(refusal).remedy("quads = \"auto\" paves it"));
         };
     }
-    // A grid has as many quads across a neck as its rim leaves over.
+    // A grid has as many quads across a neck as its rim provides.
     const bool grids = options.quads != Quads::paved && !narrow;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;
@@ -216,10 +217,10 @@ void check_cells(const ExpectedCells& expected, const RunContext& context)
     if (expected.unasked > kMostUnasked)
         throw InvalidInput(
             Message("sweep.many_cells",
-                    "about {} cells are to be expected; more than {:.0f} million are made only where "
-                    "both 'size' and 'layers' are given",
+                    "about {} cells are expected, and above {:.0f} million both 'size' and 'layers' must be "
+                    "given",
                     found(cells), needed(kMostUnasked / 1e6))
-                .remedy("ask for a larger 'size', or give both"));
+                .remedy("use a larger 'size', or give both"));
 }
 
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)

@@ -15,25 +15,25 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Enough for the relaxation's preconditioned steps to settle; the best mesh on the way is what is kept.
+/// Enough preconditioned steps for the relaxation to converge; the best intermediate mesh is kept.
 constexpr int kRelaxations = 20;
-/// Rounds of trials: a bound on the work alone, for a round without gain is the last.
+/// Bound on the rounds of trials; the last round is the first one without gain.
 constexpr int kPolishes = 20;
-/// Steps tried for a node, round it and shorter and shorter: a choice, not a measurement.
+/// Directions tried around a node for each step length. More directions cost time per node. Not measured.
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
 
-/// The part of a move that goes along the surface.
+/// The part of a move along the surface.
 Vec3 along(const Vec3& move, const Vec3& normal)
 {
     const double squared = normal.squaredNorm();
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Turns the weights of the neighbours so that their mean is the node itself as seen along its normal; their
-/// sum stays.
+/// Change the weights of the neighbours so that their mean is the node itself, seen along its normal; their
+/// sum is unchanged.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
@@ -60,7 +60,7 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     std::vector<double> turned(weights.begin(), weights.end());
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
-    // A neighbour that pushes away lets meshes fold: then the sides' own weights are the safer choice.
+    // Negative weights can fold the mesh; then the sides' own weights are used.
     if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }
@@ -89,7 +89,7 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
 
     double worst = 1;
     const std::size_t corners = mesh::corner_count(quad);
-    // An even triangle is as good as a square.
+    // An equilateral triangle counts as much as a square.
     const double best = corners == 3 ? 2 * std::numbers::inv_sqrt3 : 1;
     for (std::size_t i = 0; i < corners; ++i) {
         const Vec3 out = at(nodes, quad[(i + 1) % corners]) - at(nodes, quad[i]);
@@ -102,7 +102,7 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
 
 double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context)
 {
-    constexpr std::size_t kBlock = 4096; // a choice
+    constexpr std::size_t kBlock = 4096; // quads per task; not measured
     const std::vector<Vec3> normals = node_normals(quads, nodes);
     return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
         double worst = 1;
@@ -183,7 +183,7 @@ double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nod
     return worst;
 }
 
-/// Free nodes of the quads that are not good enough, rising.
+/// Free nodes of poor quads, increasing.
 std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes,
                                                      std::span<const Vec3> normals, double good_enough) const
 {
@@ -199,7 +199,7 @@ std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes
     return poor;
 }
 
-/// Where a node might go: the first trial is its neighbours' mean, the others step along the surface.
+/// Trial position of a node: first the mean of its neighbours, then steps along the surface.
 Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
                                   const Vec3& normal) const
 {
@@ -211,7 +211,7 @@ Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const V
         side += (at(nodes, n) - nodes[node]).norm() / static_cast<double>(neighbours.size());
     }
     if (trial == 0 || !(normal.norm() > 0)) return mean;
-    // A quarter, a sixteenth and a sixty-fourth of the mean side, eight ways round.
+    // Steps of 1/4, 1/16 and 1/64 of the mean side, in eight directions.
     const double length = side * std::pow(0.25, 1 + (trial - 1) / kDirections);
     const double angle = (trial - 1) % kDirections * std::atan(1.0);
     const Vec3 u = normal.unitOrthogonal();
@@ -219,7 +219,7 @@ Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const V
     return nodes[node] + length * (std::cos(angle) * u + std::sin(angle) * v);
 }
 
-/// One round of trials for the nodes of poor quads. @return whether any moved.
+/// One round of trials for the nodes of poor quads. @return  whether any node moved.
 bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) const
 {
     const std::vector<Vec3> normals = node_normals(model_.quads, nodes);

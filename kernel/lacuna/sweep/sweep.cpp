@@ -32,15 +32,15 @@ using namespace topology;
 
 namespace {
 
-/// Round walls do not say how far they turn; several loops together may.
+/// The rotation between the ends of round walls is undetermined; several loops together may determine it.
 bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 {
     return links.size() > 1 &&
            std::ranges::any_of(links, [](const surface::LinkingSurface& link) { return link.lines.empty(); });
 }
 
-/// Each loop turned by its own walls; where that makes poor cells, all turned as one body if that makes
-/// better ones.
+/// Align each loop by its own walls. If that makes poor cells, rotate all loops together as a rigid body and
+/// keep the better result.
 ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                            const std::vector<double>& heights, const SourceSize& size,
                            const SweepOptions& options, Outline outline, const RunContext& context)
@@ -54,7 +54,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     if (std::ranges::equal(as_one, links, {}, &surface::LinkingSurface::branch,
                            &surface::LinkingSurface::branch))
         return alone;
-    try { // What went wrong first says more than what goes wrong second.
+    try { // The first error is more informative than the second.
         ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
         if (together.proof.finding) {
             log_line(context, together.proof.finding->message.about("loops turned as one body").text());
@@ -73,7 +73,7 @@ ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::
     return alone;
 }
 
-/// From source to target, by the linking surfaces that the walls are.
+/// Sweep from source to target with the linking surfaces of the walls.
 ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                           Outline outline, KnownLinks& known, const RunContext& context)
 {
@@ -86,8 +86,8 @@ ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, cons
                                     : sweep_between(volume, links, heights, size, options, outline, context);
 }
 
-/// Middle nodes, proved, and the curved skin compared with the sealed one: as four straight quads each, which
-/// are off by a quarter of what the quad's own straight sides would be, at most.
+/// Add middle nodes, prove the mesh, and compare the curved skin with the sealed one. Each curved quad is
+/// compared as four straight quads, whose error is at most a quarter of the quad's own straight sides'.
 void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
                          const SweepOptions& options, const RunContext& context)
 {
@@ -125,7 +125,7 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
     }
 }
 
-/// A mesh that was proved, and compared with the sealed skin.
+/// A proved mesh that was compared with the sealed skin.
 Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                      const RunContext& context)
 {
@@ -136,7 +136,7 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
     quality::require(result.proof);
     report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
-    // Quads handed on by a neighbour are compared too: they are no part of that shape.
+    // Quads copied from a neighbour are compared too: they are not part of the sealed shape.
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) {
@@ -151,15 +151,16 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
     return std::move(swept);
 }
 
-/// Cells whose least scaled Jacobian is below this are poor. Of order 2 they are worth a sweep with more
-/// sides for a turn: a quad with two sides on a round rim opens by nearly half a turn between them. It came
-/// out at 0.002, and with a few sides more the rim had none. All else in the cases tried was above 0.5. A
-/// choice.
+/// Cells with a lower minimum scaled Jacobian are poor. At order 2 they justify another sweep with more sides
+/// per turn: a quad with two sides on a round rim opens by nearly 180° between them. Such a quad had 0.002;
+/// with a few more sides the rim had none. All other cells tried were above 0.5. A higher value repeats more
+/// sweeps. Not measured.
 constexpr double kPoor = 0.1;
-/// Sides for a full turn tried at most for that. A choice, not a measurement.
+/// Maximum number of sides per turn in these repeated sweeps: a higher value costs time and cells. Not
+/// measured.
 constexpr int kMostForCurved = 32;
 
-/// The sweep asked for. Of order 2, with more sides for a turn as long as cells are poor or not valid.
+/// Sweep with the given options. At order 2, use more sides per turn while cells are poor or invalid.
 Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                      const RunContext& context)
 {
@@ -186,7 +187,7 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, Know
     return std::move(*best);
 }
 
-/// The options, with the layers that intervals ask for.
+/// The options, including requested intervals on layers.
 SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options, KnownLinks& known,
                                   const RunContext& context)
 {
@@ -202,7 +203,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
                                .remedy("leave out one of them"));
     }
     spec.count = layers->count;
-    // An edge runs from the end that is swept from, the sweep itself from the source the person named.
+    // Edges run from the end at which the sweep starts; layers run from the source named by the user.
     const bool turn = volume.turned_round && !layers->from_named_source;
     spec.bias = turn ? 1 / layers->bias : layers->bias;
     return options;
@@ -217,7 +218,7 @@ Swept sweep_true(const OpenVolume& volume, const SweepOptions& options, KnownLin
     const std::optional<Message> misfit = sweep::misfit(
         swept.fidelity, swept.mesh.layers, {options.max_deviation, options.beside.between, options.size});
     if (misfit) throw NotSweepable(*misfit);
-    // Of order 2, given middle nodes may bulge from straight facets.
+    // At order 2, given middle nodes may bulge from straight facets.
     if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
     return swept;
 }
@@ -237,7 +238,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
                                                  : even_size(surface::default_size(volume).length);
     links.plan = plan_volume(volume, links.of(volume, context), options, size, context);
     options.curvature = links.plan.per_turn;
-    // Those of an assembly are counted together.
+    // The volumes of an assembly are counted together.
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     if (!drawn) return sweep_true(volume, options, links, context);
@@ -277,19 +278,19 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
         return swept;
     } catch (const Cancelled&) {
         throw;
-    } catch (const Error& error) { // what went wrong with hexahedra alone says more
+    } catch (const Error& error) { // the error without wedges is more informative
         log_line(context, error.message().about("with wedges").text());
     }
     throw NotSweepable(*why);
 }
 
-/// A mesh may be off the sealed volume by this share before that is noted.
+/// Relative volume difference above which a note is added.
 constexpr double kNoted = 0.02;
-/// What the sizes that a note names aim at, to keep to 1 %: bends and barrels lost up to 1.6 times as much.
+/// Target for the sizes in that note, to reach 1 %: bends and barrels lost up to 1.6 times the estimate.
 constexpr double kWanted = 0.006;
 
-/// How far the volume is off, and the numbers by which it would not be: what straight sides miss grows with
-/// their square.
+/// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square
+/// of their length.
 std::string volume_in_words(const Swept& swept)
 {
     const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
@@ -304,7 +305,7 @@ std::string volume_in_words(const Swept& swept)
         static_cast<int>(std::ceil(swept.mesh.layers / part)));
 }
 
-/// What a size that nobody asked for has led to.
+/// A warning about the effect of a default size.
 std::string poor_in_words(double least)
 {
     return formatted(

@@ -39,8 +39,8 @@ using namespace topology;
 
 namespace {
 
-/// Whether walls are meshed while the source's quads are laid out: where that takes long and has nothing else
-/// to do, and no process has to be asked by both.
+/// Whether walls are meshed in parallel with the source's quads: if these take long on one thread, and both
+/// do not use the same process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -52,8 +52,8 @@ bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
     if (!free || std::ranges::any_of(volume.model.faces, exact) ||
         std::ranges::any_of(volume.model.edges, on_curve))
         return false;
-    // Quads go with the square of the rim, walls with rim times layers; on one thread walls of more layers
-    // would take longer than the quads. Measured: 4 µs a quad, 0.6 µs a node of a wall.
+    // The time for quads grows with the square of the rim, that for walls with rim times layers; with many
+    // layers, walls would take longer on their one thread. Measured: 4 µs per quad, 0.6 µs per wall node.
     std::size_t round = 0;
     for (const surface::LinkingNodes& nodes : rim) round += nodes.source_at.size();
     return 2 * heights.size() <= round;
@@ -78,7 +78,7 @@ RimColumns columns_of(const std::vector<surface::LinkingSurface>& links, const s
     return columns;
 }
 
-/// Nodes of columns along creases of the walls stay, as those of edges do.
+/// Fix nodes of columns along creases of the walls, as those on edges are.
 void hold_creases(const std::vector<surface::LinkingSurface>& links, const surface::SourceMesh& source,
                   std::size_t rows, std::vector<char>& held)
 {
@@ -96,8 +96,8 @@ void hold_creases(const std::vector<surface::LinkingSurface>& links, const surfa
     }
 }
 
-/// Void walls alone, ruled between the ends: the paper's class I, whose node lines are straight. Not where
-/// void edges are bent.
+/// Whether all walls are void and ruled between the ends, with straight void edges: class I of the paper,
+/// whose node lines are straight.
 bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     for (const FaceId wall : volume.faces(Role::wall)) {
@@ -116,14 +116,14 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
     return true;
 }
 
-/// Layers and, where it had to be found out, how good their cells are.
+/// Layers, and the quality of their cells if it was computed.
 struct BestLayers {
     LayerNodes layers;
     std::optional<quality::Quality> quality;
 };
 
-/// The layers, by the way whose worst cell is best: with the rim's residual spread over each layer, and,
-/// where that leaves poor cells, without.
+/// Layers with the best worst cell: with the rim's residual spread over each layer or, if that leaves poor
+/// cells, without it.
 BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
                        PlacementOptions placement, const SweepOptions& options, const RunContext& context)
 {
@@ -150,8 +150,7 @@ BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed
     return {std::move(spread), std::move(with)};
 }
 
-/// The same, left to be made, and how good the cells are; nothing where they are not good enough to stay as
-/// they are placed.
+/// Layers generated on demand, and the quality of their cells; empty if the cells need improvement.
 struct GoodLayers {
     PlacedLayers layers;
     LayersFound found;
@@ -176,7 +175,7 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
     return good;
 }
 
-/// Rising, each node once, the last place said.
+/// Sorted by node; the last position of each node is kept.
 std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
 {
     std::map<Index, Vec3> once;
@@ -184,7 +183,7 @@ std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>>
     return {once.begin(), once.end()};
 }
 
-/// Lay nodes of the skin onto neighbours'. Layers that are not good enough then are held from there on.
+/// Move skin nodes onto the neighbours'. Layers whose cells are then poor are stored as nodes.
 void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept,
                          std::optional<GoodLayers>& good, const SweepOptions& options,
                          const RunContext& context)
@@ -209,15 +208,15 @@ void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept
     good.reset();
 }
 
-/// Whether nothing but the placing of layers has a say in where nodes inside are. Neighbours look for each
-/// other's middle nodes in meshes that are held.
+/// Whether only the layer placement determines inner nodes. Neighbours look up each other's middle nodes in
+/// stored meshes.
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && (options.order == 1 || !options.beside.settle) &&
            options.boundary_layers.empty() && options.interior != Interior::normals;
 }
 
-/// Whether all faces of an end came with a mesh that can stay.
+/// Whether all faces of an end have given meshes that can be kept.
 bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
 {
     return std::ranges::all_of(volume.faces(end), [&](FaceId id) {
@@ -226,7 +225,7 @@ bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
     });
 }
 
-/// Given quads do not move, and leave no place for rows of other heights.
+/// Given quads do not move, so rows of other heights do not fit.
 void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, const SweepOptions& options)
 {
     if (rows.empty() || options.quads != Quads::automatic) return;
@@ -242,7 +241,7 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
     }
 }
 
-/// The inner edges of the target on the source; nothing where it has none, or where both ends came with
+/// Imprint of the target's inner edges on the source; empty if there are none, or if both ends have given
 /// meshes that may be the same graph.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
                                            const std::vector<surface::LinkingSurface>& links,
@@ -379,7 +378,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     mesh = cells_over(source.quads, columns.layers);
     mesh.nodes = std::move(layers.nodes);
     const std::vector<FaceId> faces = set_patches(volume, source, ends, walls, mesh);
-    // The proof needs room: what the nodes were made of goes.
+    // Free memory for the proof.
     walls = {};
     columns = {};
     for (const FaceId wall : volume.faces(Role::wall)) {

@@ -8,9 +8,10 @@
 
 namespace lacuna::cad {
 
-/// Spline surfaces for a void face with four logical sides: a Coons patch between the most exact shapes known
-/// of its sides, moved to the facets where these are farther from the patch than their chord error explains.
-/// One surface between each pair of opposite vertices, so that every surface is smooth.
+/// Spline surfaces for a void face with four logical sides: a Coons patch between its sides, each taken from
+/// the exact curve if there is one. Where facets are farther from the patch than their chord error explains,
+/// the patch is fitted to them. It is split at the vertices and kinks of its sides, so every surface is
+/// smooth.
 ///
 /// Straight sides give the ruled surface between source and target: the missing half of a cylinder becomes
 /// exactly that half.

@@ -18,10 +18,10 @@ struct Keyword {
     [[nodiscard]] std::string value(std::string_view key) const;
 };
 
-/// @param words  from the star on, lines that continue it joined. @pre not empty
+/// @param words  from the star on, with continuation lines joined. @pre not empty
 Keyword parse_keyword(std::string_view words);
 
-/// Whether it gives a set of elements a section.
+/// Whether it assigns a section to a set of elements.
 bool is_section(const Keyword& keyword);
 
 } // namespace lacuna::io

@@ -10,8 +10,8 @@
 /// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
 
-/// A shape in the formats: words of Abaqus, Nastran and Exodus for one that came from elsewhere, the numbers
-/// of UNV (of a face: a thin shell), Gmsh and VTK; empty and 0 where there is none.
+/// A shape in the formats: the words of Abaqus, Nastran and Exodus for elements from another format, and the
+/// numbers of UNV (for a face: a thin shell), Gmsh and VTK; empty and 0 if there is none.
 struct ShapeWords {
     const char *abaqus, *nastran, *exodus;
     int unv, gmsh, vtk;
@@ -39,7 +39,7 @@ inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
     {"", "", "HEX27", 0, 12, 29},
 };
 inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_cast<std::size_t>(shape)]; }
-/// The shape that a format gives a number above 0; none: no shape has it.
+/// The shape with a number above 0 in a format; empty: no shape has it.
 inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int64_t number)
 {
     for (std::size_t s = 0; s < kDeckShapes; ++s)
@@ -47,17 +47,17 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
     return {};
 }
 
-/// What the hexahedra of a swept mesh are, by its order and nodes.
+/// Shape of the hexahedra of a swept mesh, by its order and nodes.
 inline DeckShape cell_shape(const mesh::HexMesh& mesh)
 {
     return mesh.order() == 1 ? DeckShape::hex8 : mesh.middles.full ? DeckShape::hex27 : DeckShape::hex20;
 }
-/// And the quads of its skin.
+/// Shape of the quads of its skin.
 inline DeckShape skin_shape(const mesh::HexMesh& mesh)
 {
     return mesh.order() == 1 ? DeckShape::quad4 : mesh.middles.full ? DeckShape::quad9 : DeckShape::quad8;
 }
-/// Nodes of a cell and of a quad of its skin.
+/// Number of nodes of a cell, and of a quad of the skin.
 inline std::size_t cell_size(const mesh::HexMesh& mesh)
 {
     return static_cast<std::size_t>(shape_info(cell_shape(mesh)).nodes);

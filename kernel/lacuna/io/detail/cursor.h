@@ -14,18 +14,18 @@
 #include <string>
 #include <string_view>
 
-/// A place in the bytes of a file. Internal to this folder.
+/// Reading position in the bytes of a file. Internal to this folder.
 namespace lacuna::io {
 
-/// How a file's numbers lie in it.
+/// How a file stores numbers.
 enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.
 enum class Exponents { plain, fortran };
 
-/// The finite number that is all of `text`, the same in every locale; a number too small for a double is 0.
+/// The finite number that `text` consists of, the same in every locale; a number too small for a double is 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
 
-/// The whole number that is all of `text`, where it fits.
+/// The whole number that `text` consists of, if it fits.
 template <class Int>
 std::optional<Int> parse_integer(std::string_view text)
 {
@@ -36,7 +36,7 @@ std::optional<Int> parse_integer(std::string_view text)
     return value;
 }
 
-/// A value from its bytes. @param big  the first byte weighs most.
+/// A value from its bytes. @param big  most significant byte first.
 template <class Value>
 Value from_bytes(const char* bytes, bool big)
 {
@@ -48,48 +48,48 @@ Value from_bytes(const char* bytes, bool big)
     return value;
 }
 
-/// Blank, tab or carriage return.
+/// Whether it is a blank, tab or carriage return.
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-/// Without blanks and line ends on either side.
+/// The text without blanks and line ends on either side.
 std::string_view trimmed(std::string_view text);
-/// Whether two words are the same but for capitals.
+/// Whether two words are equal, ignoring case.
 bool same_word(std::string_view a, std::string_view b);
 /// The text in capitals.
 std::string upper(std::string_view text);
 /// Take the next word off a text; empty at its end.
 std::string_view next_word(std::string_view& text, std::string_view separators = " \t\r\n");
-/// Take the next field off a line, which ends at a comma; without blanks on either side.
+/// Take the next field off a line, up to a comma; without blanks on either side.
 std::string_view next_field(std::string_view& line);
-/// Whether so many things can be numbered.
+/// Whether this many entities can be numbered.
 constexpr bool is_index(std::uint64_t count)
 {
     return count <= static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 }
-/// Text from a file as a message may show it: in quotes, 40 characters at most, what is not printable as '?'.
+/// Text from a file as shown in a message: in quotes, at most 40 characters, unprintable ones as '?'.
 std::string shown(std::string_view text);
 
 /// The code of all errors in the text or the bytes of a file.
 inline constexpr const char* kUnreadable = "io.unreadable";
 
-/// Reads lines, words and values, and never beyond the end. Messages name the file and the line, in binary
-/// parts the byte, of what was read last.
+/// Reads lines, words and values, never beyond the end. Messages name the file and the line, or in binary
+/// parts the byte, of the last item read.
 class Cursor {
 public:
     Cursor(std::string path, std::string_view data);
 
     Coding coding = Coding::text; ///< of `integer()`, `size()` and `real()`
-    bool has_bytes = false;       ///< parts of the file are no text, so that messages name bytes
+    bool has_bytes = false;       ///< parts of the file are binary, so that messages name bytes
 
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] bool at_end() const { return at_ >= data_.size(); }
-    /// Where the next character is, and where what was read last began [bytes].
+    /// Position of the next character, and start of the last item read [bytes].
     [[nodiscard]] std::size_t position() const { return at_; }
     [[nodiscard]] std::size_t last() const { return last_; }
     [[nodiscard]] std::string_view rest() const { return data_.substr(at_); }
     /// A cursor over a part of the same file that ends where the part does.
     [[nodiscard]] Cursor part(std::string_view part) const;
 
-    /// The rest of the line as it is.
+    /// The rest of the line, unchanged.
     std::string_view raw_line();
     /// The rest of the line, without blanks at its ends.
     std::string_view line();
@@ -99,39 +99,39 @@ public:
     std::string_view word(const char* expected = "a word");
     /// The next word of this line; empty at its end.
     std::string_view word_in_line();
-    /// Like `line()`, but messages go on naming what was read before.
+    /// Like `line()`, but messages still name the item read before.
     std::string_view line_end();
     /// Whether another word follows.
     bool more();
-    /// Read the next word, which must be this one but for capitals.
+    /// Read the next word, which must be this one, ignoring case.
     void expect(std::string_view wanted);
-    /// What was read last.
+    /// The last item read.
     [[nodiscard]] std::string_view last_word() const { return data_.substr(last_, at_ - last_); }
-    /// See that the last word was this one.
+    /// Check that the last word was this one.
     void expect_last(std::string_view wanted) const;
-    /// Go behind the next place of `text`. @return false  there is none; then nothing moves.
+    /// Move past the next occurrence of `text`. @return  false: there is none, and the position is unchanged.
     bool skip_past(std::string_view text);
 
     int integer();        ///< 4 bytes, or text
     std::uint64_t size(); ///< 8 bytes, or text
     double real();        ///< 8 bytes, or text; finite
     Vec3 point();         ///< three of them
-    /// A number in text, also in files that are binary elsewhere.
+    /// A number in text, also in otherwise binary files.
     std::int64_t text_integer() { return integer_of(word("a number")); }
     double text_real() { return real_of(word("a number")); }
-    /// A word read before as a number. @throw InvalidInput  it is none.
+    /// Convert a word read before to a number. @throw InvalidInput  it is not a number.
     std::int64_t integer_of(std::string_view word) const;
     double real_of(std::string_view word, Exponents exponents = Exponents::plain) const;
-    /// 4 bytes as they lie.
+    /// 4 bytes in the byte order of this machine.
     int raw_integer() { return raw<int>(); }
-    /// `count` bytes as they lie.
+    /// The next `count` bytes.
     std::string_view bytes(std::uint64_t count);
 
-    /// A count of records, refused where the rest of the file could not hold them: a count that lies must not
-    /// cost memory. @param bytes  of a record in a binary file. @param values  of a record in a text file.
+    /// A count of records; refused if the rest of the file cannot hold them, so that a wrong count costs no
+    /// memory. @param bytes  of a record in a binary file. @param values  of a record in a text file.
     std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const;
 
-    /// @throw InvalidInput "io.unreadable" about the file and the line or byte
+    /// @throw InvalidInput "io.unreadable" with the file and the line or byte
     [[noreturn]] void fail(const Message& why) const { fail_at(last_, why); }
     [[noreturn]] void fail_at(std::size_t position, const Message& why) const;
     template <class... Arguments>

@@ -8,17 +8,17 @@
 #include <map>
 #include <span>
 
-/// What the readers of meshes share. Internal to this folder.
+/// Common parts of the mesh readers. Internal to this folder.
 namespace lacuna::io {
 
-/// Places of nodes or elements by the tags the file gives them, which need not be dense.
+/// Indices of nodes or elements by their tags in the file, which need not be dense.
 class TagPlaces {
 public:
-    /// `twice(a, b)` is told of places with the same tag, of which the first counts.
+    /// Calls `twice(a, b)` for indices with the same tag, of which the first is used.
     template <class Twice>
     TagPlaces(std::span<const DeckTag> tags, const Twice& twice);
     explicit TagPlaces(std::span<const DeckTag> tags) : TagPlaces(tags, [](Index, Index) {}) {}
-    /// -1 where there is none.
+    /// @return  -1: none.
     [[nodiscard]] Index find(DeckTag tag) const
     {
         return tag >= 0 && static_cast<std::uint64_t>(tag) < dense_.size()
@@ -33,7 +33,7 @@ private:
     std::vector<std::pair<DeckTag, Index>> sparse_;
 };
 
-/// Let values rise, each once.
+/// Sort the values and remove duplicates.
 template <class Value>
 void tidy(std::vector<Value>& values)
 {
@@ -46,14 +46,14 @@ inline void tidy(DeckSet& set)
     tidy(set.sides);
 }
 
-/// The highest of the tags of regions or sets, and of one more.
+/// The highest tag of the regions or sets and of another one.
 template <class Entity>
 int highest_tag(const std::vector<Entity>& entities, int tag = 0)
 {
     for (const Entity& entity : entities) tag = std::max(tag, entity.tag);
     return tag;
 }
-/// Call `visit(block, e, i)` for all elements, counted by `i`.
+/// Call `visit(block, e, i)` for all elements; `i` counts them.
 template <class Visit>
 void each_element(const Deck& deck, const Visit& visit)
 {
@@ -61,22 +61,22 @@ void each_element(const Deck& deck, const Visit& visit)
     for (const DeckBlock& block : deck.blocks)
         for (std::size_t e = 0; e < block.count(); ++e) visit(block, e, i++);
 }
-/// Which regions have elements.
+/// Whether each region has elements.
 std::vector<char> used_regions(const Deck& deck);
 /// The tags of all elements, block after block.
 std::vector<DeckTag> element_tags(const Deck& deck);
-/// The block of a shape and word, new where it is the first time.
+/// The block of a shape and type word, created on first use.
 std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type);
-/// Put an element behind those of another block; without what its card holds behind its nodes.
+/// Append an element of another block; without the card fields after its nodes.
 void copy_element(const DeckBlock& from, std::size_t e, DeckBlock& to);
-/// Put the elements of a block behind those of another, likewise.
-/// @param first_point   added to the places of points that they name; `first_region` to those of regions.
+/// Append the elements of a block to another, likewise without these fields.
+/// @param first_point   added to their point indices; `first_region` to their region indices.
 /// @param raise  added to their tags.
 void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to);
-/// Add to the numbers of nodes and elements that a set has.
+/// Add an offset to the node and element numbers in a set.
 void raise_numbers(DeckSet& set, DeckTag nodes, DeckTag elements);
 
-/// Gathers what a reader finds.
+/// Collects the data found by a reader.
 class DeckBuilder {
 public:
     explicit DeckBuilder(DeckFormat format) { deck_.format = format; }
@@ -86,45 +86,46 @@ public:
     /// @throw InvalidInput  more points than can be numbered.
     void add_point(DeckTag tag, const Vec3& point, const Cursor& cursor);
 
-    /// A new region.
+    /// Add a new region.
     Index add_region(int tag, std::string_view name);
-    /// The region of this tag, new where it is the first time. @param group  of several numberings in one
-    /// file which.
+    /// The region with this tag, created on first use. @param group  identifies one of several numberings in
+    /// a file.
     Index region_of(int tag, std::string_view name = {}, int group = 0);
 
     /// As `io::block_of()`.
     std::size_t block_of(DeckShape shape, std::string_view type);
-    /// Add an element. @param nodes  places of points or, with `resolve()`, tags, in the order of DeckShape;
-    /// -1: left out. @param tag  -1: counted. @param place  for messages, see `resolve()`.
+    /// Add an element. @param nodes  indices of points or, with `resolve()`, tags, in the order of DeckShape;
+    /// -1: omitted. @param tag  -1: numbered in order. @param place  for messages, see `resolve()`.
     void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
                      std::uint64_t place = 0);
-    /// Where elements that are added many at a time go, one after the other.
+    /// Destination for elements that are added in bulk, one after the other.
     struct Room {
-        Index* nodes;  ///< places of points, in the order of DeckShape
-        DeckTag* tags; ///< counted as they are
+        Index* nodes;  ///< indices of points, in the order of DeckShape
+        DeckTag* tags; ///< initially numbered in order
     };
-    /// Add elements of one region, whose nodes and tags are to be filled in before the next are added.
+    /// Add elements of one region, whose nodes and tags must be filled in before the next are added.
     Room add_elements(std::size_t block, std::size_t count, Index region);
-    /// Add a shell of three corners or more; more than four are split into triangles.
-    /// @throw InvalidInput  fewer corners, a point that is not there, a polygon that crosses itself.
+    /// Add a shell with three or more corners; more than four are split into triangles.
+    /// @throw InvalidInput  fewer corners, an unknown point, a polygon that intersects itself.
     void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);
-    /// Tags of nodes as their places, in all elements so far. @param fail  is called with the element's place
-    /// and what is wrong. Elements added with tags must all have been.
+    /// Replace tags of nodes by indices in all elements so far, which must all have been added with tags.
+    /// @param fail  is called with the element's place and the error.
     template <class Fail>
     void resolve(const TagPlaces& nodes, const Fail& fail);
 
-    /// Count what is not taken.
+    /// Count ignored content.
     void pass_over(const std::string& what, std::size_t count = 1);
 
-    /// Leave out nodes that an element lists beyond those of its type.
+    /// Count nodes that elements list beyond those of their type, and ignore them.
     void pass_over_nodes(const std::string& type, std::size_t count)
     {
         further_nodes_[type] = std::max(further_nodes_[type], count);
     }
-    /// Say what was read otherwise than it stands: a sentence without the file's name.
+    /// Add a warning about content that was read differently from the file: a sentence without the file's
+    /// name.
     void warn(const std::string& text) { deck_.warnings.push_back(text); }
 
-    /// What was gathered. @throw InvalidInput "io.unreadable" (a point too far away)
+    /// The collected deck. @throw InvalidInput "io.unreadable" (a point too far away)
     Deck take(const std::string& path);
 
 private:
@@ -133,10 +134,10 @@ private:
 
     Deck deck_;
     std::map<std::pair<int, int>, Index> regions_;
-    std::vector<std::vector<std::uint64_t>> places_; ///< of the elements of each block
+    std::vector<std::vector<std::uint64_t>> places_; ///< for each element of each block
     std::map<std::string, std::size_t> passed_over_;
-    std::map<std::string, std::size_t> further_nodes_; ///< by the elements' type, at most
-    DeckTag elements_ = 0;                             ///< counted
+    std::map<std::string, std::size_t> further_nodes_; ///< maximum for each element type
+    DeckTag elements_ = 0;                             ///< number of elements
 };
 
 void read_stl(Cursor& cursor, DeckBuilder& into);
@@ -149,7 +150,7 @@ void read_vtk(Cursor& cursor, DeckBuilder& into);
 void read_vtu(Cursor& cursor, DeckBuilder& into);
 void read_medit(Cursor& cursor, DeckBuilder& into);
 void read_exodus(Cursor& cursor, DeckBuilder& into);
-/// Whether bytes are a binary STL file of one solid, to the byte.
+/// Whether bytes are a binary STL file of one solid, with exactly the right size.
 bool is_binary_stl(std::string_view bytes);
 
 template <class Twice>
@@ -157,7 +158,8 @@ TagPlaces::TagPlaces(std::span<const DeckTag> tags, const Twice& twice)
 {
     DeckTag highest = 0;
     for (const DeckTag tag : tags) highest = std::max(highest, tag);
-    // A table up to the highest tag, where it is not much longer than the tags themselves: 4 × is a choice.
+    // Use a table up to the highest tag if that is at most 4 × the number of tags: a higher factor makes more
+    // lookups direct, but wastes memory for sparse tags. Not measured.
     if (static_cast<std::uint64_t>(highest) / 4 <= tags.size()) {
         dense_.assign(static_cast<std::size_t>(highest) + 1, -1);
         for (std::size_t i = 0; i < tags.size(); ++i) {

@@ -9,13 +9,14 @@ namespace lacuna::io {
 
 /// The facets of a deck: its shells, and the sides of solids that are free or between two regions, each once.
 ///
-/// Labels part shells by region and by the element sets and surfaces they are in, sides of solids by the one
-/// or two regions they bound and by surfaces. A shell that lies on sides of solids stands for them. Sets of a
-/// single shell part nothing, and where more than 20 labels would be of one shell each, these shells are one
-/// label. Nodes within the tolerance of each other count as one, so that parts that touch share sides.
+/// Shells are divided into labels by region and by the element sets and surfaces that contain them, sides of
+/// solids by the one or two regions that they bound and by surfaces. A shell on sides of solids replaces
+/// them. Sets of a single shell are ignored, and if more than 20 labels would have only one shell, these
+/// shells share a label. Nodes within the tolerance of each other count as one, so that touching parts share
+/// sides.
 /// @param tolerance  [the deck's length]; 0: 1e-6 × the diagonal.
 /// @throw InvalidInput "io.no_faces"
-/// @note  O(n) in the elements but for finding sparse tags.
+/// @note  O(n) in the elements, apart from the search for sparse tags.
 FacetFile facets_of(const Deck& deck, double tolerance = 0);
 
 } // namespace lacuna::io

@@ -12,11 +12,11 @@
 /// Decks of several files. Internal to this folder.
 namespace lacuna::io {
 
-/// Where something stands in a deck of several files.
+/// A position in a deck of several files.
 struct DeckPlace {
     const Cursor* cursor = nullptr;
     std::size_t position = 0;
-    std::uint64_t file = 0; ///< 0: the deck itself, then those included as they are met
+    std::uint64_t file = 0; ///< 0: the deck itself; others in the order of inclusion
 
     /// @throw InvalidInput "io.unreadable"
     template <class... Arguments>
@@ -25,30 +25,30 @@ struct DeckPlace {
         cursor->fail_at(position, format, arguments...);
     }
     [[noreturn]] void fail(const Message& why) const { cursor->fail_at(position, why); }
-    /// As one number above 0.
+    /// The position as a number above 0.
     [[nodiscard]] std::uint64_t number() const { return (file << kPositionBits | position) + 1; }
-    static constexpr int kPositionBits = 44; // files of up to 16 TB
+    static constexpr int kPositionBits = 44; // for files of up to 16 TB
 };
 
-/// A deck and the files it includes, which lie in its folder or below.
+/// A deck and its included files, which lie in its folder or below.
 class DeckFiles {
 public:
     explicit DeckFiles(Cursor& main);
 
-    /// The cursor of a file named in an INCLUDE at `place`. @param depth  files within files so far.
-    /// @throw InvalidInput  it is not there, lies elsewhere, or files include themselves.
+    /// The cursor of a file named in an INCLUDE at `place`. @param depth  current depth of nested files.
+    /// @throw InvalidInput  the file does not exist, lies elsewhere, or includes itself.
     Cursor& include(const std::string& name, const DeckPlace& place, int depth);
     /// Number of the file included last.
     [[nodiscard]] std::uint64_t last() const { return files_.size(); }
     [[nodiscard]] DeckPlace place_of(std::uint64_t number) const;
 
-    static constexpr std::size_t kLongestName = 4096; // characters of a file's name, as Linux takes them
+    static constexpr std::size_t kLongestName = 4096; // characters of a file's name, the limit of Linux
 
 private:
     struct File;
     Cursor& main_;
     std::filesystem::path folder_;
-    std::vector<std::shared_ptr<File>> files_; ///< kept for messages and for words that point into them
+    std::vector<std::shared_ptr<File>> files_; ///< kept for messages, and for words that point into them
 };
 
 } // namespace lacuna::io

@@ -20,22 +20,22 @@
 #include <utility>
 #include <vector>
 
-/// What the writers of decks share. Internal to this folder.
+/// Common parts of the deck writers. Internal to this folder.
 namespace lacuna::io {
 
-/// A mesh whose nodes and cells a deck does not hold.
+/// A mesh whose nodes and cells are not stored in the deck.
 struct BulkPart {
     const mesh::HexMesh& mesh;
     std::unique_ptr<const NodeReader> nodes;
-    const mesh::NodeNumbers* numbers; ///< of its nodes, from 0; null: they are the whole's
+    const mesh::NodeNumbers* numbers; ///< of its nodes, from 0; null: its nodes are those of the whole
     BulkPlace place;
     mesh::CellKinds kinds{mesh};
 
-    /// Nodes that no part before it has, and the number of the first.
+    /// Number of nodes that no earlier part has, and the number of the first.
     [[nodiscard]] std::size_t points() const { return numbers ? numbers->fresh() : nodes->count(); }
     [[nodiscard]] std::size_t first_point() const { return numbers ? index(numbers->first()) : 0; }
     [[nodiscard]] Index number(Index node) const { return numbers ? numbers->of(node) : node; }
-    /// Cells that are in blocks of hexahedra, else of wedges.
+    /// Number of cells in blocks of hexahedra, or of wedges.
     [[nodiscard]] std::size_t count(bool hexes) const
     {
         return hexes ? kinds.hexes() : mesh.cell_count() - kinds.hexes();
@@ -46,7 +46,7 @@ struct BulkPart {
     }
 };
 
-/// Meshes that a deck does not hold. Nodes are numbered from 1.
+/// Meshes that are not stored in the deck. Nodes are numbered from 1.
 class LayeredBulk {
 public:
     LayeredBulk(const Deck& deck, std::vector<BulkPart> parts);
@@ -54,13 +54,13 @@ public:
     std::vector<BulkPart> parts;
     std::size_t points = 0;
 
-    /// Of each set of the deck its members, where some are cells that are made, and the parts of these.
+    /// For each set of the deck with generated cells: its members, and the parts of these.
     std::vector<mesh::Ranges> sets;
     std::vector<std::vector<const BulkPart*>> parts_of_set;
-    /// Cells before those of each part, of hexahedra and of wedges, and all.
+    /// Number of cells before each part, for hexahedra and wedges; last the total.
     std::vector<std::size_t> hexes{0}, wedges{0};
 
-    /// The part that the `i`-th of the hexahedra or wedges is of.
+    /// The part that contains the `i`-th of the hexahedra or wedges.
     [[nodiscard]] const BulkPart& part_of(bool hex, std::size_t i) const
     {
         const std::vector<std::size_t>& before = hex ? hexes : wedges;
@@ -68,7 +68,7 @@ public:
     }
 };
 
-/// What a deck holds in bulk, or leaves to be made.
+/// Reads the bulk data of a deck, stored or generated.
 class BulkReader {
 public:
     BulkReader(const Deck& deck, const LayeredBulk* layered) : deck_(&deck), layered_(layered) {}
@@ -88,7 +88,7 @@ public:
             if (low < high) each_of(part, low, high, visit);
         }
     }
-    /// Call `visit(point)` for the nodes on the skins of meshes that the deck does not hold, some of them
+    /// Call `visit(point)` for the skin nodes of meshes that are not stored in the deck, for some of them
     /// more than once.
     template <class Visit>
     void each_on_skin(const Visit& visit) const
@@ -103,13 +103,13 @@ public:
         return layered_ ? DeckTag(place) + 1 : deck_->point_tags[index(place)];
     }
 
-    /// Whether a block's elements are made.
+    /// Whether a block's elements are generated.
     [[nodiscard]] bool is_made(const DeckBlock& block) const
     {
         return layered_ != nullptr && shape_info(block.shape).dimension == 3;
     }
     [[nodiscard]] std::size_t count(const DeckBlock& block) const;
-    /// Call `visit(tag, region, places of the nodes)` for one of them.
+    /// Call `visit(tag, region, node indices)` for one of them.
     template <class Visit>
     void element(const DeckBlock& block, std::size_t e, const Visit& visit) const
     {
@@ -122,22 +122,22 @@ public:
             for (std::size_t k = 0; k < nodes.count; ++k) nodes.node[k] = part.numbers->of(nodes.node[k]);
         visit(part.tag(cell), part.place.region, std::span<const Index>(nodes.all()));
     }
-    /// Elements [begin, end) of a block that are made for one part, and their region.
+    /// Elements [begin, end) of a block that are generated for one part, and their region.
     struct MadeRun {
         std::size_t begin, end;
         Index region;
         const BulkPart* part;
     };
-    /// In the block's order; empty: the deck holds its elements.
+    /// In the block's order; empty: the deck stores its elements.
     [[nodiscard]] std::vector<MadeRun> made_runs(const DeckBlock& block) const;
-    /// Numbers of a block's elements.
+    /// The numbers of a block's elements.
     [[nodiscard]] mesh::Numbers tag_ranges(const DeckBlock& block) const;
 
-    /// Parts whose cells are of a region, and those whose cells are all members of a set.
+    /// Parts with cells of a region, and parts whose cells are all members of a set.
     [[nodiscard]] std::vector<const BulkPart*> parts_of(Index region) const;
     [[nodiscard]] std::vector<const BulkPart*> parts_of(const DeckSet& set) const;
 
-    /// Members of a set of nodes or elements.
+    /// Number of members of a set of nodes or elements.
     [[nodiscard]] std::size_t count(const DeckSet& set) const
     {
         return made(set) != nullptr ? made(set)->count() : set.members.size();
@@ -154,7 +154,7 @@ private:
     {
         return static_cast<std::size_t>(&set - deck_->sets.data());
     }
-    /// Null: the deck holds all of its members.
+    /// Null: the deck stores all of its members.
     [[nodiscard]] const mesh::Ranges* made(const DeckSet& set) const
     {
         if (layered_ == nullptr || layered_->sets[place_of(set)].count() == 0) return nullptr;
@@ -162,7 +162,7 @@ private:
     }
     [[nodiscard]] std::size_t made_cell(const BulkPart& part, bool hex, std::size_t e) const;
 
-    /// Points [begin, end) that a part is the first to have.
+    /// Visit the points [begin, end) for which a part is the first to have them.
     template <class Visit>
     static void each_of(const BulkPart& part, std::size_t begin, std::size_t end, const Visit& visit)
     {
@@ -191,7 +191,7 @@ private:
     const LayeredBulk* layered_;
 };
 
-/// Text and all points, each put by `put(place, tag, point, out)` in at most so many bytes.
+/// Append text and all points, each written by `put(place, tag, point, out)` in at most this many bytes.
 template <class Put>
 Section section_of_points(std::string text, const BulkReader& bulk, std::size_t bytes, Put put)
 {
@@ -204,7 +204,7 @@ Section section_of_points(std::string text, const BulkReader& bulk, std::size_t 
                 return out;
             }};
 }
-/// The same of the elements of a block. @param put  `put(place in the block, tag, region, nodes, out)`
+/// The same for the elements of a block. @param put  `put(index in the block, tag, region, nodes, out)`
 template <class Put>
 Section section_of_elements(const BulkReader& bulk, const DeckBlock& block, std::size_t bytes, Put put)
 {
@@ -218,68 +218,68 @@ Section section_of_elements(const BulkReader& bulk, const DeckBlock& block, std:
             }};
 }
 
-/// A file to be: sections refer to the deck.
+/// Content of a file to be written: its sections refer to the deck.
 struct DeckFile {
     std::vector<Section> sections;
-    std::vector<std::string> notes; ///< what the format cannot hold, a sentence each
-    std::string changed{};          ///< sets of the deck that are other ones in the file; empty: none is
+    std::vector<std::string> notes; ///< content that the format cannot hold, a sentence each
+    std::string changed{};          ///< sets of the deck that differ in the file; empty: none
     Sizes sizes = Sizes::varying;
 };
 
-/// @param layered  what `deck_without_bulk()` left out; null: the deck holds all. Sections refer to it.
+/// @param layered  the data that `deck_without_bulk()` omitted; null: the deck has all. Sections refer to it.
 DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile abaqus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 DeckFile unv_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 /// @param layered  of one part
 DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered = nullptr);
 
-/// Text of one place, all parts.
+/// The text at one place, of all parts.
 std::string text_at(const Deck& deck, DeckText::Place place);
 
-/// A name of Abaqus: letters, digits, - and _ , a letter first.
+/// A name that is valid in Abaqus: letters, digits, - and _ , starting with a letter.
 std::string abaqus_name(std::string_view name);
-/// A name as a format can hold it, with a number behind it where that is taken.
+/// A name that is valid in a format, with a number appended if it is in use.
 std::string free_name(std::string_view name, DeckFormat format,
                       const std::function<bool(const std::string&)>& is_taken);
-/// Whether sets of two kinds must not have one name. CalculiX takes a load on a surface for one on the set of
-/// elements of that name, and applies none; a universal file has groups of both nodes and elements.
+/// Whether sets of two kinds must not have the same name. CalculiX takes a load on a surface for one on the
+/// element set of that name, and applies none; a universal file has groups of both nodes and elements.
 bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 
-/// Whether Abaqus's word in capitals is an element of this shape.
+/// Whether an Abaqus type word in capitals is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
 
-/// Fields of a Nastran line apart by commas or, where it has none, tabs or columns; the first is the card's
-/// name.
+/// Fields of a Nastran line, separated by commas or, if it has none, by tabs or columns; the first is the
+/// card's name.
 std::vector<std::string_view> nastran_fields(std::string_view line);
 
-/// Numbers that the text of a deck takes.
+/// Numbers used in the text of a deck.
 struct TextNumbers {
     std::set<DeckTag> nodes, cells;
-    DeckTag set = 0, property = 0;       ///< the highest
-    std::vector<std::string> surfaces{}; ///< names of Abaqus
+    DeckTag set = 0, property = 0;       ///< the highest ones
+    std::vector<std::string> surfaces{}; ///< names in Abaqus
 };
 TextNumbers numbers_in_text(const Deck& deck);
 
-/// Materials that the text of a Nastran or Abaqus deck defines, as it calls them, each once.
+/// Materials defined in the text of a Nastran or Abaqus deck, by their names there, each once.
 std::vector<std::string> materials_in_text(const Deck& deck);
-/// The material of the section of a set of elements in the text of an Abaqus deck; none: it has no section.
+/// The section material of an element set in the text of an Abaqus deck; empty: it has no section.
 std::optional<std::string> section_material(const Deck& deck, std::string_view set);
-/// Cards of an Abaqus deck up to its first step, and from there on.
+/// Cards of an Abaqus deck before its first step, and from there on.
 std::pair<std::string, std::string> model_and_steps(const std::string& cards);
-/// Put cards of the model before the first step of an Abaqus deck.
+/// Insert model cards before the first step of an Abaqus deck.
 void add_model_cards(Deck& deck, const std::string& cards);
 
-/// How the exponent of a real number begins: with an E, or with its sign alone, as in 1.5-3.
+/// Start of the exponent of a real number: an E, or only its sign, as in 1.5-3.
 enum class RealForm { plain, nastran };
 
-/// A real number of at most `width` characters, the nearest of these, with a point. @pre width >= 10
+/// The nearest real number of at most `width` characters, with a point. @pre width >= 10
 char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
-/// See that a format has room for all numbers of nodes and elements. @throw InvalidInput "io.number_taken"
+/// Check that all node and element numbers fit into a format. @throw InvalidInput "io.number_taken"
 void check_numbers(const Deck& deck, DeckTag most, const std::string& format, const std::string& remedy);
-/// An element that a format does not have. @throw InvalidInput always
+/// Refuse an element that a format does not have. @throw InvalidInput always
 [[noreturn]] void refuse_element(std::size_t count, std::string_view type, DeckShape shape,
                                  std::string_view format, std::string_view why);
 [[noreturn]] inline void refuse_element(const DeckBlock& block, std::string_view format, std::string_view why)

@@ -9,8 +9,8 @@
 /// zlib. Internal to this folder.
 namespace lacuna::io {
 
-/// What bytes compressed by zlib were. @param size  bytes of it, which must be right; no more are taken.
-/// @return nothing  the bytes are damaged, or are another number.
+/// Decompress zlib data. @param size  the exact size of the result; no more is decompressed.
+/// @return  empty: the data are damaged, or have another size.
 std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size);
 
 } // namespace lacuna::io

@@ -3,10 +3,10 @@
 
 #include <string>
 
-/// Files to be read. Internal to this folder.
+/// Input files. Internal to this folder.
 namespace lacuna::io {
 
-/// See that a path names a plain file with something in it; a pipe is not waited for.
+/// Check that a path names a regular file that is not empty, without waiting for a pipe.
 /// @throw InvalidInput  "io.no_file", "io.not_a_file" (a folder, pipe or device), "io.empty_file".
 void check_file(const std::string& path);
 

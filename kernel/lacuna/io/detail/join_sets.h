@@ -14,18 +14,18 @@
 /// Sets of a deck that a mesh joins. Internal to this folder.
 namespace lacuna::io {
 
-/// A mesh that is in a deck now, whose sets do not have it yet.
+/// A mesh that was added to a deck, but not to its sets.
 struct NewCells {
     const mesh::HexMesh& mesh;
-    double scale = 1;              ///< of the mesh's coordinates to the deck's
+    double scale = 1;              ///< factor from the mesh's coordinates to the deck's
     const std::string& volume;     ///< its name
     std::vector<DeckTag> nodes{};  ///< number of each node of the mesh
-    std::vector<DeckTag> cells{};  ///< of each cell, rising
-    std::vector<DeckSide> sides{}; ///< of each quad of the skin; empty: the format has none
-    std::vector<DeckTag> skin{};   ///< of each quad of the skin as an element; empty: they are none
+    std::vector<DeckTag> cells{};  ///< number of each cell, increasing
+    std::vector<DeckSide> sides{}; ///< for each quad of the skin; empty: the format has none
+    std::vector<DeckTag> skin{};   ///< element for each quad of the skin; empty: none
 };
 
-/// Nodes rising: sides and faces are known by them.
+/// Nodes in increasing order, as a key for sides and faces.
 template <std::size_t N>
 std::array<Index, N> rising(std::array<Index, N> nodes)
 {
@@ -44,7 +44,7 @@ struct CornerHash {
     }
 };
 
-/// Nodes of a face of a solid, of its place in `face_corners()`, and of a shell: rising.
+/// Nodes of a face of a solid, given as in `face_corners()`, or of a shell: increasing.
 inline Quad face_key(const DeckBlock& block, std::size_t e, Quad face)
 {
     for (Index& k : face) k = k < 0 ? -1 : block.element(e)[index(k)];
@@ -55,19 +55,20 @@ inline Quad shell_key(const DeckBlock& block, std::size_t e)
     return face_key(block, e, {0, 1, 2, shape_info(block.shape).corners == 4 ? 3 : -1});
 }
 
-/// Places of the sets that hold all nodes of a deck, or all solids: of these sets those that are called "all"
-/// or "eall", or are a second name of what regions hold. Also those that did before decks were merged.
+/// Indices of the sets that hold all nodes of a deck, or all solids. Of these only the sets named "all" or
+/// "eall", and those that duplicate regions. Includes sets for which this was true before decks were merged.
 std::vector<std::size_t> sets_of_all(const Deck& deck);
 
-/// Put what a mesh has into the sets of a deck that are to hold it: those of all, and those that held some of
-/// what was left out of the deck. Of these
-/// - a set of all nodes or elements of the part that has the volume's name, else of all that was left out,
-///   gets all new ones;
-/// - a surface, or a set of elements on the skin, gets the quads of the skin that lie where its sides or
-///   elements lay, a set of nodes their nodes.
-/// `Deck::gap` lists the sets that got some.
-/// @param of_all  as `sets_of_all()` found them before.
-/// @param fits    whether a set of elements may have the cells.
+/// Add the data of a mesh to the sets of a deck that should contain them: the sets of everything, and those
+/// that held parts left out of the deck. Of the latter
+/// - a set of all nodes or elements of the part with the volume's name, otherwise of everything left out,
+/// gets
+///   all new ones;
+/// - a surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
+///   elements; a set of nodes gets their nodes.
+/// `Deck::gap` records the extended sets.
+/// @param of_all  result of `sets_of_all()` before the mesh was added.
+/// @param fits    whether a set of elements may get the cells.
 void join_sets(Deck& deck, const NewCells& added, const std::vector<std::size_t>& of_all,
                const std::function<bool(const DeckSet&)>& fits);
 

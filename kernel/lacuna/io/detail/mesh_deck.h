@@ -12,58 +12,58 @@
 #include <utility>
 #include <vector>
 
-/// Putting a swept mesh into a deck. Internal to this folder.
+/// Adding a swept mesh to a deck. Internal to this folder.
 namespace lacuna::io {
 
-/// Where a deck has the cells of a mesh that it does not hold.
+/// Position in a deck of the cells of a mesh that it does not store.
 struct BulkPlace {
-    DeckTag first_cell = 1;          ///< number of the first, which the others follow
-    Index region = 0;                ///< all are of
-    std::vector<std::size_t> sets{}; ///< places of the sets that all are in
-    DeckTag highest = 0;             ///< number of a cell of the meshes before it
+    DeckTag first_cell = 1;          ///< number of the first; the others follow
+    Index region = 0;                ///< of all of them
+    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all of them
+    DeckTag highest = 0;             ///< highest cell number of earlier meshes
 };
 
 struct AddedMesh {
-    std::span<const Index> points; ///< of each node of the mesh the deck's point it is; -1: a new one
-    double scale = 1;              ///< of the mesh's coordinates to the deck's
-    bool joins = false;            ///< the deck is one that was read, whose sets get what belongs to them
+    std::span<const Index> points; ///< the deck's point for each node of the mesh; -1: a new one
+    double scale = 1;              ///< factor from the mesh's coordinates to the deck's
+    bool joins = false;            ///< the deck was read from a file, and its sets are extended
     bool skin_cells = false;       ///< sets of the skin are quads that become elements
-    /// Quads of the skin that the deck has already as elements, by their nodes rising; those added join them.
-    /// Null: none are to be shared.
+    /// Quads of the skin that the deck already has as elements, by their sorted nodes; new ones are added.
+    /// Null: quads are not shared.
     std::map<Quad, DeckTag>* skin_tags = nullptr;
-    /// Sets of the meshes added before, by kind and group, which this one's join; null: there are none.
+    /// Sets of the meshes added before, by kind and group, which this one's extend; null: there are none.
     GroupSets* groups = nullptr;
-    Index region = -1; ///< of the deck, that the cells are more of; -1: one of their own
-    /// Not null: nodes and cells are not put in the deck, only regions, sets and empty blocks of the cells'
-    /// shapes; here is where it would have them. Points are numbered from 1.
-    /// @pre the deck is empty but for such meshes, and no first numbers are asked for
+    Index region = -1; ///< of the deck, to which the cells are added; -1: a new one
+    /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
+    /// cells' shapes; this gets their position. Points are numbered from 1.
+    /// @pre  the deck contains only such meshes, and no first numbers are requested
     BulkPlace* bulk = nullptr;
-    /// Then of each node its number in the whole, from 0; null: it is its own.
+    /// In that case, the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;
-    /// Of each quad of the skin, whether it is left out of the elements; empty: none is.
+    /// Whether each quad of the skin is left out of the elements; empty: none is.
     std::vector<char> inner{};
-    /// Of the elements beside the mesh, and the name of their region; empty: none is known.
+    /// Material of the elements next to the mesh, and the name of their region; empty: unknown.
     std::string neighbour_material{}, neighbour{};
 };
-/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw as `join_deck()`.
-/// @return  place of the region in the deck.
+/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw  as `join_deck()`.
+/// @return  index of the region in the deck.
 Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
                const RunContext& context = {});
 
 /// `deck_of()` without nodes and cells; see `AddedMesh::bulk`.
 Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
                        const RunContext& context);
-/// The same of several meshes. @param places  of each mesh
+/// The same for several meshes. @param places  of each mesh
 Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
                        bool interfaces, std::vector<BulkPlace>& places, const RunContext& context);
 
-/// The face of a patch of the skin, as messages name it.
+/// The face of a patch of the skin, for messages.
 NamedEntity entity_of(const mesh::SkinPatch& patch);
 
-/// The deck's middle nodes that are the mesh's on the sides they share.
+/// Find the deck's middle nodes on sides shared with the mesh.
 /// @param matched  quads of the skin that are faces of the deck's elements.
-/// @param points   of each corner of the mesh the deck's point, -1: none; out: of the middle nodes too.
-/// @throw InvalidInput "io.mixed_order"  one of the two has middle nodes where the other has none or others.
+/// @param points   the deck's point for each corner of the mesh, -1: none; middle nodes are added.
+/// @throw InvalidInput "io.mixed_order"  only one of them has a middle node, or these differ.
 void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points);
 

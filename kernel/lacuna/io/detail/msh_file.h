@@ -10,7 +10,7 @@
 namespace lacuna::io {
 
 /// @param options  without a partition.
-/// @param parts    of version 4.1; null: the mesh is one.
+/// @param parts    for version 4.1; null: the mesh is not divided.
 /// @throw InvalidInput "io.number_taken"  a node or an element has the number 0.
 DeckFile msh_file(const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions& options,
                   const mesh::ViewParts* parts = nullptr);

@@ -6,12 +6,12 @@
 #include <span>
 #include <string>
 
-/// Shapes as Gmsh has them. Internal to this folder.
+/// Gmsh's node orders. Internal to this folder.
 namespace lacuna::io {
 
-/// What a physical group without a name is called.
+/// The name given to a physical group without one.
 std::string unnamed_group(int tag);
-/// Where Gmsh has the nodes of a shape, in the order of DeckShape; empty: in the same places.
+/// Positions of a shape's nodes in Gmsh, in the order of DeckShape; empty: the same positions.
 std::span<const std::uint8_t> gmsh_places(DeckShape shape);
 
 } // namespace lacuna::io

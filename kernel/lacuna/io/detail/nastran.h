@@ -10,25 +10,25 @@
 #include <optional>
 #include <vector>
 
-/// Nastran bulk data below its nodes and elements: cards and coordinate frames. Internal to this folder.
+/// Cards and coordinate frames of Nastran bulk data. Internal to this folder.
 namespace lacuna::io {
 
-/// A bulk data entry. Fields count from 2, as in the manuals; those left out are blank.
+/// A bulk data entry. Fields are numbered from 2, as in the manuals; omitted fields are blank.
 struct Card {
     std::string name;                     ///< in capitals
-    std::vector<std::string_view> fields; ///< while the card is handed over
+    std::vector<std::string_view> fields; ///< valid during the callback
     DeckPlace place;
 
     [[nodiscard]] std::string_view field(std::size_t number) const;
-    /// A number of a node, property or frame, >= 0; `otherwise` where the field is blank.
+    /// A number of a node, property or frame, >= 0; `otherwise` if the field is blank.
     [[nodiscard]] Index whole(std::size_t number, Index otherwise) const;
-    /// The same of a field that must not be blank.
+    /// The same for a field that must not be blank.
     [[nodiscard]] Index needed(std::size_t number) const;
-    /// Blank fields are 0.
+    /// A real number; 0 if the field is blank.
     [[nodiscard]] double real(std::size_t number) const;
-    /// Three fields.
+    /// A point from three fields.
     [[nodiscard]] Vec3 point(std::size_t first) const;
-    /// Fields from `first` on as one text, apart by commas; without blank ones at the end.
+    /// The fields from `first` on as one text, separated by commas, without trailing blank fields.
     [[nodiscard]] std::string text(std::size_t first) const;
     [[noreturn]] void fail(const Message& why) const { place.fail(why.about(name)); }
     template <class... Arguments>
@@ -38,26 +38,26 @@ struct Card {
     }
 };
 
-/// What becomes of a card: its fields are read, its lines go into the text that is kept, or both.
+/// How a card is used: its fields are read, its lines are kept as text, or both.
 enum class CardUse { read, keep, both };
 
-/// The cards of a deck and of the files it includes, which lie in its folder or below.
+/// The cards of a deck and of its included files, which lie in its folder or below.
 ///
-/// A deck without BEGIN BULK is bulk data from its first line; the parts of superelements are read as one.
-/// Free, small and large fields, tabs, capitals or not, continuations that follow their card or, where they
-/// are named (+A1), lie anywhere. A card whose continuation comes later is handed over when it has come; one
-/// that names one that never comes, at the end. Replicated cards are handed over as if written out.
+/// A deck without BEGIN BULK is bulk data from its first line; the parts of superelements are merged.
+/// Supports free, small and large fields, tabs, any case, and continuations that follow their card or, if
+/// named (+A1), are anywhere. A card is passed on when its continuations are complete; if one never appears,
+/// at the end of the deck. Replicated cards are passed on as if written out.
 class BulkData {
 public:
     explicit BulkData(Cursor& cursor);
-    /// Hand every card over, those only kept without fields.
+    /// Pass on every card; cards that are only kept have no fields.
     void read(const std::function<CardUse(std::string_view name)>& use,
               const std::function<void(const Card&)>& take);
 
-    /// What is kept: before the bulk data, in them, behind them.
+    /// The kept text: before, inside and after the bulk data.
     [[nodiscard]] std::vector<DeckText> texts() const;
     [[nodiscard]] const DeckFiles& files() const { return files_; }
-    /// Superelements so far, besides the main bulk data, and where the first of them begins.
+    /// Number of superelements so far, besides the main bulk data, and the start of the first.
     [[nodiscard]] int superelements() const { return superelements_; }
     [[nodiscard]] const DeckPlace& first_superelement() const { return first_superelement_; }
 
@@ -77,13 +77,13 @@ private:
     void add_replicated(std::string_view field);
     void replicate(std::string_view count, const DeckPlace& place);
 
-    /// A card that waits for its continuation, or a continuation that waits for its card.
+    /// A card waiting for its continuation, or a continuation waiting for its card.
     struct Waiting {
         Card card;
         CardUse use = CardUse::keep;
-        std::string_view marker; ///< the continuation that is to come
+        std::string_view marker; ///< name of the expected continuation
         bool large = false;
-        std::string raw; ///< of a continuation alone
+        std::string raw; ///< of a continuation without its card
     };
     bool is_awaited(std::string_view name);
     void own_fields(Card& card);
@@ -92,53 +92,54 @@ private:
     void finish();
 
     Cursor& main_;
-    Cursor start_; ///< at its beginning
+    Cursor start_; ///< at the start of the deck
     DeckFiles files_;
     std::function<CardUse(std::string_view)> use_;
     std::function<void(const Card&)> take_;
     std::string head_, kept_, tail_;
     Card card_;
     CardUse card_use_ = CardUse::keep;
-    std::vector<std::string_view> line_; ///< fields of a line
-    std::deque<std::string> expanded_;   ///< lines of the card that held tabs
-    std::string_view marker_;            ///< last field of the line before, which names its continuation
+    std::vector<std::string_view> line_; ///< fields of the current line
+    std::deque<std::string> expanded_;   ///< lines of the card that contained tabs
+    std::string_view marker_;            ///< last field of the previous line, which names its continuation
     bool open_ = false, bulk_ = false, ended_ = false;
-    bool text_ = false;                 ///< the card holds text, no fields
-    std::size_t kept_begin_ = 0;        ///< where the card's lines begin in `kept_`
-    std::vector<std::string> pattern_;  ///< fields of the card that is replicated
+    bool text_ = false;                 ///< the card holds text instead of fields
+    std::size_t kept_begin_ = 0;        ///< start of the card's lines in `kept_`
+    std::vector<std::string> pattern_;  ///< fields of the card to be replicated
     std::deque<std::string> generated_; ///< fields of the replica
-    std::vector<std::string> steps_;    ///< of fields: what each replica has more than the pattern
+    std::vector<std::string> steps_;    ///< increment of each field from replica to replica
     bool replica_ = false;
-    std::size_t room_; ///< for replicas still
+    std::size_t room_; ///< number of replicas still allowed
     int superelements_ = 0;
     DeckPlace first_superelement_;
-    std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of cards kept
+    std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of kept cards
     std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
     std::deque<std::string> owned_;                             ///< fields of these
     std::optional<std::vector<std::string>> awaited_; ///< names that lines give their continuations, sorted
-    std::string unasked_; ///< the first continuation taken behind a card though no card names it
+    std::string unasked_; ///< first continuation accepted although no card names it
 };
 
-/// Coordinate frames, each given by three points in another frame or by three nodes.
+/// Coordinate frames, each defined by three points in another frame or by three nodes.
 class Frames {
 public:
     struct Definition {
-        char kind = 'R';          ///< rectangular, 'C'ylindrical or 'S'pherical, angles in degrees
-        Index base = 0;           ///< frame of the three points; 0: the basic one
+        char kind = 'R';          ///< rectangular, 'C'ylindrical or 'S'pherical; angles in degrees
+        Index base = 0;           ///< frame of the three points; 0: the basic frame
         std::array<Vec3, 3> at{}; ///< origin, a point on the z axis, a point in the xz plane
         bool by_nodes = false;
-        std::array<Index, 3> node{}; ///< tags of nodes there instead
+        std::array<Index, 3> node{}; ///< tags of nodes at these points instead
         DeckPlace place;
     };
-    /// @param node_at  a node in basic coordinates, by its tag; may ask `to_basic()` again.
+    /// @param node_at  a node in basic coordinates, by its tag; may call `to_basic()` again.
     explicit Frames(std::function<Vec3(Index tag, const DeckPlace& place)> node_at)
         : node_at_(std::move(node_at))
     {
     }
 
     void add(Index tag, const Definition& definition);
-    /// A point of a frame in basic coordinates.
-    /// @throw InvalidInput  no such frame, three points in line, frames given by each other; names `place`.
+    /// Convert a point of a frame to basic coordinates.
+    /// @throw InvalidInput  no such frame, three collinear points, frames defined by each other; names
+    /// `place`.
     Vec3 to_basic(Index frame, const Vec3& point, const DeckPlace& place);
 
 private:

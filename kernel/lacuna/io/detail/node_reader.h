@@ -19,16 +19,15 @@
 #include <utility>
 #include <vector>
 
-/// Where writers get nodes and fields from, whether a mesh holds them or they are made. Internal to this
-/// folder.
+/// Nodes and fields for the writers, stored in a mesh or generated. Internal to this folder.
 namespace lacuna::io {
 
-/// Values of some layers at a time, made when they are asked for: the few asked for last are kept.
+/// Values that are generated for some layers at a time; the last few parts are kept.
 template <class Value>
 class LayerCache {
 public:
     using Values = std::shared_ptr<const std::vector<Value>>;
-    /// @param make  makes part `i`; may be called by any thread, one at a time.
+    /// @param make  generates part `i`; may be called by any thread, one at a time.
     explicit LayerCache(std::function<std::vector<Value>(std::size_t i)> make) : make_(std::move(make)) {}
 
     [[nodiscard]] Values part(std::size_t i) const
@@ -45,11 +44,11 @@ public:
 private:
     std::function<std::vector<Value>(std::size_t)> make_;
     mutable std::mutex lock_;
-    mutable std::array<std::pair<std::size_t, Values>, 3> kept_; ///< what two threads write, and one more
+    mutable std::array<std::pair<std::size_t, Values>, 3> kept_; ///< two threads' parts, and one more
     mutable std::size_t next_ = 0;
 };
 
-/// The nodes of a mesh, middle nodes behind the corners.
+/// The nodes of a mesh, with middle nodes after the corners.
 class NodeReader {
 public:
     explicit NodeReader(const mesh::HexMesh& mesh) : mesh_(mesh) {}
@@ -63,7 +62,7 @@ public:
     {
         return layers_ != nullptr ? layers_->on_skin(node) : mesh_.node(index(node));
     }
-    /// Call `take(nodes)` for spans of the nodes [begin, end), one after the other. For any thread.
+    /// Call `take(nodes)` for consecutive spans of the nodes [begin, end). Thread-safe.
     template <class Take>
     void each_span(std::size_t begin, std::size_t end, const Take& take) const
     {
@@ -84,7 +83,7 @@ public:
             begin = last;
         }
     }
-    /// Call `visit(n, node)` for each of them.
+    /// Call `visit(n, node)` for each node.
     template <class Visit>
     void each(std::size_t begin, std::size_t end, const Visit& visit) const
     {
@@ -94,11 +93,11 @@ public:
     }
 
 private:
-    /// Nodes that follow each other and are made in parts: as many in each, but for the last.
+    /// Consecutive nodes that are generated in parts of equal size, except for the last.
     struct Made {
-        std::size_t begin = 0; ///< number of the first
+        std::size_t begin = 0; ///< number of the first node
         std::size_t step = 1, parts = 1;
-        std::shared_ptr<LayerCache<Vec3>> made{}; ///< null: they are held
+        std::shared_ptr<LayerCache<Vec3>> made{}; ///< null: they are stored
     };
 
     const mesh::HexMesh& mesh_;
@@ -106,26 +105,25 @@ private:
     Made corners_, middles_;
 };
 
-/// A number for every cell, held or made, and those of the cells behind the skin.
+/// A value for every cell, stored or generated, and for the cells behind the skin.
 class FieldReader {
 public:
     explicit FieldReader(const CellField& field)
         : name_(field.name), values_(&field.values), make_(field.make)
     {
     }
-    /// @param team  who shares the making of values for the skin
+    /// @param team  shares the computation of values for the skin
     FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
                 const Team* team);
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// Call `visit(i, value)` for each i of [begin, end), with the value of cell `cell_of(i)`. For any
-    /// thread.
+    /// Call `visit(i, value)` for each i in [begin, end), with the value of cell `cell_of(i)`. Thread-safe.
     template <class CellOf, class Visit>
     void each_cell(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
         if (make_) return each_made(begin, end, cell_of, visit);
-        LayerCache<double>::Values part; // cells near each other come without asking for their layers again
+        LayerCache<double>::Values part; // nearby cells reuse the last part
         std::size_t number = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t c = cell_of(i);
@@ -142,7 +140,7 @@ public:
     }
 
     /// The same for the cells behind quads `quad_of(i)` of the skin.
-    /// @param cells  what `cells_of_skin()` says
+    /// @param cells  result of `cells_of_skin()`
     template <class QuadOf, class Visit>
     void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,
                           const QuadOf& quad_of, const Visit& visit) const
@@ -157,7 +155,7 @@ private:
     template <class CellOf, class Visit>
     void each_made(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
-        constexpr std::size_t kBlock = 1024; // stays in the first-level cache: a choice
+        constexpr std::size_t kBlock = 1024; // fits into the first-level cache; not measured
         std::array<std::uint32_t, kBlock> cells;
         std::array<double, kBlock> values;
         while (begin < end) {
@@ -173,14 +171,14 @@ private:
     const std::vector<double>* values_ = nullptr;
     std::function<void(std::span<const std::uint32_t>, double*)> make_;
     std::shared_ptr<LayerCache<double>> cache_;
-    std::size_t step_ = 0;     ///< cells of a part
-    std::vector<double> skin_; ///< of each quad of the skin
+    std::size_t step_ = 0;     ///< cells in a part
+    std::vector<double> skin_; ///< for each quad of the skin
 };
 
-/// @throw InvalidInput  a name that cannot be written, or is another's; those met before are in `names`.
+/// @throw InvalidInput  the name cannot be written or is in use; `names` holds the earlier ones.
 void check_field_name(const std::string& name, std::set<std::string>& names);
 
-/// Readers of fields that are held, or made.
+/// Readers for stored or generated fields.
 /// @throw InvalidInput  as `check_fields()`
 std::vector<FieldReader> readers_of(const mesh::HexMesh& mesh, const std::vector<CellField>& fields);
 std::vector<FieldReader> readers_of(const mesh::LayeredMesh& layered, const std::vector<LayeredField>& fields,

@@ -17,10 +17,10 @@
 /// Files as a list of sections, filled in parallel. Internal to this folder.
 namespace lacuna::io {
 
-/// Puts records [begin, end) at `out`, returns where they end.
+/// Writes the records [begin, end) to `out` and returns their end.
 using Fill = std::function<char*(std::size_t begin, std::size_t end, char* out)>;
 
-/// One record after the other by `put_one(i, out)`.
+/// Write records one by one with `put_one(i, out)`.
 template <class PutOne>
 Fill each(PutOne put_one)
 {
@@ -30,39 +30,39 @@ Fill each(PutOne put_one)
     };
 }
 
-/// A piece of a file: some text, then records without number.
+/// A piece of a file: text, followed by any number of records.
 struct Section {
     std::string text;
     std::size_t records = 0;
-    std::size_t record_bytes = 0; ///< of every record; in files of `Sizes::varying` no record is longer
+    std::size_t record_bytes = 0; ///< of every record; with `Sizes::varying` the maximum
     Fill fill;
 };
 
 enum class Sizes { exact, varying };
 
-/// Write a file of sections one behind the other, whole or not at all. Memory is bounded by a few buffers,
-/// whatever the file's size; the bytes are the same for any thread count. Progress is told in shares.
+/// Write the sections of a file in order: the complete file or none. Memory is limited to a few buffers,
+/// whatever the file's size; the bytes are the same for any thread count. Progress is reported as a fraction.
 ///
-/// A team fills and writes a share of each section; it is rank 0's path that is written to. Files whose
-/// records vary are filled in rounds, a share of each by each, since a share is placed once those before it
-/// are filled.
+/// Each process of a team fills and writes a share of each section, to the path of rank 0. Files with records
+/// of varying size are written in rounds of one share per process, because the position of a share is known
+/// only after the preceding ones are filled.
 /// @throw  as `WholeFile`; TeamFailed
 void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
                 const RunContext& context, const Team* team = nullptr);
 
-/// One of several files, whose sizes are exact: its sections are made when it is written.
+/// One of several files of exact sizes; its sections are created when it is written.
 struct FileOfSet {
     OutputPath path;
     std::function<std::vector<Section>()> sections;
 };
 
-/// Write files and one that names them: all of them whole, or none is there. A team shares out the files.
-/// @param head  text of the last
+/// Write files and a file that names them: all of them, or none. A team distributes the files.
+/// @param head  text of the last file
 /// @throw  as `write_file()`
 void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_path, const std::string& head,
                  const RunContext& context, const Team* team = nullptr);
 
-/// Bytes of a value as they lie in memory.
+/// The bytes of a value in native order.
 template <class Value>
 char* put(char* out, const Value& value)
 {
@@ -76,7 +76,7 @@ void put(std::string& out, const Value& value)
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Bytes of a value, the highest first.
+/// The bytes of a value, most significant first.
 template <class Value>
 char* put_big(char* out, Value value)
 {
@@ -85,7 +85,7 @@ char* put_big(char* out, Value value)
     return end;
 }
 
-/// A number as text, the shortest that reads back to the same bits; the same in every locale.
+/// The shortest text of a number that reads back to the same bits; the same in every locale.
 char* put_text(char* out, double value);
 char* put_text(char* out, long long value);
 template <std::integral Whole>
@@ -95,7 +95,7 @@ char* put_text(char* out, Whole value)
 }
 std::string text_of(double value);
 
-/// No number is longer as text, a separator included.
+/// Maximum length of a number as text, with a separator.
 inline constexpr std::size_t kNumberBytes = 26;
 
 } // namespace lacuna::io

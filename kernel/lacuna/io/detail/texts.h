@@ -12,26 +12,26 @@
 #include <string_view>
 #include <vector>
 
-/// Lines of texts, and lists in messages. Internal to this folder.
+/// Lines of text, and lists in messages. Internal to this folder.
 namespace lacuna::io {
 
-/// An entity of a file or a mesh for a message.
+/// An entity of a file or a mesh, for a message.
 NamedEntity numbered(const char* kind, std::integral auto tag) { return {kind, static_cast<long long>(tag)}; }
 
 /// "a, b, c and 4 more"
 inline std::string listed(const std::vector<std::string>& names)
 {
-    constexpr int kMost = 20; // sets are renamed by the dozen, and each new name is needed
+    constexpr int kMost = 20; // sets are often renamed by the dozen, and users need every new name
     return short_list(names, std::identity(), kMost);
 }
 
-/// Add a name that is not empty to others, unless it is there.
+/// Append a name if it is neither empty nor already in the list.
 inline void add_once(std::vector<std::string>& names, const std::string& name)
 {
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
-/// Call `take(line)` for every line of a text, without its end.
+/// Call `take(line)` for every line of a text, without the line end.
 template <class Take>
 void each_line(std::string_view text, const Take& take)
 {

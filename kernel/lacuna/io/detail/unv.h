@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <span>
 
-/// What reader and writer of universal files share. Internal to this folder.
+/// Common parts of reader and writer of universal files. Internal to this folder.
 namespace lacuna::io {
 
-inline constexpr int kUnvNode = 7, kUnvElement = 8; ///< what an entity of a group is; others do not count
+inline constexpr int kUnvNode = 7, kUnvElement = 8; ///< types of group entities; others are ignored
 
-/// Where the nodes of a shape stand in the order of DeckShape; empty: in the same places. Layers go round
-/// corners and middles in turn, with the middles of upright sides between them.
+/// Positions of a shape's nodes in the order of DeckShape; empty: the same positions. In each layer, corners
+/// and middles alternate around the cell; middles of upright sides lie between the layers.
 inline std::span<const std::uint8_t> unv_places(DeckShape shape)
 {
     static constexpr std::uint8_t kTri6[] = {0, 3, 1, 4, 2, 5}, kQuad8[] = {0, 4, 1, 5, 2, 6, 3, 7},
@@ -36,7 +36,7 @@ inline std::span<const std::uint8_t> unv_places(DeckShape shape)
     }
 }
 
-/// Elements whose second record is a beam's orientation.
+/// Elements whose second record is the orientation of a beam.
 inline bool unv_has_orientation(std::int64_t descriptor, int dataset)
 {
     return dataset != 71 && (descriptor == 11 || (descriptor >= 21 && descriptor <= 24));

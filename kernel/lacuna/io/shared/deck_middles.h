@@ -9,13 +9,13 @@
 
 namespace lacuna::io {
 
-/// The middle node that elements of the deck have between two places, of which each may be several nodes of
-/// the deck, as points [the deck's length × scale]; not a number where there is none. O(elements + pairs).
-/// @param tolerance  as of `nodes_at()`
+/// The middle node that elements of the deck have between two positions, each of which may have several nodes
+/// of the deck, as a point [the deck's length × scale]; NaN if there is none. O(elements + pairs).
+/// @param tolerance  as in `nodes_at()`
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
                                   double tolerance, double scale = 1);
 
-/// The node that elements of the deck have in the middle of each quad, whichever way its corners are listed.
+/// The node that elements of the deck have in the middle of each quad, for any order of its corners.
 std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 4>> quads, double tolerance,
                              double scale = 1);
 

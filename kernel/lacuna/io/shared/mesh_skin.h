@@ -9,13 +9,13 @@
 
 namespace lacuna::io {
 
-/// The skin of a swept mesh as faces, one a patch, that keep their quads.
+/// The skin of a swept mesh as faces with given quads, one for each patch.
 struct MeshSkin {
     topology::OpenVolume volume; ///< closed; all faces are walls; they have the patches' tags and names
     std::vector<FaceId> face;    ///< of each patch
 };
 
-/// @throw InvalidInput "io.skin_in_pieces"  a patch whose quads do not hang together, or that has none.
+/// @throw InvalidInput "io.skin_in_pieces"  a patch whose quads are not connected, or that has none.
 /// @note  O(skin log).
 MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context = {});
 

@@ -11,21 +11,21 @@
 
 namespace lacuna::sweep {
 
-/// Layers that are closer together in the bends of a sweep.
+/// Layers that are thinner in the bends of a sweep.
 struct DrawnLayers {
     std::vector<double> heights; ///< increasing to 1, as `LayerSpec::heights`
-    std::string report;          ///< one line for a person
+    std::string report;          ///< one line for the user
 };
 
 /// Layers of a sealed volume with a given count, concentrated in the bends of its axis.
 ///
-/// The axis is the mean of the walls' columns. A layer is the lower the more the axis turns within about one
-/// even layer; no layer is more than twice as high as its neighbour, or four times as high as the lowest. Of
-/// several such distributions, from weak to strong, one is used if it reduces the volume error enough. The
-/// error is computed for the axis, with flat sections normal to it and straight sides between them.
-/// @return  nothing if even layers lose little more; if heights, a bias, boundary layers of an end, walls
-///          that keep their nodes, or neighbours in an assembly determine the layers; and if `curvature` is
-///          0.
+/// The axis is the mean of the walls' columns. Layers are thinner where the axis turns more within the
+/// height of a uniform layer. A layer is at most twice as high as its neighbour and four times as high as the
+/// thinnest. Increasing concentrations are tried; each replaces the last one used if it reduces the volume
+/// error enough. The error is that of flat sections normal to the axis, joined by straight sides.
+/// @return  empty if uniform layers are nearly as accurate, if `curvature` is 0, or if the layers are fixed
+///          by heights, a bias, boundary layers of an end, walls that keep their nodes, or neighbours in an
+///          assembly.
 /// @throw Cancelled
 /// @cost  walls with side lines: a walk along these; others: a harmonic map of them.
 std::optional<DrawnLayers> drawn_layers(const topology::OpenVolume& volume, const SweepOptions& options,
