@@ -231,10 +231,11 @@ bool matches(const topology::Model& model, FaceId id, const Selector& selector)
     return area >= selector.area[0] && area <= selector.area[1];
 }
 
-/// Append what `pick` returns; raises `none_found` with the model's faces where that is nothing.
+/// Append what `pick` returns. If that is nothing, raises an error that says why and lists the model's faces.
+/// @param tag  of the face that is missing, if one is wanted by its tag.
 template <class Pick>
 void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
-            const char* none_found, Pick&& pick)
+            const char* why, std::optional<int> tag, Pick&& pick)
 {
     const std::size_t before = faces.size();
     guard(L, [&] {
@@ -242,9 +243,16 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
         faces.insert(faces.end(), found.begin(), found.end());
     });
     if (faces.size() > before) return;
-    auto& all = temporary<std::vector<FaceId>>(L);
-    guard(L, [&] { all = topology::all_faces(model); });
-    fail_option(L, where, "%s; the model has %s", none_found, push_names(L, model, all));
+    const char* const subject = push_subject(L, where);
+    guard(L, [&] {
+        const std::vector<FaceId> there = topology::all_faces(model);
+        const Argument all = there.empty() ? Argument("no faces")
+                                           : Argument(topology::entities_of(model, there));
+        if (tag)
+            throw InvalidInput("lua.bad_value", "{} names {}, which {}; the model has {}", subject,
+                               NamedEntity{"face", *tag}, why, all);
+        throw InvalidInput("lua.bad_value", "{} {}; the model has {}", subject, why, all);
+    });
 }
 
 /// Push " (did you mean ...?)" with the face's name that is nearest; nothing where no name is near.
@@ -288,11 +296,13 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     }
     auto& wanted = temporary<Selector>(L);
     const char* none = nullptr;
+    std::optional<int> missing;
     switch (lua_type(L, index)) {
     case LUA_TNUMBER: {
         const int tag = read_whole(L, index, where, 0);
         guard(L, [&] { wanted.tags = {tag}; });
-        none = lua_pushfstring(L, "names face %d, which %s", tag, push_why_missing(L, model, tag));
+        missing = tag;
+        none = push_why_missing(L, model, tag);
         break;
     }
     case LUA_TSTRING: {
@@ -310,7 +320,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     default:
         fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
     }
-    append(L, where, model, faces, none, [&] { return select(model, wanted); });
+    append(L, where, model, faces, none, missing, [&] { return select(model, wanted); });
 }
 
 /// Field of the metatable of an array that a selector found nothing for: the selector, in words.

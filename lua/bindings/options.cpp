@@ -11,13 +11,6 @@ namespace lacuna::lua {
 
 namespace {
 
-/// Push "sweep: option 'layers'", or "sweep: the argument" where there is no key.
-const char* push_subject(lua_State* L, const Where& where)
-{
-    if (!where.key) return lua_pushfstring(L, "%s: the argument", where.call);
-    return lua_pushfstring(L, "%s: option '%s'", where.call, where.key);
-}
-
 /// Push "a, b, c".
 const char* push_list(lua_State* L, const char* const* words, std::size_t count)
 {
@@ -32,6 +25,12 @@ const char* push_list(lua_State* L, const char* const* words, std::size_t count)
 }
 
 } // namespace
+
+const char* push_subject(lua_State* L, const Where& where)
+{
+    if (!where.key) return lua_pushfstring(L, "%s: the argument", where.call);
+    return lua_pushfstring(L, "%s: option '%s'", where.call, where.key);
+}
 
 void fail_value(lua_State* L, const Where& where, const char* expected, int index)
 {

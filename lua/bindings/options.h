@@ -21,6 +21,8 @@ struct Where {
     const char* key;
 };
 
+/// Push "sweep: option 'layers'", or "sweep: the argument" where there is no key.
+const char* push_subject(lua_State* L, const Where& where);
 /// "sweep: option 'layers' must be a positive whole number, found -3".
 [[noreturn]] void fail_value(lua_State* L, const Where& where, const char* expected, int index);
 /// "sweep: option 'layers' <what>"; `format` as by lua_pushfstring.

@@ -145,7 +145,9 @@ TEST_CASE("an error has place, code and entities, and a traceback where one is a
     CHECK(plain.code() == "lua.error");
     CHECK(plain.line == 3);
     CHECK(plain.message.find("recipe:") == std::string::npos);
-    CHECK(error_of(host, "error { code = 'my.code', message = 'face 7 is mine' }").entities.size() == 1);
+    const ScriptError own = error_of(
+        host, "error { code = 'my.code', message = 'no', entities = { { kind = 'face', tag = 7 } } }");
+    CHECK(own.entities == std::vector<NamedEntity>{{"face", 7}});
     CHECK(error_of(host, "error(setmetatable({}, { __tostring = error }))").code() == "lua.error");
     CHECK_THROWS_AS(host.run_file("nowhere.lua"), ScriptError);
     CHECK(host.run_string("return 5") == Value(std::int64_t{5})); // and it goes on
@@ -276,7 +278,8 @@ TEST_CASE("from C: values, buffers, errors and their entities, and no exception 
     double number = 0;
     CHECK(lacuna_get_number(handle, "mesh", &number) == LACUNA_FAILED);
     CHECK(std::string(lacuna_error_message(handle)) == "'mesh' must be a number, found a Mesh");
-    const char* const wrong = "error { code = 'my.code', message = 'void face 7 and node 3' }";
+    const char* const wrong = "error { code = 'my.code', message = 'no', "
+                              "entities = { { kind = 'void face', tag = 7 }, { kind = 'node', tag = 3 } } }";
     CHECK(lacuna_run_string(handle, wrong, std::strlen(wrong), "mine") == LACUNA_FAILED);
     CHECK(std::string(lacuna_error_code(handle)) == "my.code");
     REQUIRE(lacuna_error_entity_count(handle) == 2);
