@@ -18,18 +18,19 @@
 namespace lacuna::quads {
 namespace {
 
-/// Sides that are divided at most, and the worst cell that ends the search: as `ImproveOptions` of a sweep
-/// calls cells good enough.
+/// Limit of sides that are tried, and the quality of the worst cell that ends the search: the quality that
+/// the `ImproveOptions` of a sweep count as good enough.
 constexpr std::size_t kMostSides = 4;
 constexpr double kGoodEnough = 0.5;
-/// Quads of a row that may become the triangle. A choice, not a measurement.
+/// How many quads of a row are tried as the triangle. More of them find a better place, further inside, and
+/// take more time.
 constexpr std::size_t kMostSteps = 8;
-/// Rings of neighbours round what was closed whose nodes move, and rounds of moving them; few where the mesh
-/// is smoothed later. Choices, not measurements.
+/// Rings of neighbours around the closed row whose nodes move, and rounds of moving them; fewer if the mesh
+/// is smoothed later. More of them improve the worst cell slightly and take more time.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 
-/// Of a quad, or of a triangle over that of an even one.
+/// Quality of a quad; for a triangle, relative to an equilateral one.
 double quality_of(std::span<const Vec2> points, const Quad& cell)
 {
     if (!mesh::is_triangle(cell)) return scaled_jacobian(points, cell);
@@ -44,7 +45,7 @@ double quality_of(std::span<const Vec2> points, const Quad& cell)
     return least;
 }
 
-/// A mesh of the divided region with a row closed, and how good its cells are round there.
+/// A mesh of the divided region with a row closed, and the quality of its cells nearby.
 struct Closed {
     PlanarQuads mesh;
     std::vector<Index> near; ///< nodes where rows were closed
@@ -57,7 +58,7 @@ struct Closed {
     }
 };
 
-/// Moves nodes so that the worst of the cells round each grows.
+/// Moves nodes to improve the worst of the cells around each.
 class Smoother {
 public:
     Smoother(Closed& closed, std::size_t fixed)
@@ -85,7 +86,7 @@ public:
 
     void run(int rounds)
     {
-        // A node stays where it is as long as nothing round it moves.
+        // A node is skipped as long as nothing around it moves.
         std::vector<char> awake(points_.size(), 1);
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
@@ -109,7 +110,7 @@ public:
     }
 
 private:
-    /// The worst cell at a node; somewhere in -1…floor where that is no better than `floor`.
+    /// Quality of the worst cell at a node; some value in -1…floor if it is no better than `floor`.
     [[nodiscard]] double worst_at(Index n, double floor) const
     {
         double worst = 1;
@@ -120,12 +121,13 @@ private:
         return worst;
     }
 
-    /// To the mean of the neighbours, or a step to one of eight sides, whichever is best.
+    /// Move a node to the mean of its neighbours, or by a step in one of eight directions, whichever is best.
     bool move(Index n)
     {
         constexpr int kDirections = 8;
-        constexpr std::array kSteps{0.2, 0.05, 0.0125}; // of the mean side; choices, not measurements
-        constexpr double kGain = 1e-3;                  // less is not worth a move
+        // Shares of the mean side; smaller last steps refine little.
+        constexpr std::array kSteps{0.2, 0.05, 0.0125};
+        constexpr double kGain = 1e-3; // a smaller gain is not worth a move
         Vec2 mean = Vec2::Zero();
         double side = 0, count = 0;
         for (const Index q : at_.of(index(n))) {
@@ -171,27 +173,27 @@ private:
     std::vector<Index> free_, cells_;
 };
 
-/// A row that may be closed, in a mesh of the divided region.
+/// A row that can be closed, in a mesh of the divided region.
 struct Row {
-    std::vector<Segment> closed; ///< sides, each closed to one node
+    std::vector<Segment> closed; ///< sides, each collapsed to one node
     std::vector<Index> gone;     ///< quads that vanish
     Index last;                  ///< the quad that becomes the triangle
 };
 
-/// The part of a mesh that closing rows from a node may change or look at. Its nodes and quads keep their
-/// order, so that what is done to them is what would be done in the mesh.
+/// The part of a mesh that closing rows from a node can change or depends on. Nodes and quads keep their
+/// order, so operations on the part give the same result as on the mesh.
 struct Window {
     PlanarQuads mesh;
     std::vector<char> on_rim;        ///< nodes on the region's boundary
     std::vector<Index> nodes, quads; ///< their numbers in the mesh
-    Index middle;                    ///< the node that was added; those before it are the region's
+    Index middle;                    ///< the added node; the nodes before it are the region's
 };
 
-/// @param divided  its nodes from `middle` on, but for that one, are the boundary's no longer.
-/// @param middle   the node that was added; those before it are the region's.
+/// @param divided  its nodes from `middle` on, except `middle`, are no boundary nodes of the mesh any more.
+/// @param middle   the added node; the nodes before it are the region's.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // As far as rows go, the rings round them, and the cells of their nodes.
+    // The reach of the rows, the rings around them, and the cells of their nodes.
     constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);
@@ -234,8 +236,8 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     return window;
 }
 
-/// Every way of closing a row: from either side of the boundary that ends at the middle node, up to each of
-/// the first quads of the row.
+/// Every way of closing a row: from either boundary side that ends at the middle node, up to each of the
+/// first quads of the row.
 std::vector<Row> rows_from(const Window& window)
 {
     const std::vector<Quad>& quads = window.mesh.quads;
@@ -253,7 +255,7 @@ std::vector<Row> rows_from(const Window& window)
         Index side = first;
         for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
             const Index a = end_of(side, 0), b = end_of(side, 1);
-            // Two nodes of the boundary stay two, but for the one that was added.
+            // Two boundary nodes must not become one, unless one is the added node.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
             if (mesh::is_triangle(quads[index(side / 4)]) || (step > 0 && both)) break;
             if (!touched.insert(a).second || !touched.insert(b).second) break;
@@ -267,8 +269,8 @@ std::vector<Row> rows_from(const Window& window)
     return rows;
 }
 
-/// Close a row; nothing where another cell loses a corner too.
-/// @param middle  the node that was added; those before it are the region's.
+/// Close a row; empty if another cell would lose a corner too.
+/// @param middle  the added node; the nodes before it are the region's.
 std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
                             Index middle, int rounds)
 {
@@ -317,7 +319,7 @@ std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on
     return result;
 }
 
-/// A row of a window as one of the mesh that it is part of.
+/// Convert a row of a window to a row of the mesh that contains the window.
 Row in_mesh(Row row, const Window& window)
 {
     for (Segment& side : row.closed)
@@ -327,8 +329,8 @@ Row in_mesh(Row row, const Window& window)
     return row;
 }
 
-/// The best way of closing a row of a mesh of the divided region; nothing where there is none.
-/// @param than  what it must be better than, where given.
+/// The best way of closing a row of a mesh of the divided region; empty if there is none.
+/// @param than  the result must be better than this, if given.
 std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
                                  const std::optional<Closed>& than, int rounds, const RunContext& context)
 {
@@ -352,7 +354,7 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     return close(mesh, on_rim, in_mesh(*row, window), middle, rounds);
 }
 
-/// The region with sides divided, in their order; the nodes in their middles are its last points.
+/// The region with the given sides divided, in order; the nodes in their middles are its last points.
 PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> sides)
 {
     PlanarRegion divided = region;
@@ -364,7 +366,7 @@ PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> side
         added.emplace_back(side, static_cast<Index>(divided.points.size()));
         divided.points.push_back((a + b) / 2);
     }
-    // From the last place to the first, so that places stay what they were.
+    // From the last place to the first, so that the remaining places stay valid.
     std::ranges::sort(added, [](const auto& a, const auto& b) { return a.first.place > b.first.place; });
     for (const auto& [side, middle] : added) {
         std::vector<Index>& loop = divided.loops[side.loop];
@@ -401,7 +403,7 @@ std::vector<RegionSide> sides_by_length(const PlanarRegion& region)
 {
     struct Side {
         RegionSide side;
-        double length; ///< over the size there
+        double length; ///< relative to the local size
     };
     std::vector<Side> sides;
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
@@ -443,7 +445,7 @@ PlanarQuads fill_divided_region(const PlanarRegion& region, std::span<const Regi
 {
     const PlanarRegion divided = divide(region, sides);
     PlanarQuads mesh = mesher(divided, context);
-    // The node added last first: those before it keep their numbers.
+    // The last added node first, so that those before it keep their numbers.
     for (std::size_t s = sides.size(); s-- > 0;) {
         const auto middle = static_cast<Index>(region.points.size() + s);
         std::optional<Closed> closed = close_best(mesh, divided, middle, std::nullopt, kFewRounds, context);

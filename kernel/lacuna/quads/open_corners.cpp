@@ -16,11 +16,11 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Four nodes inside a quad that is not convex, with which the inner quad and the four around it are convex.
-/// None where no point is known that sees all its corners.
+/// Four nodes inside a quad that is not convex, so that the inner quad and the four around it are convex.
+/// Empty if no point is known from which all its corners are visible.
 std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer)
 {
-    // The diagonal from the corner that turns in is seen from all corners.
+    // All corners are visible from the diagonal through the reflex corner.
     std::size_t inward = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
@@ -38,13 +38,15 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
     }
     if (!(room > 0)) return std::nullopt;
-    constexpr double kOfRoom = 0.4; // well inside the circle that touches the nearest side; a choice
+    // Share of the circle that touches the nearest side; larger makes flat outer quads, smaller a tiny inner
+    // one.
+    constexpr double kOfRoom = 0.4;
     std::array<Vec2, 4> inner;
     for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();
     return inner;
 }
 
-/// A smaller quad inside a quad, and four around it. Their four nodes are added to the points.
+/// Put a smaller quad inside a quad, and four around it. Their four nodes are added to the points.
 std::array<Quad, 5> pillow(std::vector<Vec2>& points, const Quad& outer)
 {
     std::array<Vec2, 4> corner;
@@ -84,12 +86,13 @@ public:
     void run()
     {
         constexpr int kMostTries = 4; // each change adds a quad at the node, and no angle needs more
-        constexpr double kGood = 0.5; // least sine that a quad that is not needed may leave; a choice
+        // Least sine after an optional swap; lower opens more corners but leaves worse quads.
+        constexpr double kGood = 0.5;
         for (Index p = 0; index(p) < fixed_; ++p) {
             if (!net_.is_used(p)) continue;
             for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries)
                 if (!swap_edge(p, 0)) pillow_widest(p);
-            // A wide node gets another quad where it costs the quads around little.
+            // A wide node gets another quad if the quads around stay good.
             if (net_.valence(p) < better_[index(p)]) swap_edge(p, kGood);
         }
         for (std::size_t q = 0; q < net_.quad_slots(); ++q) {
@@ -100,12 +103,12 @@ public:
 
 private:
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
-    /// Quads a node cannot do without; inner ones need three.
+    /// Minimum number of quads at a node; inner nodes need three.
     [[nodiscard]] int needed(Index p) const { return index(p) < fixed_ ? needed_[index(p)] : 3; }
     [[nodiscard]] double sine(const Quad& q) const { return scaled_jacobian(mesh_.points, q); }
 
-    /// Swap an edge opposite the node in one of its quads, so that it runs from the node.
-    /// @param least  least sine the two new quads must exceed
+    /// Swap an edge opposite the node in one of its quads, so that the new edge starts at the node.
+    /// @param least  the least sines of both new quads must exceed this
     bool swap_edge(Index p, double least)
     {
         double best = least;
@@ -154,10 +157,10 @@ private:
         net_.replace(std::array{widest}, made);
     }
 
-    PlanarQuads& mesh_; ///< its quads are those of `net_` at the end
+    PlanarQuads& mesh_; ///< replaced by those of `net_` at the end
     std::size_t fixed_;
     QuadNet net_;
-    std::vector<int> needed_, better_; ///< quads at a boundary node: what must be, and what would be good
+    std::vector<int> needed_, better_; ///< quads at a boundary node: the minimum, and a good number
 };
 
 } // namespace

@@ -13,8 +13,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Nodes are alike that are nearer than this share of the region's extent: what the nodes of a CAD edge are
-/// off by. A choice, not a measurement.
+/// Two nodes coincide if they are nearer than this share of the region's extent: the accuracy of nodes on CAD
+/// edges. A smaller value misses symmetries, a larger one accepts regions that are not symmetric.
 constexpr double kAlike = 1e-6;
 
 Vec2 middle_of(const PlanarRegion& region)
@@ -41,12 +41,12 @@ public:
     std::vector<Symmetry> run() const
     {
         std::vector<Symmetry> found = all();
-        // More make no better mesh. A choice, not a measurement.
+        // More rotations cost time and make no better mesh.
         constexpr std::size_t kMostTurns = 64;
         const auto turns = 1 + static_cast<std::size_t>(std::ranges::count_if(
                                    found, [](const Symmetry& s) { return !s.map.mirrors; }));
         if (turns <= kMostTurns) return found;
-        // Quarter turns, where there are any, are among them.
+        // Quarter turns, if there are any, are kept.
         const std::size_t quarters = std::gcd(turns, std::size_t{4});
         std::size_t every = (turns + kMostTurns - 1) / kMostTurns;
         while (turns % every != 0 || turns / every % quarters != 0) ++every;
@@ -59,7 +59,7 @@ public:
         std::erase_if(found, [&](const Symmetry& s) {
             if (s.map.mirrors && !has_axis) return true;
             const double off = std::remainder(s.map.angle() - (s.map.mirrors ? axis : 0), step);
-            return std::abs(off) > 0.01 * step / static_cast<double>(every); // far below one turn
+            return std::abs(off) > 0.01 * step / static_cast<double>(every); // far below one step
         });
         return found;
     }
@@ -130,16 +130,18 @@ private:
     double alike_;
 };
 
-/// A mirror axis: the angle of its direction, 0…π.
+/// A mirror axis and the angle of its direction, 0…π.
 struct Axis {
     double angle = 0;
-    int worth = 0; ///< twice the loops that go over onto themselves, one more through the first node
+    /// Twice the number of loops that it maps onto themselves, plus one if it passes through the first node.
+    int worth = 0;
     std::size_t symmetry = 0;
 };
 
-constexpr int kSteps = 64; ///< along a line, where the size is asked: a choice, not a measurement
+/// Samples of the size along a line; more follow a varying size better and take longer.
+constexpr int kSteps = 64;
 
-/// The sum of one over the size along a line, up to each step.
+/// Cumulative integral of 1 / size along a line, up to each sample.
 std::vector<double> sizes_to(const Vec2& from, const Vec2& to, const SizeField& size)
 {
     std::vector<double> run{0};
@@ -148,7 +150,7 @@ std::vector<double> sizes_to(const Vec2& from, const Vec2& to, const SizeField& 
     return run;
 }
 
-/// Points along a line, both ends included, with as many of the sizes asked between them each.
+/// Points along a line, both ends included, spaced in proportion to the size asked.
 std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides, const SizeField& size)
 {
     const std::vector<double> run = sizes_to(from, to, size);
@@ -164,7 +166,7 @@ std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides, const Siz
     return points;
 }
 
-/// Cuts a region between two rays from its centre; a half turn apart they are one line.
+/// Cuts a region between two rays from its centre; rays half a turn apart form one line.
 class PartCutter {
 public:
     PartCutter(const PlanarRegion& region, const Vec2& centre, double from, double to, bool has_centre)
@@ -195,7 +197,7 @@ public:
 
 private:
     [[nodiscard]] Vec2 arm(Index p) const { return region_.points[index(p)] - centre_; }
-    /// How far a point is within the ray's side.
+    /// Distance of a point from a ray, > 0 inside the part.
     [[nodiscard]] double within(const Vec2& d, int ray) const
     {
         return ray == 0 ? cross(ray_[0], d) : cross(d, ray_[1]);
@@ -204,7 +206,7 @@ private:
     {
         return within(d, 0) > alike_ && within(d, 1) > alike_;
     }
-    /// 1 or 2 for a point on a ray, else 0.
+    /// 1 or 2 for a point on a ray, otherwise 0.
     [[nodiscard]] char ray_of(const Vec2& d) const
     {
         for (int r = 0; r < 2; ++r) {
@@ -214,7 +216,7 @@ private:
         return 0;
     }
 
-    /// The loops within the part, and the pieces of others.
+    /// Collect the loops inside the part, and the pieces of loops that cross the rays.
     bool collect()
     {
         for (const std::vector<Index>& loop : region_.loops) {
@@ -224,7 +226,7 @@ private:
                 if (arm(loop[i]).norm() <= alike_) return false;
                 const Vec2 a = arm(loop[i]), b = arm(loop[(i + 1) % n]);
                 in[i] = is_inside((a + b) / 2) ? 1 : 0;
-                // A side across a ray has its middle on one side and an end on the other.
+                // If a side crosses a ray, its middle lies on one side of the ray and an end on the other.
                 for (const Vec2& d : {a, b}) {
                     if (in[i] && !is_inside(d) && ray_of(d) == 0) return false;
                 }
@@ -232,7 +234,7 @@ private:
             const auto out = static_cast<std::size_t>(std::ranges::find(in, 0) - in.begin());
             if (out == n) {
                 whole_loops_.push_back(loop);
-                // A loop that touches a ray is none of a part.
+                // A loop that touches a ray has no part on either side.
                 for (const Index p : loop)
                     if (ray_of(arm(p)) != 0) return false;
                 continue;
@@ -255,7 +257,7 @@ private:
 
     void push(Index whole) { part_.add(region_.points[index(whole)], whole, -1, ray_of(arm(whole))); }
 
-    /// Follow chains and axes round one loop.
+    /// Follow chains and axes around one loop.
     bool join_chains(const SizeField& size)
     {
         part_.region.loops.emplace_back();
@@ -265,11 +267,11 @@ private:
             const std::vector<Index> chain = *at;
             chains_.erase(at);
             for (const Index p : chain) push(p);
-            // The chain that starts where the ray comes to the region's boundary again.
+            // Continue with the chain that starts where the ray meets the region's boundary again.
             Vec2 from = region_.points[index(chain.back())];
             char ray = ray_of(from - centre_);
             auto next = next_start(ray, (ray == 1 ? 1 : -1) * (from - centre_).norm(), start);
-            if (!next && ray == 2 && has_centre_) { // over the centre to the other ray
+            if (!next && ray == 2 && has_centre_) { // across the centre to the other ray
                 next = next_start(1, 0, start);
                 if (next && !is_half_) {
                     walk_axis(from, centre_, 2, size);
@@ -286,7 +288,7 @@ private:
         }
     }
 
-    /// The first start of a chain on a ray beyond a place: outward on the first, inward on the second.
+    /// The first start of a chain on a ray after a position: outward on the first ray, inward on the second.
     [[nodiscard]] std::optional<Index> next_start(char ray, double beyond, Index start) const
     {
         std::optional<Index> best;
@@ -303,7 +305,7 @@ private:
         return best;
     }
 
-    /// Nodes along an axis from the last node pushed, both ends left out.
+    /// Add nodes along an axis from the last node added, excluding both ends.
     void walk_axis(const Vec2& from, const Vec2& to, char ray, const SizeField& size)
     {
         const auto axis = static_cast<int>(part_.wanted.size());
@@ -314,7 +316,7 @@ private:
         for (std::size_t k = 1; k + 1 < points.size(); ++k) part_.add(points[k], -1, axis, ray);
     }
 
-    /// The outer loop first. @return false where there is not one
+    /// Put the outer loop first. @return false unless there is exactly one
     bool sort_loops()
     {
         std::size_t outer = 0, count = 0;
@@ -337,7 +339,7 @@ private:
     MirrorPart part_;
 };
 
-/// Whether a side goes over onto itself, so that the axis crosses it.
+/// Whether the reflection maps a side onto itself, so that the axis crosses it.
 bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 {
     bool crosses = false;
@@ -347,10 +349,11 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
     return crosses;
 }
 
-/// Whether an axis goes through a corner of which it would leave a sharp or an obtuse half.
+/// Whether an axis passes through a corner and would leave a half that is sharp or obtuse.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    constexpr double kMostOff = 25.0 / 90; // [right angles]; a hole of eight sides has 22.5°. A choice.
+    // [right angles]; a hole of eight sides has 22.5°. A larger value accepts more axes with worse corners..
+    constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             if (mirror.to[index(loop[i])] != loop[i]) continue;
@@ -389,11 +392,11 @@ bool lies_in(const PlanarRegion& region, const Vec2& p)
            }) == 1;
 }
 
-/// The angles at which the part may begin and end, the likeliest first.
+/// The angles at which the part may begin and end, the best ranked first.
 std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, bool has_centre)
 {
     constexpr double kPi = std::numbers::pi;
-    // More images make no better quads. A choice, not a measurement.
+    // More images cost symmetric places for irregular nodes and make no better quads.
     constexpr std::size_t kMostAxes = 8;
     if (!has_centre && axes.size() > 1) {
         std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;
@@ -437,7 +440,7 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     const auto [from, to] = parts[choice];
     auto part = PartCutter(region, centre, from, to, has_centre).run(size);
     if (!part) return std::nullopt;
-    // The images: turned by twice the angle of the part, or mirrored and turned.
+    // The images: rotated by a multiple of twice the part's angle, or reflected and then rotated.
     const double angle = to - from;
     const auto count = static_cast<int>(std::lround(2 * std::numbers::pi / angle));
     part->images.push_back({{centre, 1, 0, false}, {}});
@@ -447,7 +450,8 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
         const bool mirrors = j % 2 != 0;
         const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
         const auto found = std::ranges::find_if(symmetries, [&](const Symmetry& s) {
-            constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two symmetries
+            // Far above the accuracy of nodes, far below the angle between two symmetries.
+            constexpr double kSame = 1e-5;
             return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSame &&
                    std::abs(s.map.sine - std::sin(turn)) < kSame;
         });
@@ -469,7 +473,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeFiel
     for (const std::vector<Index>& loop : part.region.loops) {
         made.region.loops.emplace_back();
         const std::size_t n = loop.size();
-        // Begin at the start of a piece, or where none is.
+        // Begin at the start of a piece, if there is one.
         std::size_t first = 0;
         while (first < n && part.axis[index(loop[first])] >= 0 &&
                part.axis[index(loop[first])] == part.axis[index(loop[(first + n - 1) % n])])
@@ -482,7 +486,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeFiel
             if (axis >= 0) {
                 while (end < n && part.axis[index(loop[(first + end) % n])] == axis) ++end;
                 const Index last = loop[(first + end) % n];
-                // Nodes within lie on the ray of whichever end is not the centre.
+                // Nodes inside the piece lie on the ray of the end that is not the centre.
                 const char ray = part.ray[index(here)] == 3 ? part.ray[index(last)] : part.ray[index(here)];
                 const std::vector<Vec2> points = divided(part.region.points[index(here)],
                                                          part.region.points[index(last)],
@@ -510,7 +514,8 @@ PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const Planar
                 here = image.to[index(part.whole[p])];
                 continue;
             }
-            // An axis is shared with the image before or after; the last meets the first on the first ray.
+            // An image shares an axis with the image before or after it; the last one meets the first on the
+            // first ray.
             const int ray = rim ? part.ray[p] : 0;
             if (ray == 3 && j > 0) here = node[0][p];
             if (ray == 2 && j % 2 != 0) here = node[j - 1][p];

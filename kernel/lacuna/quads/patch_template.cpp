@@ -25,19 +25,19 @@ Chain part(const Chain& chain, std::size_t from, std::size_t to)
 }
 Chain rest(const Chain& chain, std::size_t from) { return part(chain, from, chain.size() - 1); }
 
-/// Bottom and top from left to right, left and right from bottom to top.
+/// Bottom and top run from left to right, left and right from bottom to top.
 struct FourSides {
     Chain bottom, right, top, left;
 };
 
-/// The middle of a row of at least two edges; never an end of it.
+/// The middle of a row of at least two edges; never one of its ends.
 std::size_t middle_of(std::size_t edges) { return std::clamp<std::size_t>((edges + 1) / 2, 1, edges - 1); }
 
 class TemplateFiller {
 public:
     explicit TemplateFiller(std::span<const Vec2> loop) : loop_(loop.size())
     {
-        // A patch as long as wide has this many points; others have fewer, as a rule.
+        // A patch as long as wide has this many points; others usually have fewer.
         const std::size_t most = (loop_ / 4 + 1) * (loop_ / 4 + 1);
         points_.reserve(loop_ + most);
         points_.assign(loop.begin(), loop.end());
@@ -83,7 +83,7 @@ private:
         return static_cast<Index>(points_.size()) - 1;
     }
 
-    /// Grids around a node in the middle, or on the cut.
+    /// Grids around a node in the middle, or around a node on the cut.
     void star(const std::vector<Chain>& sides, bool ends_in_cut)
     {
         const std::size_t n = sides.size();
@@ -103,7 +103,7 @@ private:
                                  ? line(foot_of(i), middle, edges)
                                  : Chain{middle});
         }
-        if (on_cut) { // the cut is both spokes that end there
+        if (on_cut) { // the cut forms both spokes that end there
             const auto at_middle = sides[n - 1].begin() + foot[n - 1];
             spokes[0] = reversed(Chain(at_middle, sides[n - 1].end()));
             spokes[n - 2] = Chain(sides[n - 1].begin(), at_middle + 1);
@@ -116,7 +116,7 @@ private:
         }
     }
 
-    /// Four sides whose numbers of edges may differ.
+    /// Fill four sides whose numbers of edges may differ.
     void fill_four(FourSides s)
     {
         const std::size_t first_quad = quads_.size();
@@ -144,7 +144,7 @@ private:
         for (std::size_t q = first_quad; q < quads_.size(); ++q) std::swap(quads_[q][1], quads_[q][3]);
     }
 
-    /// Some columns leave to the left and the others to the right, with a line between them.
+    /// Some columns turn off to the left and the others to the right, with a line between them.
     void turn_both_ways(const FourSides& s, std::size_t to_left)
     {
         const std::size_t edges = s.left.size() - 1 - to_left;
@@ -160,7 +160,7 @@ private:
         fill_four({rest(s.bottom, bottom), s.right, rest(s.top, top), line});
     }
 
-    /// k columns come up from the bottom and leave to the right, around one node of three quads and one of
+    /// k columns enter at the bottom and turn off to the right, around one node of three quads and one of
     /// five.
     ///
     ///    +------+-----------+
@@ -208,7 +208,7 @@ private:
         return points;
     }
 
-    /// The points of four sides, copied: those of the mesh move while it grows.
+    /// The points of four sides, copied, because those of the mesh move in memory while it grows.
     struct PatchPoints {
         std::vector<Vec2> bottom, right, top, left;
         [[nodiscard]] geometry::CoonsPatch<Vec2> patch() const { return {bottom, right, top, left}; }
@@ -225,7 +225,7 @@ private:
         return points;
     }
 
-    /// left--top-->     bottom and top run alike, so do left and right
+    /// left--top-->     bottom and top run in the same direction, and so do left and right
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
         const std::size_t m = bottom.size() - 1, n = left.size() - 1;

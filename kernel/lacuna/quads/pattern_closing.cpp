@@ -8,7 +8,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// How many more sides run along the headings 0 and 1 than back.
+/// Number of sides along headings 0 and 1 minus those back.
 std::array<int, 2> excess_of(const PatternLoop& loop)
 {
     std::array<int, 2> excess{};
@@ -16,14 +16,15 @@ std::array<int, 2> excess_of(const PatternLoop& loop)
     return excess;
 }
 
-/// A turn moved by a side, so that a loop is nearer to closing.
+/// A turn moved by one side, which brings a loop nearer to closing.
 struct TurnMove {
-    std::size_t side = 0, from = 0, to = 0; ///< the side that changes its heading, the nodes of the turn
-    int heading = 0;                        ///< that it gets
-    std::array<int, 2> left{};              ///< excess afterwards
+    /// The side that changes its heading; the nodes of the turn before and after.
+    std::size_t side = 0, from = 0, to = 0;
+    int heading = 0;           ///< new heading of the side
+    std::array<int, 2> left{}; ///< excess after the move
 };
 
-/// By how much the boundary turns at a node [right angles].
+/// Turn of the boundary at a node [right angles].
 double own_turn(const PatternLoop& loop, std::size_t i)
 {
     return i > 0 ? loop.direction[i] - loop.direction[i - 1]
@@ -33,14 +34,14 @@ double own_turn(const PatternLoop& loop, std::size_t i)
 /// Whether the quads of a turn at a node would have angles of 54° to 126° there, a sine of 0.8.
 bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 {
-    constexpr double kOffSquare = 0.4; // a choice, not a measurement
+    constexpr double kOffSquare = 0.4; // larger closes more loops but leaves worse corners
     if (turn < -2 || turn > 1 || loop.movable[i]) return false;
     return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
 }
 
-/// @param hard  of turns that the boundary makes itself, where the nodes they leave and get to allow it; else
-///              of those that may be anywhere.
-/// @return nothing where none brings the loop nearer to closing
+/// @param hard  move turns of the boundary itself, if the angles at the old and the new node allow it;
+///              otherwise turns that may be anywhere.
+/// @return empty if no move brings the loop nearer to closing
 std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<int, 2>& excess, bool hard)
 {
     const std::size_t n = loop.size();
@@ -51,7 +52,7 @@ std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<
         if (turn == 0 || (loop.movable[i] != 0) == hard) continue;
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         for (const bool forward : {true, false}) {
-            // The side that takes the heading of its neighbour, and the node the turn moves to.
+            // The side that takes its neighbour's heading, and the node to which the turn moves.
             const std::size_t changed = forward ? i : before, next = forward ? after : before;
             const int there = loop.turn(next) + turn;
             if (hard ? !may_turn(loop, i, 0) || !may_turn(loop, next, there) : loop.turn(next) != 0) continue;

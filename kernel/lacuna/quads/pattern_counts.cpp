@@ -30,11 +30,11 @@ std::optional<std::vector<int>> counts_for(const CountTask& task)
     return std::move(counts->sides);
 }
 
-/// Whether every other node of each loop may be left out, so that all corners stay.
+/// Whether every other node of each loop can be left out while all corners stay.
 bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
 {
     for (const std::vector<Index>& loop : task.region.loops) {
-        int nodes = 0; // up to here
+        int nodes = 0; // up to the present node
         std::optional<int> first;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const std::size_t own = task.segment_of(loop[i]);
@@ -50,7 +50,7 @@ bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
     return true;
 }
 
-/// Twice the numbers of a region half as fine. @return nothing where some are given or short
+/// Twice the numbers of a region half as fine. @return empty if some are given or short
 std::optional<std::vector<int>> even_counts(const CountTask& task)
 {
     std::vector<BoundarySegment> segments(task.segments.begin(), task.segments.end());

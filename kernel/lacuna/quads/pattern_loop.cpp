@@ -14,15 +14,15 @@
 namespace lacuna::quads {
 namespace {
 
-/// A turn is soft where the boundary's own differs from it by more than this [right angles]. At an end one
-/// quad has the whole angle, so half way to a side is the most, 135° or a sine of 0.7. Three quads share a
-/// corner and four a reversal: the limit is the bar's of `least_irregular()`, for each of them. Each has 0.8
-/// right angles. Choices, not measurements.
+/// A turn is soft if the boundary's own turn differs from it by more than this [right angles]. At an end, one
+/// quad takes the whole angle: the limit is half way to a side, 135° or a sine of 0.7. At a corner three
+/// quads share the angle, at a reversal four: the limit is that of `least_irregular()`, for each quad, which
+/// then has 0.8 right angles. Higher limits give fewer irregular nodes and worse boundary quads.
 constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
 
-/// What a loop's own angles are: the turn at each node and the direction of each side [right angles].
+/// A loop's own angles: the turn at each node and the direction of each side [right angles].
 struct LoopAngles {
     std::vector<double> turn, direction;
     int turns = 0;
@@ -61,7 +61,7 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
     return angles;
 }
 
-/// Whether a turn takes place rows further in, since the boundary's own differs too much from it.
+/// Whether a turn takes place some rows further inside, because the boundary's own turn differs too much.
 bool is_soft(double own, int turn, TurnStyle style)
 {
     const double limit = turn < 0                        ? kSoftCorner * (2 - turn)
@@ -70,19 +70,20 @@ bool is_soft(double own, int turn, TurnStyle style)
     return turn != 0 && std::abs(own - turn) > limit;
 }
 
-/// What a soft turn costs where few are wanted: half as much as a side across the grid. A choice.
+/// Cost of a soft turn if few are wanted: half that of a side across the grid. A higher value gives fewer
+/// irregular nodes and worse angles.
 constexpr double kSoftTurn = 0.5;
 
-/// Headings of least cost from one of the first side.
+/// The headings of least cost, given that of the first side.
 class HeadingSearch {
 public:
-    /// @param weight  of a side's deviation against that of a node's angle.
+    /// @param weight  of a side's deviation relative to that of a node's angle.
     HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
         : angles_(angles), weight_(weight), style_(style)
     {
     }
 
-    /// @return the cost; the headings in `best`.
+    /// @return the cost; the headings are stored in `best`.
     double run(int start, std::vector<int>& best)
     {
         const std::size_t n = angles_.turn.size();
@@ -124,7 +125,7 @@ public:
         return least;
     }
 
-    /// The headings that are tried for a side: those nearest to its direction.
+    /// The headings tried for a side: those nearest to its direction.
     [[nodiscard]] int heading(std::size_t i, int slot) const
     {
         return static_cast<int>(std::lround(angles_.direction[i])) + slot - kWidth / 2;
@@ -168,8 +169,8 @@ Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
 
 double main_angle(const PlanarRegion& region)
 {
-    // Less than this share of all that was summed is no direction: that of a regular octagon with round
-    // corners. A choice, not a measurement.
+    // The boundary has no main direction if the sum is less than this share of all summed terms, as for a
+    // regular octagon with round corners. A higher value falls back on the centres of the loops more often.
     constexpr double kClear = 0.1;
     std::complex<double> sum = 0;
     double whole = 0;
@@ -210,8 +211,8 @@ bool has_half_ends(const PlanarRegion& region)
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, TurnStyle style)
 {
-    // Where the grid goes round a hole the angles decide, for a slot's sides run across any circle: its
-    // weight is for all sides in sum. Choices, not measurements.
+    // Weights of a side's direction relative to angles. For a grid around a hole the angles decide, because
+    // the sides of a slot run across any circle, so the weight is divided by the number of sides.
     constexpr double kStraight = 1, kRound = 2;
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
@@ -247,7 +248,8 @@ bool has_doubtful_turns(const PlanarRegion& region)
 
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
-    // Corners of 112° and less: two quads would be left with a sine of 0.83. A choice, not a measurement.
+    // Corners of up to 112° count as ends: two quads would have a sine of 0.83 there. A higher value excludes
+    // more loops from ring grids.
     constexpr double kEnd = 0.75;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;

@@ -11,7 +11,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Rows round a loop that change its number of sides.
+/// Rows along a loop that change its number of sides.
 class ChangingRows {
 public:
     ChangingRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
@@ -20,12 +20,12 @@ public:
     {
     }
 
-    /// Lay one row. @param corners  positions in the loop, rising; they are those in the new loop after it.
+    /// Place one row. @param corners  positions in the loop, ascending; updated to positions in the new loop.
     bool lay(std::vector<std::size_t>& corners, bool grows)
     {
         const std::vector<Index> nodes = loop_.nodes;
         const std::size_t n = nodes.size();
-        // At a corner a row has one node beside three of the loop, or three beside one.
+        // At a corner the row has one node beside three of the loop, or three beside one.
         constexpr std::size_t kApart = 3;
         for (std::size_t c = 0; c < corners.size(); ++c) {
             const std::size_t next = corners[(c + 1) % corners.size()] + (c + 1 == corners.size() ? n : 0);
@@ -33,7 +33,8 @@ public:
         }
         std::vector<char> turns(n, 0);
         for (const std::size_t c : corners) turns[c] = 1;
-        std::vector<Index> first(n), last(n); // the new nodes beside each, the same but where the row grows
+        // The new nodes beside each node; equal unless the row grows there.
+        std::vector<Index> first(n), last(n);
         std::vector<Index> row;
         for (std::size_t i = 0; i < n; ++i) {
             if (!grows && (turns[(i + 1) % n] || turns[(i + n - 1) % n])) continue;
@@ -76,7 +77,7 @@ private:
         return static_cast<Index>(points_.size()) - 1;
     }
 
-    /// Spread the loop's nodes evenly along it, one of them staying where it is.
+    /// Space the loop's nodes evenly along it; one of them stays where it is.
     void make_even(std::size_t staying)
     {
         const std::size_t n = loop_.nodes.size();
@@ -107,11 +108,12 @@ private:
 
 int RingWidths::steps(double height) const
 {
-    // As `measure_plane()`: rows of one number are of the size asked where the ring is up to 1.6 / 0.6 times
-    // as wide here as there.
+    // As in `measure_plane()`, rows of a constant number have the size asked if the ring's widths differ by a
+    // factor of up to 1.6 / 0.6.
     constexpr double kMostRatio = 1.6 / 0.6;
     if (!(least > 0) || most < kMostRatio * least) return 0;
-    // Half of what would make all rows alike, so that those beside the steps are neither high nor low.
+    // Half the difference that would make all rows equal, so that rows beside the steps are neither too high
+    // nor too low.
     return static_cast<int>(std::lround((most - least) / (2 * height)));
 }
 
@@ -178,7 +180,7 @@ bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& poi
     for (int c = 0; c < corners; ++c)
         at.push_back(n * static_cast<std::size_t>(c) / static_cast<std::size_t>(corners));
     for (int row = 0; row < (pairs + corners - 1) / corners; ++row) {
-        // The last row may have sides for some of the corners only.
+        // The last row may have sides for only some of the corners.
         at.resize(static_cast<std::size_t>(std::min(corners, pairs - row * corners)));
         if (!rows.lay(at, grows)) return false;
     }

@@ -7,7 +7,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Start the loop at another of its nodes.
+/// Renumber the loop to start at another of its nodes.
 void start_at(PatternLoop& loop, std::size_t first)
 {
     const auto rotate = [by = static_cast<std::ptrdiff_t>(first)](auto&... lists) {
@@ -22,7 +22,7 @@ void start_at(PatternLoop& loop, std::size_t first)
 
 bool is_hard(const PatternLoop& loop, std::size_t i) { return loop.turn(i) != 0 && !loop.movable[i]; }
 
-/// Lays one row at a time.
+/// Places one row at a time.
 class PatternRows {
 public:
     PatternRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
@@ -31,7 +31,7 @@ public:
     {
     }
 
-    /// Lay a row along the whole loop.
+    /// Place a row along the whole loop.
     void lay_round()
     {
         const std::size_t n = loop_.size();
@@ -43,8 +43,8 @@ public:
         for (int& rows : loop_.soft) rows = std::max(rows - 1, 0);
     }
 
-    /// Lay a row along the whole loop, whose first node is its only end: one quad has that corner.
-    /// @return false where the loop turns beside it.
+    /// Place a row along the whole loop, whose first node is its only end: one quad has that corner.
+    /// @return false if the loop turns at a node beside it.
     bool lay_round_end()
     {
         const std::size_t n = loop_.size();
@@ -66,15 +66,15 @@ public:
         return true;
     }
 
-    /// Lay a row from the first node, which is hard, to the next hard node `end`, which may be the first
+    /// Place a row from the first node, which is hard, to the next hard node `end`, which may be the first
     /// again.
-    /// @return false where there is no side for it to end on.
+    /// @return false if there is no side on which the row can end.
     bool lay_part(std::size_t end)
     {
         const std::size_t n = loop_.size();
         if (end == n && loop_.turn(0) == 1) return lay_round_end();
         const bool ends_at_start = loop_.turn(0) == 1, ends_at_end = loop_.turn(end % n) == 1;
-        const std::size_t left = n - end; // sides beyond the part
+        const std::size_t left = n - end; // sides outside the part
         if (loop_.turn(0) > 1 || loop_.turn(end % n) > 1) return false;
         if (left > 0 && left < 1 + (ends_at_start ? 1U : 0U) + (ends_at_end ? 1U : 0U)) return false;
         if (ends_at_start && loop_.movable[n - 1] && loop_.turn(n - 1) > 0) return false;
@@ -98,7 +98,7 @@ public:
             const int down = loop_.heading[end - 1] - 1;
             next.push(inner[end], down, down, 0, 0);
         }
-        // Where the row ends at a soft turn, the turn is made there.
+        // If the row ends at a soft turn, the loop turns there.
         const std::size_t first = end + (ends_at_end ? 1 : 0);
         for (std::size_t i = first; i < n - (ends_at_start ? 1 : 0); ++i)
             next.push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewestRoundEnd = 5; ///< nodes, so that three are left
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< nodes, so that three remain
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 
@@ -118,10 +118,10 @@ private:
         return static_cast<Index>(points_.size()) - 1;
     }
 
-    /// A node above node i of the loop.
+    /// Add a node above node i of the loop.
     Index add_inner(std::size_t i) { return add(point_above(points_, loop_.nodes, i, height_)); }
 
-    /// A node square to a side at one of its ends.
+    /// Add a node square to a side at one of its ends.
     Index add_square(std::size_t i, std::size_t side)
     {
         const Vec2 along = (at(side + 1) - at(side)).normalized();
@@ -138,13 +138,13 @@ private:
 
 int fitting_rows(const PatternLoop& loop)
 {
-    // Rows over the sides of a quarter turn: the square within a disc is then about half as wide as it.
+    // Rows per side of a quarter turn: the square inside a disc is then about half as wide as the disc.
     constexpr double kOfQuarter = 0.22;
     const std::size_t n = loop.size();
     int most = 1;
     for (std::size_t i = 0; i < n; ++i) {
         if (!loop.movable[i] || loop.turn(i) != 1) continue;
-        // Sides that run within half a right angle of the direction between the two headings.
+        // Count the sides that run within half a right angle of the direction between the two headings.
         const double middle = i > 0 ? loop.heading[i] - 0.5 : loop.heading[0] - 0.5;
         int sides = 0;
         for (std::size_t k = 0; k < n; ++k) {
@@ -157,7 +157,7 @@ int fitting_rows(const PatternLoop& loop)
 
 std::vector<int> rows_to_try(int fitting)
 {
-    constexpr int kAlways = 3; // a choice, not a measurement
+    constexpr int kAlways = 3; // numbers of rows always tried; more take time
     std::vector<int> rows;
     for (int r = 1; r <= kAlways; ++r) rows.push_back(r);
     for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {
@@ -171,7 +171,8 @@ std::vector<int> rows_to_try(int fitting)
 
 void set_soft_rows(PatternLoop& loop, int rows)
 {
-    constexpr int kMostInward = 3; // a choice, not a measurement
+    // Rows where the loop is bent inward; more would run into the rows of other loops.
+    constexpr int kMostInward = 3;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kMostInward) : rows;
     }

@@ -17,7 +17,7 @@ namespace {
 
 using namespace paving;
 
-/// Lay rows of their own height, which stay as they are, and pave what is inside them as a region by itself.
+/// Place rows of the exact height, which are not moved, and pave the inside of them as a separate region.
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     PartialMesh partial{
@@ -126,7 +126,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                            "no valid quads were found for a region of {} boundary nodes: near {} they fold",
                            region.points.size(), position_text(best.where));
     }
-    // Between sides that all but touch, or in spikes, there are none but flat ones.
+    // Between sides that nearly touch, or in spikes, all quads are flat.
     if (best.worst <= chooser.flat()) {
         log_line(context, formatted("the flattest quad, near {}, has a scaled Jacobian of {:.6f}: the "
                                     "boundary's sides are long for the gap there",

@@ -19,15 +19,15 @@ namespace {
 /// Whether a single mapped patch fills the region well.
 bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
-    constexpr double kGood = 0.8; // quality from which rows gain nothing; a choice, not a measurement
+    constexpr double kGood = 0.8; // quality above which rows gain nothing; lower uses one patch more often
     if (loops.size() > 1 || loops.front().size() < 8) return false;
     const PatchFit fit = fit_patch(partial, loops.front(), corner_angles(partial.points, loops.front()));
     return fit.quality > kGood;
 }
 
-/// Rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end. With one
-/// row for about sixty nodes they lie where a square of as many nodes has its corners. Around a hole every
-/// further row is one more of stretched quads.
+/// Number of rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end.
+/// With one row for about sixty nodes these lie at the corners of a square with as many nodes as the loop.
+/// Around a hole, each further row adds stretched quads.
 int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
     if (!needs_row(partial, loop)) return 0;
@@ -35,14 +35,14 @@ int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
     return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
 }
 
-/// Whether every edge is used once in each direction at most.
+/// Whether every edge is used at most once in each direction.
 bool is_conforming(const PlanarQuads& mesh)
 {
     const auto opposite = mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()));
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes, then with more nodes (pillows). Quads that stay inverted are removed
+/// Open folded quads by moving nodes, then by adding nodes (pillows). Quads that stay inverted are removed
 /// together with two rings of neighbours, and the cavity is remeshed.
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
@@ -58,7 +58,7 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
             judge(tried);
         }
         if (tried.worst <= setting.flat) {
-            // Untangling alone: what opens here is smoothed with the rest later.
+            // Only untangle here; the opened quads are smoothed with the rest later.
             smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
                          {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
             judge(tried);
@@ -82,7 +82,7 @@ void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thor
     judge(attempt);
 }
 
-/// Pave rows from the loops, cut the rest and fill it.
+/// Pave rows from the loops, then cut and fill the rest.
 void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
                    const RunContext& context)
 {

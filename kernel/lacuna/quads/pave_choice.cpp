@@ -22,17 +22,19 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Up to this many quads a region is paved in several ways: for 3000 that takes 0.5 s at most, measured on
-/// the named outlines.
+/// Up to this number of quads a region is paved in several ways. That takes at most 0.5 s for 3000 quads,
+/// measured on the named outlines.
 constexpr std::size_t kSmall = 4000;
-/// Quads made in all with every row of weights: some eight meshes of a region of kSmall. Where the worst quad
-/// stays poor the outline is the cause more than the cuts, and less is spent. Choices, not measurements.
+/// Limits of the total number of quads made with the rows of weights: about eight meshes of a region of
+/// kSmall. If the worst quad stays poor, the outline is more likely the cause than the cuts, so the limit is
+/// lower. Higher limits take more time for a small gain.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
-/// A worst quad below this is poor: half of a square's scaled Jacobian. A choice, not a measurement.
+/// A worst quad below this is poor: half the scaled Jacobian of a square. A higher value tries more ways of
+/// paving.
 constexpr double kPoor = 0.5;
 
-/// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): taken greedily from
-/// 48 candidates, so that the best attempt scores best in the mean over 220 generated outlines. More rows
+/// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
+/// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Further rows
 /// gain less than 0.001 each.
 constexpr std::array<CutWeights, 7> kCutWeights{{
     {.corners = 0.5, .added = 0.75, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.8},
@@ -44,9 +46,9 @@ constexpr std::array<CutWeights, 7> kCutWeights{{
     {.corners = 0.75, .added = 0.75, .length = 0.5, .bent = 0.675, .most_patch = 0.85},
 }};
 
-/// What few quads are cut with, without rows along the boundary: the first rows that `choose_weights few 101
-/// 120` prints (`benchmarks/pave/`), taken greedily from 64 candidates on 355 generated outlines of 60 to 400
-/// quads. The fourth gains less than 0.01.
+/// Weights for few quads without rows along the boundary: the first rows that `choose_weights few 101 120`
+/// prints (`benchmarks/pave/`), chosen greedily from 64 candidates on 355 generated outlines of 60 to 400
+/// quads. The fourth row gains less than 0.01.
 constexpr std::array<CutWeights, 3> kFewWeights{{
     {.corners = 0.5, .added = 0.5, .mismatch = 2, .least_patch = 0.5, .most_patch = 0.85},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
@@ -59,10 +61,12 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
      .most_patch = 0.7},
 }};
 
-/// A score from which no further weights are tried: all but perfect. A choice, not a measurement.
+/// A score, close to the maximum of 3.325, at which no further weights are tried. A lower value saves time
+/// and may miss a better mesh.
 constexpr double kGoodEnough = 3.3;
-/// What is kept without another trial: a worst quad, right sizes and right rows as these, and hardly more
-/// irregular nodes than topology asks for. Choices, not measurements.
+/// A mesh is kept without further trials if its worst quad and its shares of right sizes and right rows reach
+/// these bounds, and its irregular nodes hardly exceed the topological minimum. Looser bounds save time and
+/// may miss a better mesh.
 constexpr double kFineWorst = 0.82, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
@@ -72,17 +76,18 @@ bool is_near_least(const PlaneQuality& quality, int least)
            quality.row_share() > kFineRows;
 }
 
-/// Below so many quads a region is paved by `kFewWeights` and with rows along the boundary alone, unless that
-/// is poor, and only so many of them are finished: those that begin with the fewest irregular nodes. On the
-/// outlines those rows were chosen on that scores 0.01 less than all other rows together did, with a fifth
-/// fewer irregular nodes, in a quarter of the time; the third would gain the 0.01.
+/// Below kFewQuads quads a region is paved only with `kFewWeights` and once with rows along the boundary,
+/// unless the result is poor. Only the kFinished attempts with the fewest initial irregular nodes are
+/// finished. On the outlines used for choosing these weights, this scores 0.01 less than all other rows of
+/// weights together, with a fifth fewer irregular nodes, in a quarter of the time; a third finished attempt
+/// would gain the 0.01.
 constexpr std::size_t kFewQuads = 1500, kFinished = 2;
-/// The others are finished too while the worst quad is below kFair, or kNearly of what the boundary's corners
-/// allow. Choices, not measurements.
+/// The other attempts are finished too if the worst quad is below kFair and below kNearly of what the
+/// boundary's corners allow. Higher bounds spend more time for a better worst quad.
 constexpr double kFair = 0.75, kNearly = 0.97;
 
-/// The best scaled Jacobian that the worst of a region's boundary corners can have: each has the quads that
-/// right angles fit in.
+/// The best possible scaled Jacobian of the worst boundary corner if each corner has as many quads as right
+/// angles fit in its angle.
 double best_at_corners(const PlanarRegion& region)
 {
     double worst = 1;
@@ -91,7 +96,7 @@ double best_at_corners(const PlanarRegion& region)
     return worst;
 }
 
-/// A number that tells meshes apart: a hash of points and quads in their order.
+/// An identifier of a mesh: a hash of points and quads in their order.
 std::uint64_t name_of(const PlanarQuads& mesh)
 {
     std::uint64_t name = mesh.points.size();
@@ -106,13 +111,13 @@ std::uint64_t name_of(const PlanarQuads& mesh)
     return name;
 }
 
-/// An attempt that is not finished.
+/// An attempt before it is finished.
 struct Begun {
     std::size_t irregular; ///< nodes
     Attempt attempt;
 };
 
-/// A grid over the whole region, as an attempt like others.
+/// A grid over the whole region, as an attempt.
 Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& setting)
 {
     Attempt attempt;
@@ -124,10 +129,10 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
     return attempt;
 }
 
-/// What quads have to be better than.
+/// Lower bounds for accepting a mesh.
 struct Limits {
     double least, mean; ///< scaled Jacobian
-    double of_size;     ///< share of sides of the size asked
+    double of_size;     ///< share of sides with the size asked
 };
 
 bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& region)
@@ -138,33 +143,34 @@ bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& r
            quality.size_share() > limits.of_size;
 }
 
-/// Whether a grid is so good that nothing else need be tried: no other mesh has as few irregular nodes.
+/// Whether a grid is so good that no further attempt is needed: no other mesh has as few irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // A worst quad with room for what a sweep makes worse, and nearly all square and of the size asked;
-    // choices, not measurements.
+    // The worst quad leaves room for its deterioration in a sweep, and nearly all quads are square and of the
+    // size asked. Lower bounds save time and accept worse grids.
     return reaches({0.72, 0.92, of_size}, attempt, region);
 }
 
-/// Whether images of a part are so good that nothing else need be tried: what is symmetric may have a few
-/// more irregular nodes than what is not.
+/// Whether images of a part are so good that no further attempt is needed. A symmetric mesh may have a few
+/// more irregular nodes than others.
 /// @param asked  the size that gives the number of quads.
-/// @param few    the quads are as few as given sides allow: then these decide the sizes.
+/// @param few    the quads are so few that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
-    constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0}; // choices, not measurements
+    // Lower accepts symmetric meshes more often.
+    constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
-    // Where images meet, on an axis or at the centre, each may have a quad too many.
+    // Where images meet, on an axis or at the centre, each may have one quad too many.
     constexpr Index kMostQuads = 6;
     if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
     return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
 }
 
-/// Whether quads of a coarser mesh, cut in four, are so good that nothing else need be tried.
+/// Whether quads of a coarser mesh, cut in four, are so good that no further attempt is needed.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
-    constexpr Limits kGood{0.65, 0.97, 0.95}; // choices, not measurements
+    constexpr Limits kGood{0.65, 0.97, 0.95}; // higher repeats the paving at full size more often
     return attempt.worst >= kGood.least && find_fault(attempt.mesh, region).empty() &&
            reaches(kGood, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }
@@ -188,7 +194,8 @@ std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 
 double flat_below(const PlanarRegion& region)
 {
-    // A corner of about 1°, or a third of the outline's sharpest corner; choices, not measurements.
+    // A corner of about 1°, or a share of the outline's sharpest corner. Higher values replace more flat
+    // quads by cavities with more irregular nodes.
     constexpr double kFlat = 0.02, kShare = 0.3;
     double sharpest = 1;
     for (const double angle : boundary_angles(region))
@@ -260,11 +267,11 @@ bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough 
 
 void AttemptChooser::try_grids()
 {
-    // Shares of edges of the size asked: nearly all, where some grid has that, or at least most. Rings whose
-    // loops are far from alike have fewer. Choices, not measurements.
+    // Shares of edges that must have the size asked: nearly all if some grid achieves that, otherwise most.
+    // Rings whose loops differ strongly have fewer.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
-    // A part whose images are too many or too few quads is filled otherwise.
+    // If the images have too many or too few quads, the region is filled in another way.
     const auto is_good = [&](const Attempt& grid, double of_size) {
         return is_good_grid(grid, judged_, of_size) && (cut_ || has_quads_asked(grid.mesh, judged_.size));
     };
@@ -275,11 +282,12 @@ void AttemptChooser::try_grids()
     }
     const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kManyQuads ? part_of_region()
                                                                                       : std::nullopt;
-    // Grids of discs, or about the only hole, in the middle, have more symmetries by themselves.
+    // Grids of discs, or around a single central hole, have more symmetries of their own than images of a
+    // part.
     const bool whole_first = part && (part->has_centre ? region_.loops.size() == 1 && part->is_some
                                                        : region_.loops.size() == 2);
     if (part && !whole_first) {
-        // Below so many quads a grid often fills a quarter, and is as symmetric. A choice, not a measurement.
+        // Below this number of quads one grid often fills a quarter and is equally symmetric.
         constexpr double kFewForGrid = 600;
         const bool blocks = part->has_centre && part->is_some && quads_within(region_) < kSmall;
         const bool blocks_first = blocks && quads_within(region_) >= kFewForGrid;
@@ -343,8 +351,9 @@ bool AttemptChooser::try_part(const MirrorPart& part, bool few, std::vector<Atte
 
 bool AttemptChooser::try_blocks()
 {
-    // Quads of the block over those asked for, along a side: where its sides are as many as the boundary's
-    // beyond them, rows run round it. Best of 0.7 to 1.5 on flanges of 1,000 and 3,000 quads.
+    // Ratio of the number of block quads along a side to the number asked for. If the block's sides have as
+    // many quads as the boundary beyond them, rows run around the block. The best of 0.7 to 1.5 on flanges of
+    // 1,000 and 3,000 quads.
     constexpr double kFiner = 1.5;
     const std::vector<Symmetry> symmetries = outline_symmetries(region_);
     double best = -2;
@@ -430,7 +439,7 @@ void AttemptChooser::try_few_weights()
         Attempt attempt = begin(style, weights);
         if (attempt.worst < -1) return;
         const PlaneQuality quality = measure_plane(attempt.mesh, region_);
-        // Boundary nodes count twice: cleaning improves fewer of them.
+        // Boundary nodes count twice, because cleaning improves fewer of them.
         begun.push_back({quality.irregular + 2 * quality.boundary_irregular, std::move(attempt)});
     };
     for (const CutWeights& weights : kFewWeights) begin_one(RowStyle::no_rows, weights);
@@ -477,7 +486,7 @@ void AttemptChooser::try_all_weights()
 
 void AttemptChooser::try_triangles()
 {
-    // The last resort, and worth a trial where that costs little.
+    // The last resort; also tried if the worst quad is poor and the region small, where it takes little time.
     if (best_.worst <= setting_.flat || (is_small() && best_.worst < kPoor)) pave_in(RowStyle::triangles);
 }
 

@@ -15,15 +15,17 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Regions of so many quads are made coarse once more. A choice, not a measurement.
+/// Coarse regions with at least this many quads are coarsened again. A lower value saves time and leaves less
+/// regular sizes.
 constexpr double kManyStill = 8000;
-/// Sides that may be divided for it. Each leaves a triangle, with a few irregular nodes. A choice.
+/// Limit of sides that may be divided for that. Each leaves a triangle, with a few irregular nodes, so a
+/// higher limit coarsens more regions at the cost of more of them.
 constexpr std::size_t kMostDivided = 8;
-/// A worst quad that a coarse mesh is kept with. A choice, not a measurement.
+/// A coarse mesh is kept if its worst quad exceeds this; a higher value tries all ways of paving more often.
 constexpr double kFair = 0.5;
 
-/// The sides to divide for even numbers of them from corner to corner, and round loops without corners: the
-/// longest of each. Nothing where they are too many.
+/// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
+/// number of sides: the longest side of each. Empty if there are too many.
 std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& region)
 {
     std::vector<RegionSide> sides;
@@ -46,7 +48,7 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
     return sides;
 }
 
-/// Pave a coarse region in one way, and in all others only where that is poor.
+/// Pave a coarse region in one way, and in all other ways only if the result is poor.
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
@@ -63,7 +65,8 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
     return std::move(mesh);
 }
 
-/// Quads and few triangles in a coarse region: made of those of a coarser one where they are many still.
+/// Quads and few triangles in a coarse region. If there are still too many, they are made from those of a
+/// coarser region.
 PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
@@ -77,10 +80,10 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
                              const PlanarQuadMesher& mesher) -> std::optional<PlanarQuads> {
         try {
             PlanarQuads mesh = fill_divided_region(region, some, mesher, context);
-            const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last
+            const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last cell
             if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kFair) return mesh;
         } catch (const NotSweepable&) {
-            // filled otherwise
+            // filled in another way below
         }
         return std::nullopt;
     };
@@ -97,8 +100,8 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
     return fill_odd_region(region, once, context);
 }
 
-/// The cells of a coarse region cut in four, not yet smoothed; nothing where there is none, or no rows lead
-/// from whole side to whole side.
+/// The cells of a coarse region cut in four, not yet smoothed; empty if there is no coarse region, or no rows
+/// connect its whole sides.
 std::optional<Paved> fill_and_cut(const PlanarRegion& region, const RunContext& context)
 {
     Paved made;
@@ -123,14 +126,14 @@ std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& s
     try {
         found = fill_and_cut(region, context);
     } catch (const InvalidInput&) {
-        return std::nullopt; // loops that the nodes left out kept apart
+        return std::nullopt; // loops that touch without the nodes left out
     } catch (const NotSweepable&) {
         return std::nullopt;
     }
     if (!found) return std::nullopt;
     Paved& made = *found;
     made.report.used += ", each quad cut in four";
-    // A few poor quads of so many cost little to improve. A choice, not a measurement.
+    // A few poor quads among so many are cheap to improve. A higher value improves more of them.
     constexpr double kFine = 0.8;
     smooth_plane(made.mesh.points, made.mesh.quads, region.points.size(),
                  {.size = size, .good_enough = kFine}, context);

@@ -11,9 +11,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Finds the best bridge between any two loops. Bridges found before are remembered, for only one loop
-/// changes at a time. Pairs farther apart than the best bridge are not looked at, for no bridge costs less
-/// than its length.
+/// Finds the best bridge between any two loops. Bridges are cached, because only one loop changes at a time.
+/// Pairs of loops farther apart than the best bridge costs are skipped, because no bridge costs less than its
+/// length.
 class BridgeFinder {
 public:
     BridgeFinder(const PartialMesh& partial, const std::vector<Cycle>& loops)
@@ -49,7 +49,7 @@ public:
         return best;
     }
 
-    /// Tell that loop a has taken in loop b, which is empty now, by a line between two nodes.
+    /// Record that loop a has absorbed loop b, which is now empty, by a line between two nodes.
     void joined(std::size_t a, std::size_t b, Index from, Index to)
     {
         box_[a].extend(box_[b]);
@@ -85,7 +85,7 @@ private:
     std::vector<Known> known_;
 };
 
-/// Join all loops to one, the nearest first.
+/// Join all loops into one, the nearest first.
 Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
 {
     BridgeFinder finder(partial, loops);
@@ -102,11 +102,12 @@ Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
     return std::move(loops.front());
 }
 
-/// The quality from which a part of so many nodes is filled without a cut. A cut costs irregular nodes
-/// whatever the size of the part; a poor patch costs in every quad.
+/// The quality above which a part with this many nodes is filled without a cut. A cut costs a few irregular
+/// nodes whatever the size of the part; a poor patch makes all its quads poor.
 double good_patch(const CutWeights& weights, std::size_t nodes)
 {
-    // It rises by kSlope with each doubling of the outline above kFrom nodes; choices, not measurements.
+    // It rises by kSlope with each doubling of the outline above kFrom nodes. A steeper slope cuts large
+    // parts more often.
     constexpr double kSlope = 0.2, kFrom = 32;
     return std::clamp(weights.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
                       weights.least_patch, weights.most_patch);

@@ -12,17 +12,18 @@ namespace {
 
 using geometry::orient2d;
 
-/// A line closer to the outline than 15° makes a sliver. A choice, not a measurement.
+/// A line at less than 15° to the outline makes a sliver. A larger angle excludes more lines, a smaller one
+/// allows sharper quads.
 constexpr double kLeastAngle = kRightAngle / 6;
 
-/// How far an angle is from the nearest multiple of a right angle, in half right angles, squared.
+/// Squared distance of an angle from the nearest multiple of a right angle, in half right angles.
 double angle_cost(double angle)
 {
     const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
     return off * off;
 }
 
-/// The cost of a line that divides an angle: 0 where both parts suit whole quads and no quad is added.
+/// The cost of a line that divides an angle: 0 if both parts suit whole quads and no quad is added.
 double end_cost(double whole, double part, const CutWeights& weights)
 {
     const double rest = whole - part;
@@ -30,7 +31,7 @@ double end_cost(double whole, double part, const CutWeights& weights)
     return weights.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + weights.added * std::abs(added));
 }
 
-/// Whether the open segment from a to b is free of the loop's sides.
+/// Whether the open segment from a to b meets no side of the loop.
 bool is_clear(const PartialMesh& partial, const Cycle& cycle, Index a, Index b)
 {
     const Vec2 &pa = partial.at(a), &pb = partial.at(b);
@@ -62,7 +63,7 @@ bool is_clear(const PartialMesh& partial, const Cycle& cycle, Index a, Index b)
 
 double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b)
 {
-    // Edges go as the mean of one over the size.
+    // The number of edges is proportional to the mean of 1 / size.
     return 3 / (1 / partial.size(a) + 1 / partial.size((a + b) / 2) + 1 / partial.size(b));
 }
 
@@ -88,22 +89,23 @@ public:
     {
         places_ = candidates();
         line_up();
-        // A line nearly as long as what it cuts off is seldom good, so it is tried only where there is no
-        // other. The bound saves time; it is a choice, not a measurement.
+        // A line nearly as long as the outline that it cuts off is seldom good, so it is tried only if there
+        // is no other. A lower bound saves time and may miss the best line.
         constexpr double kShort = 0.85;
         auto cut = find_among(kShort);
         return cut ? cut : find_among(std::numeric_limits<double>::infinity());
     }
 
 private:
-    /// The cheapest free line. Only lines cheaper than the cheapest so far are looked at.
+    /// The cheapest line that crosses nothing. Only lines cheaper than the cheapest so far are checked.
     std::optional<Cut> find_among(double longest)
     {
-        // Nodes nearer than half an edge of the line would make a quad of half the size; a choice. Where all
-        // lines pass some node that near, the cheapest of them is taken.
+        // A line should keep this share of its edge length away from nodes that it passes, because nearer
+        // ones make quads of half the size. If all lines pass nodes closer than that, the cheapest of them is
+        // used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // By their bounds, the most promising first: few are looked at before none can be better.
+        // In order of their lower bounds, so the search ends after few lines.
         std::vector<CutBound> bounds = bound_cuts(columns_, partial_.weights, longest, kLeastAngle, arc_[n_]);
         const auto later = [](const CutBound& a, const CutBound& b) { return a.cost > b.cost; };
         std::make_heap(bounds.begin(), bounds.end(), later);
@@ -129,7 +131,7 @@ private:
         double cost = 0;
     };
 
-    /// What `bound_cuts()` reads of the places.
+    /// Fill the columns that `bound_cuts()` reads.
     void line_up()
     {
         columns_.reserve(places_.size());
@@ -145,7 +147,7 @@ private:
         }
     }
 
-    /// What a line gains by ending at a node.
+    /// Reduction of a line's cost if it ends at a node.
     [[nodiscard]] double gain(std::size_t i) const
     {
         return angles_[i] > kBentAbove ? partial_.weights.bent : 0.0;
@@ -153,7 +155,7 @@ private:
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether a line keeps so many of its edges from all nodes that it passes.
+    /// Whether a line stays away from all nodes that it passes, by this share of its edges.
     [[nodiscard]] bool keeps_away(const Choice& c, double away) const
     {
         const Vec2 &a = at(c.cut.from), &b = at(c.cut.to), along = b - a;
@@ -169,8 +171,8 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline, for the time; a choice
-        constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward, for the time; a choice
+        constexpr std::size_t kSpread = 32;   ///< nodes tried evenly along the outline; more cost time
+        constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward; more cost time
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kBentAbove) bent.push_back(i);
@@ -185,7 +187,7 @@ private:
         return places;
     }
 
-    /// @return nothing where there can be no line, nor one that costs less than `most`
+    /// @return empty if no line is possible, or none that costs less than `most`
     [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j, double most) const
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
@@ -203,7 +205,7 @@ private:
         choice.cost += end_cost(angles_[i], part_i, weights) * firmness(i) +
                        end_cost(angles_[j], part_j, weights) * firmness(j);
         if (choice.cost >= most) return std::nullopt;
-        // Edges go as the mean of one over the size.
+        // The number of edges is proportional to the mean of 1 / size.
         const double wanted = length * (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
         auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
@@ -226,7 +228,7 @@ private:
         return choice;
     }
 
-    /// An angle from -2π to 4π as one from 0 to 2π.
+    /// Map an angle from -2π…4π to 0…2π.
     static double whole_turn(double angle)
     {
         constexpr double kTurn = 2 * std::numbers::pi;
@@ -234,18 +236,18 @@ private:
         return angle < kTurn ? angle : angle - kTurn;
     }
 
-    /// How much the angles at an end count: less where it is an inner node, which moves later. A choice.
+    /// Weight of the angles at an end: lower for an inner node, because it moves later.
     [[nodiscard]] double firmness(std::size_t i) const { return partial_.is_fixed(cycle_[i]) ? 1 : 0.6; }
 
-    /// How badly the sides of both parts would agree in number.
+    /// Cost of unequal numbers of opposite sides in both parts.
     [[nodiscard]] double mismatch(const Cut& cut, double part_i, double part_j) const
     {
         return part_mismatch(cut.from, cut.to, cut.edges, part_i, angles_[cut.to] - part_j) +
                part_mismatch(cut.to, cut.from, cut.edges, part_j, angles_[cut.from] - part_i);
     }
 
-    /// The part along the outline from one end of the line to the other. The costs are choices: least for
-    /// grids, then for patches with one irregular node, for others more.
+    /// The part along the outline from one end of the line to the other. Grids cost least, then patches with
+    /// one irregular node, then others.
     [[nodiscard]] double part_mismatch(std::size_t from, std::size_t to, std::size_t edges, double angle_from,
                                        double angle_to) const
     {
@@ -278,7 +280,7 @@ private:
         return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
-    /// Try the nodes next to the ends, in smaller and smaller steps, unless all were tried.
+    /// Try the nodes next to the ends, in decreasing steps, unless all nodes were tried.
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
         if (stride_ == 1) return best;
@@ -297,7 +299,7 @@ private:
                     consider(start.cut.from + i, start.cut.to + j);
             }
         }
-        // Numbers of edges agree for single nodes alone, so every node near either end is tried.
+        // Numbers of edges agree only for particular nodes, so every node near either end is tried.
         const Choice start = best;
         for (std::size_t k = 0; k <= 2 * stride_; ++k) {
             consider(start.cut.from + n_ + k - stride_, start.cut.to);
@@ -312,17 +314,17 @@ private:
     std::size_t n_;
     std::vector<double> arc_;     ///< along the loop, up to each node
     std::vector<double> heading_; ///< of the side that leaves each node [radians]
-    std::vector<double> pace_;    ///< one over the size at each node
+    std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
-    std::vector<std::size_t> places_; ///< nodes that lines are tried between
-    CutPlaces columns_;               ///< the same
+    std::vector<std::size_t> places_; ///< nodes between which lines are tried
+    CutPlaces columns_;               ///< the same in columns
     std::size_t stride_ = 1;
 };
 
-/// A bridge is tried from every so many nodes of a loop.
+/// Bridges start at every n-th node of a loop.
 std::size_t stride_of(std::size_t n)
 {
-    constexpr std::size_t kMost = 48; // nodes of a loop tried, for the time; a choice, not a measurement
+    constexpr std::size_t kMost = 48; // nodes of a loop tried; more cost time
     return std::max<std::size_t>(1, n / kMost);
 }
 
@@ -347,7 +349,7 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
     const std::vector<double> angles_one = corner_angles(partial.points, one),
                               angles_two = corner_angles(partial.points, two);
     std::optional<LoopBridge> best;
-    // Only bridges cheaper than the cheapest so far are looked at; none costs less than its length.
+    // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
     const auto consider = [&](std::size_t i, std::size_t j) {
         const Vec2 &p = partial.at(one[i]), &q = partial.at(two[j]);
         if (best && (q - p).squaredNorm() >= best->cost * best->cost) return;
@@ -372,7 +374,7 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
         for (const std::size_t j : spread(two.size())) consider(i, j);
     }
     if (!best) return std::nullopt;
-    // The nodes between those tried.
+    // The nodes between those already tried.
     const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
     const Cut found = best->cut;
     for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
@@ -418,7 +420,7 @@ Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)
 
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 {
-    // At even steps of the integral of 1 / size along the line, sampled.
+    // At even steps of the sampled integral of 1 / size along the line.
     const Vec2 a = partial.at(from), b = partial.at(to);
     const std::size_t samples = std::max<std::size_t>(2 * edges, 16);
     std::vector<double> sum(samples + 1, 0);

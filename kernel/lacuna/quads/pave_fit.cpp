@@ -13,21 +13,22 @@ namespace {
 /// A side of a block, sampled at even steps along its edges.
 struct Sampled {
     std::vector<Vec2> points;
-    double edges = 0; ///< how many edges of the mesh the whole side has
+    double edges = 0; ///< number of mesh edges of the whole side
 };
 
-constexpr std::size_t kSamples = 6; ///< sample cells along a side of a patch, for the time; a choice
+/// Sample cells along a side of a patch; more estimate better and take longer.
+constexpr std::size_t kSamples = 6;
 
-/// The quality of a block of a patch: its worst sample cell's least sine, less where cells miss the size
+/// The quality of a block of a patch: the least sine of its worst sample cell, reduced if cells miss the size
 /// asked.
-/// @param virtual_corner  true where the corner of the patch is not one of the outline but an inner node that
-///                        will move, so that the cell there says nothing.
+/// @param virtual_corner  true if a corner of the patch is not on the outline but an inner node that will
+///                        move, so the cell there is ignored.
 double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& side,
                    const std::array<bool, 4>& virtual_corner)
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
-    // Samples are spaced alike by number, so that they count for as many quads each.
+    // Samples are evenly spaced by edge number, so each represents equally many quads.
     const std::vector<Vec2> grid = geometry::transfinite(b.points, r.points, t.points, l.points,
                                                          {.by_arc_length = false});
     double worst = 1, stray = 0, weight = 0;
@@ -51,7 +52,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
             }
         }
     }
-    // A size off by a factor of two all over halves the quality.
+    // A size that is off by a factor of two everywhere halves the quality.
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 
@@ -87,14 +88,15 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
     for (std::size_t k = 0; k < 4; ++k)
         is_virtual[k] = angles[corners[k]] > kCornerBelow && !partial.is_fixed(cycle[corners[k]]);
     const double quality = judge_block(partial, side, is_virtual);
-    // Columns that turn off to a neighbouring side bend the grid, the more of them the worse.
+    // Columns that turn off to a neighbouring side bend the grid, and lower the quality more the more of them
+    // there are.
     const auto excess = [](std::size_t a, std::size_t c) {
         return static_cast<double>(std::max(a, c) - std::min(a, c)) / static_cast<double>(std::max(a, c));
     };
     return quality * (1 - std::max(excess(edges[0], edges[2]), excess(edges[1], edges[3])));
 }
 
-/// The quality of a patch of 3 or 5 sides: that of the worst of the blocks at its corners.
+/// The quality of a patch of 3 or 5 sides: that of its worst block.
 double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vector<std::size_t>& corners)
 {
     const SideCounts counts = side_counts(cycle.size(), corners);
@@ -129,14 +131,14 @@ double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vec
     return quality;
 }
 
-/// The best four corners for a loop that has none: those of a square or rectangle with as many edges.
+/// The best four corners of a loop without corners: those of a square or rectangle with as many edges.
 PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
     const std::size_t n = cycle.size(), half = n / 2;
     PatchFit best;
     best.quality = -1;
     if (n < 8 || n % 2 != 0) return best;
-    constexpr std::size_t kTurns = 24; // first corners tried, for the time; a choice
+    constexpr std::size_t kTurns = 24; // first corners tried; more cost time
     const std::size_t step = std::max<std::size_t>(1, half / kTurns);
     for (std::size_t start = 0; start < half; start += step) {
         for (const double share : {0.5, 0.4, 0.3, 0.2}) {
@@ -153,8 +155,8 @@ PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::ve
             }
         }
     }
-    // The corners of the grid lie on a round outline, where its corner cells are skewed.
-    constexpr double kBend = 0.8; // a choice, not a measurement
+    // The grid's corners lie on a round outline, so its corner cells are skewed.
+    constexpr double kBend = 0.8; // factor for the quality; lower prefers cuts to patches without corners
     best.quality *= best.quality > 0 ? kBend : 1;
     return best;
 }
@@ -170,13 +172,14 @@ PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::ve
     }
     if (fit.corners.empty()) return fit_round(partial, cycle, angles);
     if (fit.corners.size() == 3) {
-        // A wide corner may be the fourth where no other comes near it.
+        // A wide corner may be the fourth corner if its neighbours are wider still.
         std::vector<std::size_t> order(cycle.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::partial_sort(order.begin(), order.begin() + 5, order.end(), [&](std::size_t a, std::size_t b) {
             return std::pair(angles[a], a) < std::pair(angles[b], b);
         });
-        constexpr double kClear = kRightAngle / 9; // 10° wider at the next node; a choice
+        // The next node is at least 10° wider; larger accepts fewer fourth corners.
+        constexpr double kClear = kRightAngle / 9;
         if (angles[order[3]] + kClear < angles[order[4]]) {
             std::vector<std::size_t> four(order.begin(), order.begin() + 4);
             std::ranges::sort(four);

@@ -14,7 +14,7 @@ bool fill_patch(PartialMesh& partial, const Cycle& cycle, std::span<const std::s
     for (const Quad& quad : filling.quads) {
         for (std::size_t k = 0; k < 4; ++k) {
             const auto [a, b] = std::minmax(quad[k], quad[(k + 1) % 4]);
-            // A side across the patch between nodes that were there before.
+            // A side across the patch between existing nodes.
             if (b < n && b - a > 1 && b - a < n - 1) partial.link(cycle[index(a)], cycle[index(b)]);
         }
     }
@@ -37,7 +37,7 @@ void fill_small(PartialMesh& partial, const Cycle& c)
         best_worst = worst;
         best = {one, two};
     }
-    // Three quads about a node in the middle, where two would be flat.
+    // Three quads around a node in the middle, if two quads would be flat.
     Vec2 middle = Vec2::Zero();
     for (const Index p : c) middle += partial.at(p) / 6;
     const Index centre = partial.add(middle);
@@ -50,7 +50,7 @@ void fill_small(PartialMesh& partial, const Cycle& c)
             three.push_back({c[at % 6], c[(at + 1) % 6], c[(at + 2) % 6], centre});
             worst = std::min(worst, least_sine(partial, three.back()));
         }
-        // A third quad must be worth it.
+        // A third quad must improve the worst one clearly.
         if (!best.empty() && worst <= best_worst + 0.3) continue;
         best_worst = worst + 0.3;
         best = three;

@@ -9,8 +9,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-constexpr int kMostQuads = 4; ///< at a node: a reversal, for no angle is wider than four right ones
-/// A quad of a row with a flatter corner (6°) counts as folded. A choice, not a measurement.
+constexpr int kMostQuads = 4; ///< at a node: a reversal, because no angle exceeds four right angles
+/// A row quad with a flatter corner (6°) counts as folded. A higher value drops more rows.
 constexpr double kLeastSine = 0.1;
 
 Vec2 rotated(const Vec2& v, double angle)
@@ -19,8 +19,8 @@ Vec2 rotated(const Vec2& v, double angle)
             v.x() * std::sin(angle) + v.y() * std::cos(angle)};
 }
 
-/// The height of the row at every node: no more than a third of the way to the other side. Heights of all but
-/// exact rows change slowly.
+/// The height of the row at every node: at most a third of the distance to the other side. Except in exact
+/// rows, heights change gradually.
 std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
                                 const std::vector<double>& angles, const GapFinder& gaps,
                                 const SizeField& height, RowKind kind)
@@ -34,7 +34,8 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
         heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, reach) / 3);
     }
     if (kind == RowKind::exact) return heights;
-    constexpr double kChange = 1.3; ///< from one node to the next at most; a choice, not a measurement
+    /// Largest ratio between neighbouring nodes; higher follows gaps more closely, with less even rows.
+    constexpr double kChange = 1.3;
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t k = 0; k < 2 * n; ++k) {
             const std::size_t i = k % n, b = (i + n - 1) % n;
@@ -45,7 +46,7 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
     return heights;
 }
 
-/// Lays the row of one loop, and takes it back where it is not good.
+/// Places the row of one loop, and removes it if it is not good.
 class RowTrial {
 public:
     RowTrial(PartialMesh& partial, const Cycle& cycle, RowKind kind)
@@ -57,7 +58,7 @@ public:
     {
     }
 
-    /// @return the inner side of the row; nothing, and the mesh as it was, where it cannot be laid.
+    /// @return the inner side of the row; empty, with the mesh unchanged, if the row cannot be placed.
     std::optional<Cycle> lay(const GapFinder& gaps, const SizeField& height)
     {
         const std::size_t points = partial_.points.size(), quads = partial_.quads.size();
@@ -83,7 +84,7 @@ private:
     }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Each end takes a node off the sides on either hand, so that sides of at least three edges keep one.
+    /// Each end removes a node from the sides before and after it, so sides of at least three edges keep one.
     [[nodiscard]] bool ends_far_apart() const
     {
         constexpr std::size_t kApart = 3; // edges between two ends
@@ -97,9 +98,9 @@ private:
         return first == n_ || first == last || first + n_ - last >= kApart;
     }
 
-    /// Whether the row is high enough. One that is squeezed below 0.6 of its height on a quarter of its
-    /// length is worse than none (choices, not measurements); an exact one may miss its height by a
-    /// hundredth, for rounding alone.
+    /// Whether the row is high enough. A row that is squeezed below 0.6 of its height on a quarter of its
+    /// length is worse than none; stricter bounds drop more rows. An exact row may miss its height by a
+    /// hundredth, for rounding only.
     [[nodiscard]] bool high_enough(const SizeField& height) const
     {
         if (kind_ != RowKind::tall && kind_ != RowKind::exact) return true;
@@ -110,7 +111,7 @@ private:
         return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);
     }
 
-    /// Place new nodes over every node, from the edge after it to the edge before it.
+    /// Place new nodes above every node, from the edge after it to the edge before it.
     void place_nodes()
     {
         inner_.assign(n_, {});
@@ -119,8 +120,8 @@ private:
             if (quads == 1) continue;
             const Vec2 ahead = (at(i + 1) - at(i)).normalized();
             const double step = angles_[i] / quads;
-            // A spoke keeps the row's height over both edges where they bend a little. The clamps here and
-            // below keep sharp bends from throwing nodes far out; choices, not measurements.
+            // A spoke keeps the row's height above both edges where they bend slightly. The clamps here and
+            // below limit the spokes at sharp bends; lower clamps allow longer spokes.
             const double spoke = heights_[i] / std::clamp(std::sin(step), 0.7, 1.0);
             for (int k = quads - 1; k >= 1; --k) {
                 inner_[i].push_back(partial_.add(at(i) + rotated(ahead, k * step) * spoke));
@@ -184,7 +185,7 @@ std::optional<Cycle> lay_one(PartialMesh& partial, const Cycle& cycle, const Gap
                              const SizeField& height, RowKind kind)
 {
     if (kind != RowKind::buffer) return RowTrial(partial, cycle, kind).lay(gaps, height);
-    constexpr int kFlatter = 5; // tries, each half as high: to a sixteenth; a choice
+    constexpr int kFlatter = 5; // tries, each half as high, down to a sixteenth
     for (double part = 1; part > std::ldexp(1.0, -kFlatter); part /= 2) {
         auto inner = RowTrial(partial, cycle, kind).lay(gaps, [&](const Vec2& p) {
             return part * height(p);
@@ -213,11 +214,11 @@ int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>&
         for (std::size_t l = 0; l < loops.size(); ++l) next.push_back(inner[l] ? *inner[l] : loops[l]);
         const auto crossing = geometry::find_crossing(partial.points, next);
         if (!crossing) break;
-        // Rows that run into each other: the shorter loop gives way, and all are laid again.
+        // If rows run into each other, the shorter loop gets no row, and all rows are placed again.
         std::size_t out = crossing->loop_a;
         if (!inner[out] || (inner[crossing->loop_b] && loops[crossing->loop_b].size() < loops[out].size()))
             out = crossing->loop_b;
-        if (!inner[out]) break; // loops that cross as they were given
+        if (!inner[out]) break; // the given loops cross
         wanted[out] = false;
         partial.points.resize(points);
         partial.quads.resize(quads);

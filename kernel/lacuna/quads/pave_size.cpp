@@ -24,7 +24,7 @@ std::vector<BoundarySide> sides_of(const PlanarRegion& region)
     return sides;
 }
 
-/// Bounds on the size, on a grid over the region, spread from the boundary sides.
+/// Bounds on the size, on a grid over the region, propagated from the boundary sides.
 class SizeBounds {
 public:
     explicit SizeBounds(const std::vector<BoundarySide>& sides)
@@ -33,8 +33,8 @@ public:
         for (const BoundarySide& side : sides) box.extend(side.middle);
         low_ = box.min();
         const Vec2 high = box.max();
-        // Cells of half the shortest side, and no more than so many along the longer side of the box, for the
-        // time. Choices, not measurements.
+        // The cell width is half the shortest side, with at most kAcross cells along the longer side of the
+        // box. Finer cells follow the boundary better and take more time.
         constexpr double kAcross = 128, kOfSide = 0.5;
         const double shortest = std::ranges::min_element(sides, [](const auto& a, const auto& b) {
                                     return a.length < b.length;
@@ -42,7 +42,7 @@ public:
         cell_ = std::max(
             {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
-        // With a rim of cells that bound nothing.
+        // With a border of cells without bounds.
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);
@@ -53,7 +53,7 @@ public:
             most_[cell] = std::min(most_[cell], side.length);
             least_[cell] = std::max(least_[cell], side.length);
         }
-        // Two rounds of two sweeps spread the bounds everywhere but around sharp bends.
+        // Two rounds of two sweeps propagate the bounds everywhere except around sharp bends.
         constexpr double kGrading = 0.3; // change of size over distance
         const double rise = kGrading * cell_;
         for (int round = 0; round < 2; ++round) {
@@ -62,8 +62,8 @@ public:
         }
     }
 
-    /// The size asked for, within the bounds at the four cells around; where they disagree the upper one
-    /// holds.
+    /// The size asked for, limited by the bounds of the four nearest cells; if the bounds contradict each
+    /// other, the upper one wins.
     [[nodiscard]] double limit(const Vec2& p, double asked) const
     {
         const double x = std::clamp((p.x() - low_.x()) / cell_ - 0.5, 1.0, nx_ - 2.001);
@@ -85,9 +85,9 @@ private:
         return static_cast<std::size_t>(y * nx_ + x);
     }
 
-    /// Bring the bounds of a row's cells and of their neighbours together: those in the row before, which go
-    /// in vectors, then those beside each other in turn.
-    /// @param back  -1 or 1: the row before is below or above, and cells are gone through from that side
+    /// Make the bounds of a row's cells and of their neighbours consistent: first with the previous row, in
+    /// vector code, then along the row.
+    /// @param back  -1 or 1: the previous row is below or above, and the cells are visited from that side
     void relax(int row, int back, double rise)
     {
         const double far = rise * std::numbers::sqrt2;
@@ -115,8 +115,8 @@ private:
 
 BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
-    // Sides have about the length asked where the two differ by less than these factors. Choices, not
-    // measurements.
+    // Sides have about the length asked if the two differ by less than these factors. Higher factors grade
+    // the size less often, which leaves larger jumps of size at the boundary.
     constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;

@@ -37,7 +37,7 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
     const auto less = [](const Link& a, const Link& b) {
         return std::tie(a.from, a.to) < std::tie(b.from, b.to);
     };
-    std::vector<Link> outline; // sides outside that met the removed quads, as those ran
+    std::vector<Link> outline; // outer sides next to the removed quads, in their direction
     for (const Index q : removed) {
         for (const Index p : quad(q)) {
             out_[index(p)] = -1;

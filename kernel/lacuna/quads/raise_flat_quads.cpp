@@ -10,11 +10,12 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Move a point to where the worst quad around it is better. @return whether it is
-/// @param least_side  that its sides must keep [length]
+/// Move a point to where its worst quad is better. @return whether it improved
+/// @param least_side  length that its sides must keep [length]
 bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p, double least_side)
 {
-    // Steps of the mean distance to the neighbours; choices, not measurements.
+    // Steps as shares of the mean distance to the neighbours. Smaller last steps and gains open a few more
+    // folds and take longer.
     constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
     if (star.empty()) return false;
     const auto worst_at = [&](const Vec2& x) { return worst_quad(points, star, x); };
@@ -30,7 +31,7 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
     mean /= count;
     const double before = worst_at(x);
     double worst = before;
-    // Small steps do not bring back a point far outside its neighbours.
+    // Small steps cannot bring back a point far outside its neighbours.
     for (const Vec2& to : {mean, Vec2((mean + x) / 2)}) {
         const double found = worst_at(to);
         if (found <= worst || shortest_side(points, star, to) < least_side) continue;
@@ -49,8 +50,8 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
 
 void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr double kFlat = 0.15; // better quads are left to the smoother; a choice, not a measurement
-    constexpr int kSweeps = 12;    // at most; a choice too
+    constexpr double kFlat = 0.15; // better quads are left to the smoother; higher moves more points here
+    constexpr int kSweeps = 12;    // limit; most meshes need fewer
     const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlat; };
     if (std::ranges::none_of(mesh.quads, is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);

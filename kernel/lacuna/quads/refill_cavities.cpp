@@ -17,7 +17,8 @@ namespace {
 /// Closed loops of point numbers, the outer one first.
 using Loops = std::vector<Cycle>;
 
-/// Rings of quads removed with the folded ones, whose nodes lie where they fold. A choice, not a measurement.
+/// Rings of quads removed with the folded ones, because their nodes lie in the fold. More rings replace more
+/// good quads, fewer leave less room.
 constexpr int kRings = 2;
 
 class CavityFinder {
@@ -37,8 +38,8 @@ public:
         return true;
     }
 
-    /// Remove more until every cavity can be filled. @return the outlines of the cavities, the outer loop
-    /// first
+    /// Remove more quads until every cavity can be filled. @return the outlines of the cavities, each with
+    /// its outer loop first
     std::vector<Loops> find_cavities()
     {
         while (true) {
@@ -56,7 +57,7 @@ public:
                     for (const Index p : net_.quad(q)) from[index(p)] = true;
                 }
             }
-            // Where all quads are removed, the outline is the region's own, which is known to be good.
+            // If all quads are removed, the outline is the region's own, which was checked before.
             if (!bad || !grow(from)) return cavities;
         }
     }
@@ -71,8 +72,7 @@ public:
     }
 
 private:
-    /// Remove the quads at those nodes of removed quads that `from` allows. @return whether there were any
-    /// more
+    /// Remove the quads at those nodes of removed quads that `from` allows. @return whether any were removed
     bool grow(const std::vector<bool>& from)
     {
         std::vector<bool> reached(mesh_.points.size(), false);
@@ -92,7 +92,7 @@ private:
         return more;
     }
 
-    /// The removed quads in groups that hang together by edges.
+    /// The removed quads in groups connected by edges.
     [[nodiscard]] std::vector<std::vector<Index>> parts() const
     {
         std::vector<std::vector<Index>> result;
@@ -113,8 +113,8 @@ private:
         return result;
     }
 
-    /// The loops around a part, the outer one first; nothing where they are pinched, cross or run the wrong
-    /// way.
+    /// The loops around a group, the outer one first; empty if they are pinched, cross or have the wrong
+    /// direction.
     [[nodiscard]] std::optional<Loops> outline_of(const std::vector<Index>& part) const
     {
         std::unordered_map<Index, Index> next;

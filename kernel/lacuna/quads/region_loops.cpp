@@ -82,7 +82,7 @@ void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std:
 
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling)
 {
-    const std::span<const Vec2> all = filling.points; // none where there is no filling
+    const std::span<const Vec2> all = filling.points; // empty if there is no filling
     add_filling(mesh.points, mesh.quads, own, all.subspan(std::min(own.size(), all.size())), filling.quads);
 }
 

@@ -14,10 +14,11 @@
 namespace lacuna::quads {
 namespace {
 
-/// Rows with holes between them bend, so that less is left. A choice, not a measurement.
+/// A narrower range for rings with further holes: their rows bend around the holes, which uses up a part of
+/// the tolerance.
 constexpr CountRange kRingWithHoles{1 / 1.55, 1.55};
 
-/// The hole of most nodes, the first of several; 0: there is none.
+/// The hole with the most nodes, the first of several; 0: there is none.
 std::size_t longest_hole(const PlanarRegion& region)
 {
     std::size_t longest = 0;
@@ -27,7 +28,7 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// The sides of a loop that are not of the size asked, each of which costs as much as one too few.
+/// Number of a loop's sides that are not of the size asked; each costs as much as one missing side.
 double out_of_size(const CountedLoop& loop)
 {
     int sum = 0;
@@ -38,10 +39,10 @@ double out_of_size(const CountedLoop& loop)
     return sum;
 }
 
-/// How often the same segments follow each other on a loop.
+/// How often a loop repeats the same sequence of segments.
 int repeats(const CountTask& task, std::size_t l)
 {
-    constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+    constexpr double kAlike = 0.01; // relative tolerance; larger treats less similar segments as equal
     std::vector<double> wanted;
     const std::vector<Index>& loop = task.region.loops[l];
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -59,11 +60,11 @@ int repeats(const CountTask& task, std::size_t l)
     return 1;
 }
 
-/// How many holes there are beside the one the grid goes round, where they are of one size and at one
-/// distance from it; else 1. A number of sides that they divide leaves them alike.
+/// Number of further holes if they all have the same size and the same distance from the hole that the grid
+/// follows; otherwise 1. A multiple of it keeps the holes alike.
 int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::size_t about)
 {
-    constexpr double kAlike = 0.01; // share by which they may differ; a choice, not a measurement
+    constexpr double kAlike = 0.01; // relative tolerance; larger treats less similar holes as equal
     const Vec2 centre = centre_of(task.region.points, task.region.loops[about]);
     double first = 0;
     for (std::size_t l = 1; l < task.region.loops.size(); ++l) {
@@ -78,7 +79,7 @@ int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::si
     return same && !others.empty() ? static_cast<int>(others.size()) : 1;
 }
 
-/// Sides wanted round a ring.
+/// Number of wanted sides around a ring.
 double wanted_along(const CountedLoop& loop)
 {
     double sum = 0;
@@ -87,9 +88,9 @@ double wanted_along(const CountedLoop& loop)
     return std::abs(sum);
 }
 
-/// The loops of a ring at the least cost in sum, each over what the loop wants.
-/// @param multiple  that the outer loop's number of sides along must be.
-/// @param more      sides more than the inner loop has: the numbers to be tried.
+/// The loops of a ring at the least total cost, each cost relative to the loop's wanted number.
+/// @param multiple  the outer loop's number of sides along the ring must be a multiple of this.
+/// @param more      candidates for how many sides the outer loop has more than the inner one.
 std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
                                                   const std::array<CountedLoop, 2>& ends,
                                                   const std::array<int, 2>& along, int multiple,
@@ -98,8 +99,8 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     std::optional<std::vector<CountedLoop>> best;
     double least = std::numeric_limits<double>::infinity();
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-    // As many quads as asked are worth this much where rows are alike all round; elsewhere rows that
-    // change make up for it. Chosen on gears of 400 and 3,000 quads.
+    // Weight of the number of quads for rows that do not change; rows that change make up for it. Chosen on
+    // gears of 400 and 3,000 quads.
     constexpr double kQuads = 3;
     const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
     for (const int by : more) {
@@ -123,14 +124,14 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     return best;
 }
 
-/// The loops of a region with headings round a hole.
+/// The loops of a region with headings around a hole.
 struct RingLoops {
-    std::array<CountedLoop, 2> ends; ///< the outer loop and that of the hole
-    std::array<int, 2> along{};      ///< sides that these have along, rounded
-    std::vector<CountedLoop> others; ///< of holes beside it, closed
+    std::array<CountedLoop, 2> ends; ///< the outer loop and the hole
+    std::array<int, 2> along{};      ///< their numbers of sides along the ring, rounded
+    std::vector<CountedLoop> others; ///< of the other holes, closed
 };
 
-/// @return nothing where a loop fits no grid round a hole.
+/// @return empty if a loop fits no grid around a hole.
 std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
 {
     const PlanarRegion& region = task.region;
@@ -159,7 +160,7 @@ std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
     return ring;
 }
 
-/// Numbers for a ring that has no other holes and takes none with rows alike all round.
+/// Numbers for a ring without other holes that cannot have rows of a constant number of sides.
 /// @param symmetric  how often segments repeat along both loops.
 std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, const RingLoops& ring,
                                                       int symmetric, int changing)
@@ -167,15 +168,15 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
     const auto& [ends, along, others] = ring;
     std::optional<std::vector<CountedLoop>> best;
     if (symmetric > 2) {
-        // A loop of many corners has that many sides, and the other as many for a symmetric mesh.
-        constexpr CountRange kMany{kRing.least, 4}; // a choice, not a measurement
+        // A loop of many corners has one side per corner, and the other loop as many, for a symmetric mesh.
+        constexpr CountRange kMany{kRing.least, 4}; // a larger ratio accepts more stretched rows
         const auto corners = static_cast<int>(
             std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
         if (corners % symmetric == 0 && corners > 2 * symmetric - 1)
             best = ring_ends(task, ends, {corners, corners}, corners, std::array{0}, kMany);
     }
     if (best) return best;
-    // Rows that change their number of sides, alike at two nodes.
+    // Rows that change their number of sides, symmetrically at two nodes.
     std::vector<int> more;
     for (int rows = 1; rows <= changing; ++rows) more.push_back(along[0] > along[1] ? 4 * rows : -4 * rows);
     best = ring_ends(task, ends, along, 2, more, kSegment);
@@ -193,14 +194,14 @@ std::optional<std::vector<int>> ring_counts(const CountTask& task)
     const auto ring = ring_loops(task, about);
     if (!ring) return std::nullopt;
     const int fold = alike(task, ring->others, about);
-    // Numbers that leave loops as symmetric as they are, where others are as good.
+    // Prefer numbers that preserve the symmetry of the loops.
     const int symmetric = std::lcm(fold, std::lcm(repeats(task, 0), repeats(task, about)));
     std::optional<std::vector<CountedLoop>> best;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double size = mean_size(task);
     const bool alone = ring->others.empty();
     const int steps = alone ? widths.steps(size) : 0;
-    // An even number, where there is one, leaves what lies beyond a loop to quads alone.
+    // Prefer an even number, so that quads alone can fill the area beyond a loop.
     for (const int multiple : {std::lcm(alone ? symmetric : fold, 2), std::lcm(fold, 2), fold}) {
         if (!best)
             best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},

@@ -10,7 +10,7 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// The first node inward from a boundary node, and where it should be.
+/// The first node inward from a boundary node, and its target position.
 struct Post {
     Index foot, top;
     Vec2 inward; ///< unit length, half way between the two sides
@@ -38,7 +38,7 @@ public:
 
     void run()
     {
-        constexpr int kRounds = 4; // neighbours make room for each other; a choice, not a measurement
+        constexpr int kRounds = 4; // limit of rounds, because neighbours make room for each other
         for (int round = 0; round < kRounds; ++round) {
             for (const Post& post : posts_) raise(post);
         }
@@ -47,7 +47,7 @@ public:
 private:
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
-    /// The other end of the edge between the two quads at a node.
+    /// The other end of the edge shared by the two quads at a node.
     [[nodiscard]] static Index shared(const Spoke& a, const Spoke& b)
     {
         for (const Index p : {a.next, a.before}) {
@@ -60,12 +60,12 @@ private:
 
     void raise(const Post& post)
     {
-        // All three are choices, not measurements.
-        constexpr double kGood = 0.8;                ///< least sine a row may cost its neighbours
-        constexpr double kHeight = 0.2, kLean = 0.2; ///< left as it is within this share of the height
+        // Larger tolerances move fewer nodes; a lower kGood favours row heights over the neighbouring quads.
+        constexpr double kGood = 0.8;                ///< least sine to which a row may lower its neighbours
+        constexpr double kHeight = 0.2, kLean = 0.2; ///< deviations within this share of the height stay
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
-        // A row of the height that is promised costs its neighbours nothing.
+        // A row already within the promised height may not make its neighbours worse.
         const bool is_good = std::abs(arm.dot(post.inward) - post.height) <= kRowOffHeight * post.height;
         const double up = std::clamp(arm.dot(post.inward), (1 - kHeight) * post.height,
                                      (1 + kHeight) * post.height);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr auto kNone = std::numeric_limits<std::size_t>::max();
 
-/// The image of each segment, of one without sides itself; nothing where one has several.
+/// The image of each segment; a segment without sides is its own image. Empty if a segment has several
+/// images.
 std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, std::span<const int> segment,
                                                   std::size_t count, const Symmetry& symmetry)
 {
@@ -19,7 +20,7 @@ std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, st
     std::vector<std::size_t> onto(count, kNone), from(count, kNone);
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            // A mirroring takes the side's end to where the image starts.
+            // A reflection maps the side's end to the start of the image.
             const Index start = symmetry.map.mirrors ? loop[(i + 1) % n] : loop[i];
             const std::size_t own = of(loop[i]), image = of(symmetry.to[index(start)]);
             if ((onto[own] != kNone && onto[own] != image) || (from[image] != kNone && from[image] != own))

@@ -133,7 +133,7 @@ private:
         for (; from_[index(c)] >= 0; c = from_[index(c)]) toggle(c, from_[index(c)]);
     }
 
-    /// Make the edge between two cells whole, or halve it again.
+    /// Make the edge between two cells whole, or halved if it is whole.
     void toggle(Index one, Index two)
     {
         around(one, [&](Index side, Index other) {

@@ -317,10 +317,11 @@ private:
     double floor_ = kGood;
 };
 
-/// The share of rows and of sizes that is promised.
+/// The promised share of good rows and of good sizes.
 constexpr double kPromised = 0.95;
 
-/// What quads are worth: shares beyond what is promised count for less. A choice, not a measurement.
+/// Value of a mesh: shares above the promised one count a quarter, so that they are not bought with poor
+/// quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;
@@ -330,17 +331,17 @@ double worth_of(const PlaneQuality& quality)
     return quality.mean_scaled_jacobian + share(quality.row_share()) / 2 + share(quality.size_share()) / 2;
 }
 
-/// Move nodes for as long as quads are worth more for it.
+/// Move nodes as long as this increases the value of the mesh.
 /// @param quality  of the mesh, before and after.
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
-    // What quads may lose in the mean, and rounds, for neighbours make room for each other. Choices, not
-    // measurements.
+    // Allowed loss of mean quality, and limit of rounds, because neighbours make room for each other. Higher
+    // values improve more rows, at the cost of other quads and of time.
     constexpr double kLess = 0.01;
-    constexpr int kRounds = 12, kIdle = 3; // idle ones bring nothing more
-    constexpr double kStill = 0.03;        // of a side: no more is gained
-    constexpr double kAlike = 1e-6;        // images of one quad are
+    constexpr int kRounds = 12, kIdle = 3; // idle rounds: without gain
+    constexpr double kStill = 0.03;        // of a side: smaller moves gain nothing more
+    constexpr double kAlike = 1e-6;        // difference between images of one quad
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kAlike;
     const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };

@@ -17,7 +17,7 @@ namespace {
 /// quarter more or less: more than sides cost in the range that is promised for them.
 constexpr double kNever = std::numeric_limits<double>::infinity(), kOffAsked = 1e6;
 
-/// The segments between the corners of a patch; none where a side is not one segment or bends.
+/// The segments between the corners of a patch; empty if a side bends or is not one segment.
 std::vector<std::size_t> sides_of_patch(const CountTask& task)
 {
     if (task.region.loops.size() != 1) return {};
@@ -32,10 +32,10 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// Whether no grid of a patch would be much narrower than another with the sides wanted.
+/// Whether no grid of a patch would be much narrower than another with the wanted sides.
 bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
 {
-    constexpr double kBalanced = 0.5; // below this other meshes are better: a choice, not a measurement
+    constexpr double kBalanced = 0.5; // a lower share accepts narrower grids
     const std::size_t n = sides.size();
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -49,7 +49,7 @@ bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
     return least >= kBalanced * most;
 }
 
-/// What numbers of sides cost; `kNever` where a segment is out of a range.
+/// Cost of numbers of sides; `kNever` if a segment is outside a range.
 class StarCost {
 public:
     StarCost(const CountTask& task, std::vector<std::size_t> sides)
@@ -87,7 +87,7 @@ private:
     double asked_;
 };
 
-/// The best of numbers near a few shares of those wanted; nothing where none may be.
+/// The best numbers near several multiples of the wanted ones; empty if none are allowed.
 std::optional<Counts> best_near(const CountTask& task, const std::vector<std::size_t>& sides,
                                 const StarCost& cost_of, const CountRange& range)
 {

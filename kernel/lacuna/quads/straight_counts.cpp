@@ -16,8 +16,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Where there are fewer quads than this, a grid is made with several numbers and the best are taken. For the
-/// time.
+/// Below this number of quads a grid is made with several numbers and the best is used. More would take too
+/// long.
 constexpr double kFewForTrial = 200;
 
 bool may_be_tried(const CountTask& task, const StraightOptions& options)
@@ -34,7 +34,7 @@ struct HeadedLoops {
     bool turns = false; ///< whether there are soft turns
 };
 
-/// @return nothing where a loop does not turn once about.
+/// @return empty if a loop does not turn once around.
 std::optional<HeadedLoops> head_loops(const PlanarRegion& region, TurnStyle style)
 {
     HeadedLoops headed{{}, straight_frame(region), style};
@@ -94,7 +94,7 @@ std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const Co
     return made;
 }
 
-/// Whether holes lie apart in the outer loop's grid, each where its coordinates put it.
+/// Whether holes lie apart in the outer loop's grid, each at its interpolated position.
 bool have_place(const std::vector<LoopGrid>& grids)
 {
     std::vector<GridLoop> loops;
@@ -182,7 +182,7 @@ void add_grids(const CountTask& task, const HeadedLoops& headed, int rows, Close
     }
 }
 
-/// The sides of all runs, by which numbers of sides are the same again.
+/// The sides of all runs, which identify equal numbers of sides.
 std::vector<int> run_counts(const ClosedLoops& closed)
 {
     std::vector<int> counts;

@@ -61,7 +61,8 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     const auto size = paving::sizes_with_boundary(region).usual;
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
     // Poor quads are repaired one by one where they are few: a grid that is poor all over stays so.
-    constexpr double kFewPoor = 0.1; // of the quads; a choice, not a measurement
+    // Share of the quads; higher tries to repair worse grids, which takes time.
+    constexpr double kFewPoor = 0.1;
     const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
     const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {
         return scaled_jacobian(mesh.points, quad) < repairs.good_enough;

@@ -9,8 +9,8 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Cuts that slant more than this are left out: 0 is square to the outline, 1 along it. A choice, not a
-/// measurement.
+/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it. A higher limit gives
+/// more candidates with worse angles.
 constexpr double kMostSlant = 0.7;
 /// So are those with fewer or more edges than these shares of what their length has room for, so that no quad
 /// along a cut is stretched by much more than 1.6. A choice, not a measurement.
@@ -28,7 +28,7 @@ int twice_foot(const SideCounts& counts, std::size_t i)
 
 int least_twice(bool ends_in_cut, std::size_t i) { return ends_in_cut && i == 0 ? 0 : 2; }
 
-/// Whether a patch is filled without a cut.
+/// Whether a patch can be filled without a cut.
 bool needs_no_cut(const SideCounts& counts)
 {
     std::array<int, kMostSides> foot{};
@@ -173,7 +173,7 @@ bool needs_one_pair(const SideCounts& counts)
 /// and one of four sides with a pair of them.
 std::vector<TemplateCut> find_odd_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners)
 {
-    constexpr int kTried = 16; // places tried along a side, for the time; a choice, not a measurement
+    constexpr int kTried = 16; // places tried along a side; more cost time
     const std::size_t n = corners.size(), between = n / 2;
     const SideCounts counts = side_counts(loop.size(), corners);
     const CutRanker ranker(loop);

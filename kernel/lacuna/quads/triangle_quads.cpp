@@ -92,7 +92,8 @@ public:
     }
 
 private:
-    /// A flatter quad is no pair: smoothing cannot improve it at a boundary. A choice, not a measurement.
+    /// A flatter quad is no pair, because smoothing cannot improve it at a boundary. A higher value leaves
+    /// more triangles.
     static constexpr double kLeast = 0.15;
     /// Sides of a triangle as a quad with its last corner twice.
     static constexpr std::array<std::size_t, 3> kTriangleSides{0, 1, 3};

@@ -17,16 +17,18 @@ namespace {
 
 /// Weight of the area term against the shape term, as Garanzha et al. have it.
 constexpr double kAreaShare = 1.0 / 128;
-/// Smallest regularisation. A choice, not a measurement.
+/// Smallest regularisation. A lower value comes closer to a true barrier but is worse conditioned.
 constexpr double kLeastEpsilon = 1e-3;
 /// Steps that L-BFGS remembers, and steps in a round with one ε. Choices, not measurements.
 constexpr std::size_t kMemory = 8;
 constexpr int kSteps = 100;
-/// Rounds at most, and rounds without gain after which it is given up. Choices, not measurements.
+/// Limit of rounds, and of rounds without gain before the search is given up. Higher limits open more folds
+/// and take longer.
 constexpr int kRounds = 30, kIdleRounds = 3;
-/// Least share of the value that a step must win, and of the least determinant a round. Choices too.
+/// Least relative gain of a step, and of the least determinant in a round. Lower values continue longer for
+/// little.
 constexpr double kLeastGain = 1e-5, kLeastRise = 1e-4;
-/// Rings of quads that move with the folded ones: at first, and where that was not enough. Choices too.
+/// Rings of quads that move with the folded ones: first, and if that was not enough. More rings take longer.
 constexpr std::array<int, 2> kRings{3, 10};
 
 /// A quad and the length its corners are measured against.
