@@ -66,7 +66,7 @@ bool is_binary_avs(std::string_view bytes)
 std::string_view unread_by_content(std::string_view bytes)
 {
     if (is_binary_avs(bytes)) return "a binary AVS UCD file";
-    constexpr std::size_t kHead = 8192; // bytes, comments among them: a choice
+    constexpr std::size_t kHead = 8192; // bytes examined; more finds types after long comments
     Cursor cursor({}, bytes.substr(0, kHead));
     const auto first = words_of_line(cursor), second = words_of_line(cursor);
     if (!first.empty() && first[0].size() > 1 && first[0][0] == '!' &&
