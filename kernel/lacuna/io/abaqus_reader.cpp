@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Abaqus and CalculiX decks. Parts are read into meshes of their own and put in place instance by instance; a
-// deck without parts is one part without a name.
+// Abaqus and CalculiX decks. Each part is read into a mesh of its own and placed once per instance; a deck
+// without parts is one part without a name.
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
@@ -18,7 +18,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Families of elements whose names are a word, the count of nodes and letters: S4R, C3D8I.
+/// Element families whose names consist of a word, the number of nodes and letters: S4R, C3D8I.
 struct Family {
     std::string_view word;
     int dimension;
@@ -28,7 +28,7 @@ constexpr Family kFamilies[] = {{"C3D", 3},  {"DC3D", 3}, {"AC3D", 3},  {"SC", 3
                                 {"STRI", 2}, {"CPS", 2},  {"CPE", 2},   {"CAX", 2},   {"DC2D", 2},
                                 {"DCAX", 2}, {"AC2D", 2}, {"DCC3D", 3}, {"CGAX", 2}};
 
-/// The shape of an element by its type in capitals. @return false  it is none of shells and solids.
+/// The shape of an element by its type in capitals. @return  false: it is neither a shell nor a solid.
 bool shape_of(std::string_view type, DeckShape& shape)
 {
     for (const Family& family : kFamilies) {
@@ -50,7 +50,7 @@ bool shape_of(std::string_view type, DeckShape& shape)
     return false;
 }
 
-/// Keywords that make nodes or elements from others, or move them: what they leave out would be misread.
+/// Keywords that generate or move nodes or elements: ignoring them would misread the deck.
 constexpr std::string_view kGenerators[] = {"NGEN",   "NFILL",  "NCOPY", "NMAP",  "ELGEN",
                                             "ELCOPY", "SYSTEM", "MODEL", "IMPORT"};
 struct Scope {
@@ -304,7 +304,7 @@ private:
         return found == scope.sets.end() ? nullptr : &scope.builder.deck().sets[found->second];
     }
 
-    /// The set of a name in this scope, new where it is the first time; -1 for no name.
+    /// The set of a name in this scope, created on first use; -1: no name.
     std::ptrdiff_t open_set(DeckSet::Kind kind, const std::string& name)
     {
         if (name.empty()) return -1;
@@ -324,7 +324,7 @@ private:
         return -1;
     }
 
-    /// The members a word means: a number, a set, or either of an instance as "instance.word".
+    /// Add the members that a word stands for: a number, a set, or either of an instance as "instance.word".
     void members_of(std::string_view word, DeckSet::Kind kind, std::vector<DeckTag>& members)
     {
         Index instance = of_instance_;
@@ -350,7 +350,7 @@ private:
         for (const DeckTag tag : copy) members.push_back(tag + offset);
     }
 
-    /// Put all nodes of the elements of a set, which stands above, into the set that is read.
+    /// Add all nodes of the elements of an earlier set to the current set.
     void add_nodes_of(const std::string& elements)
     {
         constexpr auto kElements = DeckSet::Kind::elements;
@@ -435,7 +435,7 @@ private:
             else
                 ++further;
         }
-        // Nodes too many do not tell whether the next line goes on: it must be an element like this.
+        // Surplus nodes do not show whether the next line continues: it must be an element like this one.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
             fail(
@@ -445,7 +445,7 @@ private:
         if (given_ == wanted) finish_element();
     }
 
-    /// Also where a keyword comes before all nodes have.
+    /// Also called if a keyword comes before all nodes.
     void finish_element()
     {
         if (given_ == 0) return;
@@ -460,7 +460,7 @@ private:
 
     void take_other_element(std::string_view line)
     {
-        // How many nodes it has is not known: a line that another ends with a comma goes on.
+        // The number of nodes is unknown: a line that ends with a comma continues.
         if (!std::exchange(goes_on_, line.ends_with(','))) {
             into_.pass_over("elements " + type_);
             if (set_ >= 0)
@@ -517,7 +517,7 @@ private:
 
     // --- putting together ----------------------------------------------------------------------------------
 
-    /// Regions by the sections; nodes by their places.
+    /// Assign regions by the sections, and replace node tags by indices.
     void finish_scope(Scope& scope)
     {
         if (std::exchange(scope.placed, true)) return;
@@ -543,7 +543,7 @@ private:
         }
     }
 
-    /// The region of a set, which elements may have named already.
+    /// The region of a set, which elements may have named before.
     static Index region_called(Scope& scope, const std::string& name)
     {
         const std::vector<DeckRegion>& all = scope.builder.deck().regions;
@@ -553,7 +553,7 @@ private:
                                   : static_cast<Index>(found - all.begin());
     }
 
-    /// Where a part goes: translated, then turned about an axis.
+    /// Placement of an instance: a translation, then a rotation about an axis.
     [[nodiscard]] Eigen::Isometry3d placement() const
     {
         Eigen::Isometry3d to = Eigen::Isometry3d::Identity();
@@ -575,7 +575,7 @@ private:
         copy(*part, instance_name_, placement(), !rows_.empty());
     }
 
-    /// Put a copy of a part into the deck; numbers are raised where they are taken.
+    /// Add a copy of a part to the deck; numbers in use are raised.
     void copy(Scope& scope, const std::string& name, const Eigen::Isometry3d& to, bool moved)
     {
         const Deck& part = scope.builder.deck();
@@ -625,7 +625,7 @@ private:
             deck.regions = std::move(whole.regions);
             deck.sets = std::move(whole.sets);
         } else {
-            // A part that is never put in place stands where it was drawn.
+            // A part without instances stays where it was defined.
             rows_.clear();
             if (deck.instances.empty())
                 for (std::size_t p = 1; p < parts_.size(); ++p) {
@@ -640,7 +640,7 @@ private:
             global.sections.clear();
             finish_scope(global);
             if (sections) into_.pass_over("sections of the assembly");
-            // Nodes and sets of the assembly itself; its sets name nodes and elements of instances already.
+            // Nodes and sets of the assembly itself; its sets already name nodes and elements of instances.
             std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
             global.builder.deck().sets.clear();
             if (!global.builder.deck().points.empty())
@@ -651,13 +651,14 @@ private:
         std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
     }
 
-    /// Ranges and copies name more than the file writes; what they make is bounded by the size of the files.
+    /// Count generated data: ranges and copies create more than the file contains, so their amount is limited
+    /// by the size of the files.
     void spend(std::size_t count)
     {
         if (count > budget_) fail("ranges, sets and instances make more than the file could mean");
         budget_ -= count;
     }
-    static constexpr std::size_t kMadePerByte = 16; // a choice: some fifty sets of all elements
+    static constexpr std::size_t kMadePerByte = 16; // some fifty sets of all elements; not measured
 
     std::size_t budget_ = 100'000; // and what a small deck may make
 

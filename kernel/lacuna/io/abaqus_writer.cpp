@@ -8,8 +8,8 @@
 #include <cctype>
 #include <map>
 
-// A flat deck: nodes, elements by type and region, elements that are text, sets, cards. CalculiX reads no
-// more than 20 characters of a number.
+// Writes a flat deck: nodes, elements by type and region, elements kept as text, sets, cards. CalculiX reads
+// at most 20 characters of a number.
 
 namespace lacuna::io {
 namespace {
@@ -17,10 +17,11 @@ namespace {
 constexpr std::size_t kWidth = 20;   // characters of a coordinate
 constexpr std::size_t kPerLine = 16; // numbers of a line, at most
 
-/// Sets of several instances are "instance.set", which a flat deck cannot say.
+/// Whether the deck is flat: sets of several instances are named "instance.set", which a flat deck cannot
+/// hold.
 bool is_flat(const Deck& deck) { return deck.format == DeckFormat::abaqus && deck.instances.size() < 2; }
 
-/// Names of a part's nodes and sets without the part's one instance before them.
+/// Names of a part's nodes and sets without the prefix of its only instance.
 std::string without_instance(std::string_view text, const std::string& instance)
 {
     const std::string before = instance + ".";
@@ -40,7 +41,7 @@ struct Cards {
     std::string elements, others;
 };
 
-/// Elements that are text go before the sets that may name them.
+/// Elements kept as text precede the sets that may name them.
 Cards cards_of(const Deck& deck)
 {
     Cards cards;
@@ -110,7 +111,7 @@ private:
             section_of_points("*NODE\n", bulk_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
     }
 
-    /// A set that is all elements of a region is made as its elements are written.
+    /// A set that equals a region is created by the ELSET of its elements.
     void choose_sets()
     {
         by_elements_.assign(deck_.sets.size(), false);
@@ -132,14 +133,15 @@ private:
                 if (set.kind != DeckSet::Kind::elements || !same_word(set.name, deck_.regions[r].name) ||
                     set.members != members[r] || bulk_.parts_of(set) != bulk_.parts_of(static_cast<Index>(r)))
                     continue;
-                // Not by both: CalculiX would have each element twice in the set.
+                // Not by both: CalculiX would list each element twice in the set.
                 makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }
         }
     }
 
-    /// Of sets and regions, each its own: surfaces before sets of elements, names that stay before others.
+    /// Choose distinct names of sets and regions: surfaces before element sets, unchanged names before
+    /// others.
     void choose_names()
     {
         using enum DeckSet::Kind;
@@ -167,7 +169,7 @@ private:
             const bool is_empty = dimensions_[r] == 0 && bulk_.parts_of(static_cast<Index>(r)).empty();
             if (is_empty) continue;
             std::string name = deck_.regions[r].name;
-            // A region of another format that has a number alone is called by it.
+            // A region from another format that has only a number is named after it.
             if (name.empty() && !same_)
                 name = (dimensions_[r] != 2 ? "volume:" : "surface:") + std::to_string(deck_.regions[r].tag);
             region_names_[r] = set_of_region_[r] >= 0 ? names_[index(set_of_region_[r])]
@@ -187,7 +189,7 @@ private:
         for (std::size_t e = 0; e < block.count(); ++e)
             of_region[block.regions[e]].push_back(static_cast<std::uint32_t>(e));
         const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
-        // Made elements of a part are in a row, parts of a region are not.
+        // Generated elements of a part are consecutive; parts of a region are not.
         std::map<Index, std::vector<std::pair<std::size_t, std::size_t>>> made;
         for (const BulkReader::MadeRun& run : bulk_.made_runs(block))
             made[run.region].emplace_back(run.begin, run.end);

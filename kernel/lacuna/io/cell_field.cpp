@@ -12,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-/// The source quad beside each rim side.
+/// The source quad at each rim side.
 std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
 {
     struct Side {

@@ -14,7 +14,7 @@ bool separates(char c) { return is_blank(c) || c == '\n'; }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A number as Fortran writes it, as C++ reads it: `D` for `E`, an exponent without a letter.
+/// Convert a Fortran number to the syntax of C++: `D` for `E`, an exponent without a letter.
 std::string plain_exponent(std::string_view text)
 {
     std::string plain;

@@ -17,7 +17,7 @@
 namespace lacuna::io {
 namespace {
 
-/// What some kinds of file cannot but begin with, for the error that names what a file really is.
+/// Required first bytes of some file types, for the error that names the actual type.
 struct Beginning {
     std::string_view text, ending;
 };
@@ -31,7 +31,7 @@ constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},  {"<?xml", ".vt
                                      {"cdf\x01", ".exo"},         {"cdf\x02", ".exo"},
                                      {"cdf\x05", ".exo"}};
 
-/// Words of the next line that is no comment.
+/// Words of the next line that is not a comment.
 std::vector<std::string_view> words_of_line(Cursor& cursor)
 {
     std::vector<std::string_view> words;
@@ -60,13 +60,13 @@ bool is_binary_avs(std::string_view bytes)
     });
 }
 
-/// What a file is that nobody here reads, though its ending is one of theirs; empty where it is none.
+/// The type of a file in an unsupported format with a supported extension; empty: unknown.
 ///
-/// HEC-MW: a keyword behind an exclamation mark. AVS UCD: five counts, then a node's number and coordinates.
+/// HEC-MW: a keyword after an exclamation mark. AVS UCD: five counts, then a node's number and coordinates.
 std::string_view unread_by_content(std::string_view bytes)
 {
     if (is_binary_avs(bytes)) return "a binary AVS UCD file";
-    constexpr std::size_t kHead = 8192; // bytes, comments among them: a choice
+    constexpr std::size_t kHead = 8192; // bytes examined; more finds types after long comments
     Cursor cursor({}, bytes.substr(0, kHead));
     const auto first = words_of_line(cursor), second = words_of_line(cursor);
     if (!first.empty() && first[0].size() > 1 && first[0][0] == '!' &&
@@ -81,7 +81,7 @@ std::string_view unread_by_content(std::string_view bytes)
     return counts && node ? "an AVS UCD file" : std::string_view();
 }
 
-/// The ending of what a file begins like; empty where its beginning says nothing.
+/// The extension of the type that a file begins like; empty: unknown.
 std::string_view ending_by_content(std::string_view bytes)
 {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
@@ -134,7 +134,7 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Places sorted along x: within a tolerance there are as many as lie in a plane across it, and of these
+    // Points sorted along x: within the tolerance there can be as many as in a plane normal to x; of these,
     // the ones near in y are found by bisection too.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));

@@ -13,7 +13,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Whether every triangle from the first corner looks the polygon's way, so that a fan fills it.
+/// Whether all triangles from the first corner have the polygon's orientation, so that a fan fills it.
 bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
 {
     for (std::size_t k = 1; k + 1 < at.size(); ++k)
@@ -41,7 +41,7 @@ std::vector<DeckTag> element_tags(const Deck& deck)
 
 std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type)
 {
-    // Formats have a few dozen words at most.
+    // Formats have at most a few dozen type words.
     for (std::size_t b = 0; b < blocks.size(); ++b)
         if (blocks[b].shape == shape && blocks[b].type == type) return b;
     blocks.push_back({.shape = shape, .type = std::string(type)});
@@ -111,7 +111,7 @@ DeckBuilder::Room DeckBuilder::add_elements(std::size_t block, std::size_t count
 {
     DeckBlock& to = deck_.blocks[block];
     const std::size_t first = to.count(), nodes = to.nodes.size();
-    // Many small lots must not each copy what is there.
+    // Grow geometrically, so that many small additions do not each copy all data.
     const auto grow = [](auto& values, std::size_t size) {
         if (size > values.capacity()) reserve_large(values, std::max(size, 2 * values.capacity()));
         values.resize(size);
@@ -169,7 +169,7 @@ void DeckBuilder::pass_over(const std::string& what, std::size_t count)
 
 std::string DeckBuilder::counted() const
 {
-    constexpr std::size_t kMostNamed = 12; // a choice: a line that can still be read
+    constexpr std::size_t kMostNamed = 12; // keeps the line readable
     std::string text;
     std::size_t named = 0;
     std::size_t others = 0;

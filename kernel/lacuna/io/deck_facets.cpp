@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// facets_of(): sides of solids are matched in heaps by their least node, together with the shells.
+// facets_of(): sides of solids are matched in groups by their lowest node, together with the shells.
 #include <lacuna/io/detail/deck_facets.h>
 
 #include <lacuna/core/error.h>
@@ -20,7 +20,7 @@
 namespace lacuna::io {
 namespace {
 
-/// The elements of one dimension, numbered through all blocks.
+/// The elements of one dimension, numbered over all blocks.
 class Elements {
 public:
     Elements(const Deck& deck, int dimension)
@@ -45,7 +45,7 @@ public:
         const auto b = static_cast<std::size_t>(above - first_.begin()) - 1;
         return {blocks_[b], e - first_[b]};
     }
-    /// Calls `visit(number, element)` for all, in order.
+    /// Call `visit(number, element)` for all elements, in order.
     template <class Visit>
     void each(const Visit& visit) const
     {
@@ -67,7 +67,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// What a label stands for; regions and lists of sets by number, -1: none.
+/// The entities a label stands for; regions and lists of sets by number, -1: none.
 struct Label {
     Index shell = -1;     ///< region of the shells
     int sets = 0;         ///< of the shells, or surfaces of the sides
@@ -150,7 +150,7 @@ private:
         std::sort(surfaces_.begin(), surfaces_.end());
     }
 
-    /// The list of surfaces a side of a solid is in.
+    /// The list of surfaces that contain a side of a solid.
     int surfaces_of(std::size_t solid, int face)
     {
         const std::pair<std::size_t, int> key(solid, face);
@@ -161,7 +161,7 @@ private:
         return list;
     }
 
-    /// A side or a shell in a heap of those with the same least node.
+    /// A side or a shell in a group with the same lowest node.
     struct Candidate {
         std::array<Index, 3> others; ///< the other corners, rising; -1 first in triangles
         std::uint64_t who;           ///< solid · 8 + face; shells follow the solids
@@ -224,7 +224,7 @@ private:
         return healing::weld(deck_.points, tolerance_ > 0 ? tolerance_ : kOfDiagonal * box.diagonal().norm());
     }
 
-    /// Sides and shells with the same corners, solids first.
+    /// Process the sides and shells with the same corners, solids first.
     void take_group(std::span<const Candidate> group)
     {
         std::size_t solids = 0;
@@ -240,7 +240,7 @@ private:
             beside_[group[i].who / 8 - solids_.count()] = {label.a, label.b};
         const bool inside = solids == 2 && label.b < 0;
         if (inside || group.size() > solids) return;
-        // Of two regions the side of the first, seen from which the face looks out.
+        // Between two regions, the side of the first one is used; the face points out of it.
         const std::size_t shown = region(0) == label.a ? 0 : other;
         const std::size_t solid = group[shown].who / 8;
         const auto face = static_cast<int>(group[shown].who % 8);
@@ -253,7 +253,7 @@ private:
 
     void label_shells()
     {
-        constexpr int kMostSingles = 20; // a choice: faces of one quad that can still be told apart
+        constexpr int kMostSingles = 20; // more singles would be hard to tell apart
         std::map<Label, int> shells;
         label_of_shell_.resize(shells_.count());
         shells_.each([&](std::size_t e, const Elements::Element& element) {
@@ -267,7 +267,7 @@ private:
             if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};
     }
 
-    /// Of the set it is in, or of its region: in MSH files the surface, whose groups are the sets.
+    /// Tag of the label's set, or of its region: in MSH files the surface, whose groups are the sets.
     [[nodiscard]] int tag_of(const Label& label) const
     {
         const bool by_set = deck_.format != DeckFormat::msh;
@@ -278,7 +278,7 @@ private:
         return region < 0 || between ? 0 : deck_.regions[index(region)].tag;
     }
 
-    /// Labels in order: those of shells first, then by tag, then as they are.
+    /// Number the labels: those of shells first, then by tag, then by content.
     void number_labels()
     {
         for (const Label& label : label_of_shell_) numbers_.try_emplace(label, 0);
@@ -302,7 +302,7 @@ private:
         }
     }
 
-    /// The facets label after label, points numbered as they are met.
+    /// Emit the facets label by label; points are numbered in order of first use.
     void emit()
     {
         std::vector<std::vector<std::uint64_t>> of_label(labels_.size());
@@ -325,7 +325,7 @@ private:
         number_points();
     }
 
-    /// A side turned away from the middle of its solid, whichever way that is numbered.
+    /// Emit a side facing away from the centre of its solid, whatever the solid's numbering.
     void emit_side(const Side& side, int label)
     {
         const Elements::Element solid = solids_[side.solid];
@@ -369,7 +369,7 @@ private:
         }
     }
 
-    /// All names of a region: its own, its part's, those of sets that hold all of it.
+    /// All names of a region: its own, its part's, and those of sets that contain all of it.
     void name_regions()
     {
         names_.resize(deck_.regions.size());

@@ -10,7 +10,7 @@ namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kDeepest = 20;             // files within files: a choice, well above what people write
+constexpr int kDeepest = 20;             // nested files; well above usual decks
 constexpr std::size_t kMostFiles = 1000; // likewise
 
 } // namespace
@@ -30,7 +30,7 @@ Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place, int 
     if (depth >= kDeepest || files_.size() >= kMostFiles)
         place.fail(
             Message(kUnreadable, "INCLUDE: too many files within files").remedy("does one include itself?"));
-    // Links are followed before comparing.
+    // Links are resolved before comparing.
     std::error_code error;
     const fs::path base = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
     const fs::path wanted = error ? fs::path() : fs::weakly_canonical(base / name, error);

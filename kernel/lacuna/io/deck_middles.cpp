@@ -13,11 +13,11 @@
 namespace lacuna::io {
 namespace {
 
-/// Corners of an element, and the node in their middle.
+/// Corners of an element, and the node in the middle between them.
 template <std::size_t N>
 using Middle = std::pair<std::array<Index, N>, int>;
 
-/// Sides of a shape that have a node in the middle.
+/// Sides of a shape that have a middle node.
 std::vector<Middle<2>> middles_in(DeckShape shape, const Segment&)
 {
     std::vector<Middle<2>> middles;
@@ -29,7 +29,7 @@ std::vector<Middle<2>> middles_in(DeckShape shape, const Segment&)
     return middles;
 }
 
-/// Quads of a shape that have one.
+/// Quads of a shape that have a middle node.
 std::span<const Middle<4>> middles_in(DeckShape shape, const Quad&)
 {
     static constexpr Middle<4> kQuad9[] = {{{0, 1, 2, 3}, 8}};
@@ -51,8 +51,7 @@ std::span<const Middle<4>> middles_in(DeckShape shape, const Quad&)
     }
 }
 
-/// The node that elements of the deck have in the middle of some corners, whichever way they are listed; -1:
-/// none.
+/// The middle node that elements of the deck have between given corners, in any order; -1: none.
 template <std::size_t N>
 std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Index, N>> wanted)
 {
@@ -83,7 +82,7 @@ std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Ind
     return found;
 }
 
-/// The same by the places of the corners, of which each may be several nodes of the deck.
+/// The same by the positions of the corners, each of which may be several nodes of the deck.
 template <std::size_t N>
 std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3, N>> wanted,
                                double tolerance, double scale)
@@ -132,7 +131,7 @@ std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 
 
 namespace {
 
-/// The nodes in the middle of quads that both have are one; either all of them have one in both, or none.
+/// Join the middle nodes of quads common to both; all quads must have one in both, or none.
 void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points)
 {

@@ -17,10 +17,11 @@
 namespace lacuna::io {
 namespace {
 
-/// Longer than any double with 17 digits behind the point and the shift of `with_point()`.
+/// More than the length of any double with 17 decimals, including the shift of `with_point()`.
 constexpr std::size_t kRoom = 400;
 
-/// Digits as to_chars() has them, with a point and a short exponent, a letter before it unless that is 0.
+/// Convert the output of to_chars() to a form with a point and a short exponent, after `e_letter` unless that
+/// is 0.
 std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
 {
     std::string_view all(text, length);
@@ -77,7 +78,7 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
         numbers.property = std::max(numbers.property, *tag);
 }
 
-/// Call `take(keyword, where its line begins)` for every keyword of an Abaqus text; until it returns false.
+/// Call `take(keyword, start of its line)` for every keyword of an Abaqus text until it returns false.
 template <class Take>
 void each_keyword(std::string_view text, const Take& take)
 {
@@ -94,7 +95,7 @@ void each_keyword(std::string_view text, const Take& take)
     }
 }
 
-/// Words of a line as numbers; 0 for what is none.
+/// Words of a line as numbers; 0 for other words.
 std::vector<std::int64_t> numbers_of(std::string_view line)
 {
     std::vector<std::int64_t> numbers;
@@ -103,7 +104,7 @@ std::vector<std::int64_t> numbers_of(std::string_view line)
     return numbers;
 }
 
-/// Of a dataset of elements, whose records are head, maybe orientation, nodes.
+/// Numbers in an element dataset, whose records are a head, possibly an orientation, and nodes.
 void unv_numbers(std::string_view text, TextNumbers& numbers)
 {
     const auto next = [&] {
@@ -250,7 +251,7 @@ std::vector<std::string> materials_in_text(const Deck& deck)
             });
         if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
         each_line(text.text, [&](std::string_view line) {
-            // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like add to a material of the same number.
+            // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like extend a material of the same number.
             if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) return;
             if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
                 return;
@@ -324,7 +325,7 @@ LayeredBulk::LayeredBulk(const Deck& deck, std::vector<BulkPart> own)
     }
     for (std::size_t s = 0; s < sets.size(); ++s) {
         if (parts_of_set[s].empty()) continue;
-        // Numbers rise: those held that are lower than a part's come before its cells.
+        // Numbers increase: stored members that are lower than a part's cells precede them.
         auto held = deck.sets[s].members.begin();
         const auto take_held = [&](DeckTag below) {
             for (; held != deck.sets[s].members.end() && *held < below; ++held)

@@ -23,7 +23,7 @@ struct NcArray {
     bool records = false; ///< one of each time step
 };
 
-/// The head of a netCDF file of the classic formats: with offsets of 32 or 64 bits, or all counts of 64.
+/// The header of a netCDF file in a classic format: with offsets of 32 or 64 bits, or all counts of 64.
 class NcHead {
 public:
     NcHead(Cursor& cursor) : cursor_(cursor)
@@ -57,7 +57,7 @@ public:
         return found == lengths_.end() ? 0 : found->second;
     }
 
-    /// The bytes of an array. @param values  how many it must have.
+    /// The bytes of an array. @param values  the required number of values.
     [[nodiscard]] std::string_view bytes(const NcArray& array, const std::string& name,
                                          std::size_t values) const
     {
@@ -105,7 +105,7 @@ private:
         return std::string(text);
     }
 
-    /// How many dimensions, attributes or arrays follow.
+    /// Number of dimensions, attributes or arrays that follow.
     std::uint64_t list(int tag)
     {
         const int found = cursor_.integer();
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    /// @param element_type  takes the text of the attribute `elem_type`; may be null.
+    /// @param element_type  receives the text of the attribute `elem_type`; may be null.
     void skip_attributes(std::string* element_type)
     {
         const std::uint64_t all = list(12);
@@ -207,7 +207,7 @@ private:
         return *array;
     }
 
-    /// Numbers of nodes or elements: of a map, else counted.
+    /// Numbers of nodes or elements: from a map, or consecutive if there is none.
     std::vector<DeckTag> numbers(const char* map, const char* older, std::size_t count) const
     {
         for (const char* name : {map, older})
@@ -254,7 +254,7 @@ private:
         into_.deck().point_tags = std::move(tags);
     }
 
-    /// Names of so many blocks or sets; "what_id" where they have none.
+    /// Names of blocks or sets; "what_id" for those without a name.
     std::vector<std::string> names(const std::string& array, const std::string& what,
                                    const std::vector<std::int64_t>& ids) const
     {
@@ -307,7 +307,7 @@ private:
         return all;
     }
 
-    /// @return  how many elements it has
+    /// @return  number of its elements
     std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first)
     {
         const NcArray* connect = head_.find(array);
@@ -337,7 +337,8 @@ private:
         return count;
     }
 
-    /// By the beginning of the word and the number of nodes; none for points, which are passed over.
+    /// The shape by the beginning of the type word and the number of nodes; empty for points, which are
+    /// ignored.
     std::optional<DeckShape> shape_of(const std::string& type, std::size_t nodes,
                                       const std::string& name) const
     {

@@ -65,7 +65,7 @@ public:
         return static_cast<int>(dimensions_.size()) - 1;
     }
     void attribute(Attribute attribute) { attributes_.push_back(std::move(attribute)); }
-    /// @param fill  records of `record` numbers, which are put with the highest byte first.
+    /// @param fill  writes records of `record` numbers, most significant byte first.
     void array(const std::string& name, NcType type, std::vector<int> dimensions, std::size_t record,
                Fill fill, std::vector<Attribute> attributes = {})
     {
@@ -74,7 +74,7 @@ public:
         arrays_.push_back(
             {name, type, std::move(dimensions), std::move(attributes), count, record, std::move(fill)});
     }
-    /// One number after the other by `value(i)`.
+    /// Write numbers one by one with `value(i)`.
     template <class Value>
     void wholes(const std::string& name, std::vector<int> dimensions, Value value,
                 std::vector<Attribute> attributes = {})
@@ -84,7 +84,7 @@ public:
               }),
               std::move(attributes));
     }
-    /// Names of the same length, zeros behind them.
+    /// Names padded with zeros to equal length.
     void names(const std::string& name, std::vector<int> dimensions, std::vector<std::string> all)
     {
         const std::size_t length = dimensions_[index(dimensions.back())].second;
@@ -127,7 +127,7 @@ public:
                                 array.record == 0 ? 0 : array.count / array.record,
                                 array.record * bytes_of(array.type),
                                 std::move(array.fill)});
-            // Zeros up to the next multiple of four, before the array that follows.
+            // Zeros up to the next multiple of four, before the following array.
             sections.push_back({std::string(padded(bytes) - bytes, '\0'), 0, 0, {}});
         }
         put_array(head, "time_whole", {kTimeStep}, {}, NcType::real, 8, begin);
@@ -208,7 +208,7 @@ struct Block {
     int id = 0;
 };
 
-/// Where the file has a cell that is made.
+/// Position in the file of a generated cell.
 Index place_of_cell(const LayeredBulk& layered, std::size_t cell)
 {
     const mesh::HexMesh& mesh = layered.parts.front().mesh;
@@ -292,7 +292,7 @@ private:
         }
     }
 
-    /// A region's name and tag where it has one block, else numbers above all tags.
+    /// Name blocks: a region with one block keeps its name and tag; others get numbers above all tags.
     void name_blocks()
     {
         std::set<std::string> names;

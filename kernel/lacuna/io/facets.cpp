@@ -19,7 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// The facets of the volume, face after face, and the points they use, numbered from 0 in order of first use.
+/// The facets of the volume, face by face, and their points, numbered from 0 in order of first use.
 struct Skin {
     std::vector<Triangle> triangles;
     std::vector<std::size_t> start; ///< first facet of each face, and the end
@@ -41,7 +41,7 @@ struct Skin {
             .remedy("close() it first"));
 }
 
-/// Every side of a facet must be met by another facet's, run the other way.
+/// Check that every side of a facet belongs to one other facet, in the opposite direction.
 void check_sealed(const OpenVolume& volume)
 {
     std::map<Segment, int> balance;
@@ -118,7 +118,7 @@ std::vector<Section> stl_bytes(const Skin& skin)
 
 char* put_words(char* out, std::string_view words) { return std::copy(words.begin(), words.end(), out); }
 
-/// Numbers, a blank before each.
+/// Numbers, each after a blank.
 char* put_point(char* out, const Vec3& point)
 {
     for (const double value : point) {
@@ -151,7 +151,7 @@ std::vector<Section> stl_text(const Skin& skin)
 
 // ---- OBJ
 
-/// The groups of a face as words, for OBJ knows no blank in a name; the first is the face's alone.
+/// The groups of a face as words, because OBJ allows no blanks in names; the first is unique to the face.
 std::string obj_groups(const OpenVolume& volume, std::vector<std::string> groups, std::size_t f)
 {
     const Face& face = volume.model.faces[f];
@@ -218,7 +218,7 @@ std::vector<int> surface_tags(const Model& model)
     return tags;
 }
 
-/// A surface of each face, which is in the sets of its groups.
+/// A surface for each face, in the sets of its groups.
 Deck deck_of(const OpenVolume& volume, const Skin& skin)
 {
     const std::vector<std::vector<std::string>> groups = skin_groups(volume);

@@ -20,7 +20,7 @@ class InputFile {
 public:
     explicit InputFile(const std::string& path)
     {
-        // Without O_NONBLOCK a pipe would hold the process until somebody writes to it.
+        // Without O_NONBLOCK, opening a pipe would block until another process writes to it.
         descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
         if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
             throw InvalidInput(

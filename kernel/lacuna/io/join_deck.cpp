@@ -14,11 +14,11 @@
 namespace lacuna::io {
 namespace {
 
-/// How far a node of the mesh may be from the deck's that it is [-] × the diagonal: kept nodes are the deck's
-/// to the bit, but for the scale.
+/// Maximum distance of a mesh node from its deck node [-] × the diagonal: kept nodes are bit-identical to the
+/// deck's, apart from the scale.
 constexpr double kTogether = 1e-9;
 
-/// A face by its corners; a triangle of the mesh, whose last corner stands twice, by three.
+/// A face by its corners; a triangle of the mesh, which repeats its last corner, by three.
 Quad key_of(Quad face)
 {
     if (mesh::is_triangle(face)) face[3] = -1;
@@ -32,7 +32,7 @@ public:
     {
     }
 
-    /// Of each quad of the skin, whether an element of the deck has it as a face.
+    /// Whether each quad of the skin is a face of an element of the deck.
     const std::vector<bool>& match()
     {
         find_nodes();
@@ -40,8 +40,8 @@ public:
         return matched_;
     }
 
-    /// Of each node of the mesh the deck's point; -1: none.
-    /// @param gone  of each quad of the skin, whether it was a face of an element that was left out.
+    /// The deck's point for each node of the mesh; -1: none.
+    /// @param gone  whether each quad of the skin was a face of an element that was left out.
     std::vector<Index> points(const std::vector<bool>& gone)
     {
         match();
@@ -52,7 +52,7 @@ public:
         return points;
     }
 
-    /// The region with most faces on the mesh, of those whose material is known. @pre points() was called
+    /// The region with known material that has most faces on the mesh. @pre points() was called
     [[nodiscard]] const DeckRegion* neighbour() const
     {
         const DeckRegion* best = nullptr;
@@ -85,7 +85,7 @@ private:
         for (std::size_t i = 0; i < skin_.size(); ++i) candidates_[index(skin_[i])] = at_.at(i);
     }
 
-    /// Votes of the deck's faces and sides that are the skin's for the nodes they use.
+    /// Count votes of the deck's faces and sides on the skin for the nodes that they use.
     void match_faces()
     {
         by_face_.assign(mesh_.nodes.size(), {-1, -1});
@@ -123,7 +123,7 @@ private:
             for (std::size_t e = 0; e < block.count(); ++e) each_face(block, e, take);
     }
 
-    /// Faces of an element of which two corners at least are on the skin.
+    /// Faces of an element with at least two corners on the skin.
     template <class Take>
     void each_face(const DeckBlock& block, std::size_t e, const Take& take) const
     {
@@ -178,7 +178,7 @@ private:
                                .remedy("merge coincident nodes in the deck"));
     }
 
-    /// Every quad on a face of the deck must be one of the deck's.
+    /// Check that every quad on a face of the deck is also a face of the deck.
     void check_patches(const std::vector<bool>& gone) const
     {
         std::vector<std::array<std::size_t, 2>> counts(mesh_.patches.size(), {0, 0});
@@ -203,7 +203,7 @@ private:
         }
     }
 
-    /// Null where the patch is of a void face.
+    /// Null if the patch belongs to a void face.
     [[nodiscard]] const topology::Face* face_of(const mesh::SkinPatch& patch) const
     {
         if (patch.face == 0) return nullptr;
@@ -215,7 +215,7 @@ private:
         return &*found;
     }
 
-    /// Whether all the face's points are the deck's.
+    /// Whether all points of the face are the deck's.
     [[nodiscard]] bool is_of_deck(const topology::Face& face) const
     {
         std::vector<Vec3> places;

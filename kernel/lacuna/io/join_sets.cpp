@@ -43,7 +43,7 @@ std::vector<DeckTag> solids_called(const Deck& deck, const std::string& name)
     return called;
 }
 
-/// A face or a quad: half the cross product of its diagonals, and its middle.
+/// A face or quad: half the cross product of its diagonals, and its centre.
 struct Facet {
     Vec3 area, centre;
 };
@@ -54,10 +54,11 @@ Facet facet_of(const Quad& quad, const Place& place)
     return {(c - a).cross(d - b) / 2, (a + b + c + d) / 4};
 }
 
-/// What one mesh replaces of what was left out of a deck.
+/// Finds the part of a mesh that replaces elements left out of a deck.
 class Replacer {
 public:
-    /// @param named  a part that was left out has the volume's name; else the mesh replaces all that was.
+    /// @param named  a part with the volume's name was left out; otherwise the mesh replaces everything left
+    /// out.
     Replacer(const Deck& gone, const NewCells& added, bool named) : gone_(gone), added_(added)
     {
         cells_ = named ? solids_called(gone, added.volume) : solids_of(gone);
@@ -85,7 +86,8 @@ public:
         find_places();
     }
 
-    /// Put into a set what it is to hold. @param old  as it was. @return  the share of what it lost [-]
+    /// Add the replacements to a set. @param old  its original state. @return  the replaced share of its loss
+    /// [-]
     double fill(const DeckSet& old, DeckSet& set, const std::function<bool(const DeckSet&)>& fits)
     {
         using enum DeckSet::Kind;
@@ -127,7 +129,7 @@ private:
         Vec3 area = Vec3::Zero();
     };
 
-    /// The face of the old skin that each quad of the new one lies on.
+    /// Find the face of the old skin on which each quad of the new one lies.
     void find_places()
     {
         std::vector<Triangle> triangles;
@@ -146,8 +148,8 @@ private:
             on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);
         }
     }
-    /// How far a quad's centre may be from the face it lies on [-] × the root of its area: more than the sag
-    /// of a chord of 60 degrees, 0.13 of it, less than half a cell, where quads between two meshes are.
+    /// Maximum distance of a quad's centre from its face [-] × the root of its area: more than the sag of a
+    /// 60° chord, 0.13, and less than half a cell, the distance of quads between two meshes.
     static constexpr double kReach = 0.25;
 
     const Deck& gone_;
@@ -158,7 +160,8 @@ private:
     std::vector<double> area_;           ///< of these quads
 };
 
-/// Whether a set of all solids is no body's own name, nor the cells behind a surface, of one layer.
+/// Whether a set of all solids is neither a body's own set nor the cells behind a surface of a one-layer
+/// mesh.
 bool is_of_all(const Deck& deck, const DeckSet& set)
 {
     if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;

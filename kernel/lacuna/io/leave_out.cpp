@@ -31,11 +31,11 @@ bool is_part(const DeckSet& set, std::string_view name)
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
 }
 
-/// Cards beside the mesh as far as they name nodes and elements by their numbers.
+/// Reads the cards that name nodes and elements by number.
 ///
-/// `use(node)` is told of nodes that elements, constraints and frames kept as text stand on;
-/// `name(card, node, element)` of those that loads and the like name, either of which may be 0.
-/// Fields are taken for numbers of nodes too often rather than too rarely.
+/// `use(node)` is called for nodes of elements, constraints and frames kept as text; `name(card, node,
+/// element)` for those named by loads and similar cards, one of which may be 0. In doubt a field is read as a
+/// node number.
 struct CardReader {
     std::function<void(DeckTag)> use;
     std::function<void(const std::string& card, DeckTag node, DeckTag element)> name;
@@ -74,7 +74,7 @@ private:
         });
     }
 
-    /// @param field  as the manuals count, from 2; 0: of a line that goes on.
+    /// @param field  numbered as in the manuals, from 2; 0: of a continuation line.
     void take_nastran(const std::string& card, std::size_t field, DeckTag tag) const
     {
         const auto is = [&](std::initializer_list<std::string_view> names) {
@@ -168,8 +168,8 @@ private:
             if (const Index e = elements_.find(tag); e >= 0) is_out_[index(e)] = 1;
     }
 
-    /// Where files hold the skin as elements, those on faces of solids left out go too; but for one where the
-    /// face is one of a solid that stays.
+    /// If the file stores the skin as elements, those on faces of removed solids are removed too, unless the
+    /// face also belongs to a remaining solid.
     void mark_skin()
     {
         std::map<Quad, bool> stays; // of faces of solids left out
@@ -188,7 +188,7 @@ private:
         });
     }
 
-    /// Nodes that only elements left out use.
+    /// Find nodes that only removed elements use.
     void find_nodes()
     {
         std::vector<char> used(deck_.points.size(), 0);
@@ -344,7 +344,7 @@ private:
     std::vector<std::string> sets_; ///< that lose members, in words
 };
 
-/// The text without the sections of sets that are empty.
+/// The text without the sections of empty sets.
 std::string without_sections(std::string_view text, const std::vector<std::string>& sets)
 {
     std::string kept;
@@ -406,7 +406,8 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
 
 void close_gap(Deck& deck, const RunContext& context)
 {
-    // Chords of 60 degrees lack 4.5 % of an arc: another mesh of the same surface.
+    // Chords of 60° cover 4.5 % less than the arc, so a difference up to this may be another mesh of the same
+    // surface.
     constexpr double kSameArea = 0.05;
     std::vector<std::string> lost;
     for (const auto& gone : deck.gap.gone)

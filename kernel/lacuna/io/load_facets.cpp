@@ -36,7 +36,7 @@ void check_options(const LoadOptions& options)
     }
 }
 
-/// Quads as two triangles each, along the shorter diagonal, for those who want them meshed anew.
+/// Split quads into two triangles along the shorter diagonal, for remeshing.
 void split_quads(healing::FacetSoup& soup)
 {
     for (std::size_t q = 0; q < soup.quads.size(); ++q) {
@@ -60,7 +60,7 @@ void move_in(std::vector<T>& to, std::vector<T>& from)
         to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-/// Put the facets of `more` behind those of `all`; tags count on.
+/// Append the facets of `more` to `all`; tags continue.
 void append(FacetFile& all, FacetFile more)
 {
     const auto points = static_cast<Index>(all.soup.points.size());
@@ -128,8 +128,8 @@ void append(topology::Model& model, topology::Model more)
     move_in(model.notes, more.notes);
 }
 
-/// Give faces what their labels say and, where a label is one face, its tag; the others count on from the
-/// highest tag.
+/// Give faces the data of their labels and, if a label is a single face, its tag; other tags follow the
+/// highest one.
 void name_faces(topology::Model& model, const std::vector<std::string>& names, const FacetFile& file)
 {
     std::vector<std::size_t> label_of_face;
@@ -138,7 +138,7 @@ void name_faces(topology::Model& model, const std::vector<std::string>& names, c
         label_of_face.push_back(static_cast<std::size_t>(std::stoul(face.name)));
         ++faces_of_label[label_of_face.back()];
     }
-    // A file of one part: the faces are counted as they come.
+    // In a file of one part, faces are numbered in order.
     const bool counted = names.size() == 1 && model.faces.size() > 1;
     int next = 0;
     for (const int tag : file.label_tag) next = std::max(next, tag);
@@ -158,7 +158,7 @@ bool holds_elements(const Deck& deck)
     return deck.format != DeckFormat::stl && deck.format != DeckFormat::obj;
 }
 
-/// Decks without the parts that are to be left out of them.
+/// Removes parts from decks.
 class PartsLeaver {
 public:
     explicit PartsLeaver(const std::vector<std::string>& parts) : parts_(parts), found_(parts.size(), false)
@@ -180,7 +180,7 @@ public:
         if (!of_deck.empty()) deck = io::leave_out(deck, of_deck).kept;
     }
 
-    /// @throw InvalidInput  a part that none of the decks had.
+    /// @throw InvalidInput  a part that no deck had.
     void finish() const
     {
         for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -193,7 +193,7 @@ private:
     std::vector<Deck> names_; ///< what the decks have, for the message
 };
 
-/// The facets of files as faces, not yet stitched.
+/// The facets of files as faces, before stitching.
 LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
                           const RunContext& context)
 {
@@ -218,7 +218,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
-    // Names may be alike or missing: faces keep the label's number through the cutting.
+    // Names may be equal or missing, so faces keep the label's number during splitting.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
@@ -230,7 +230,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     return loaded;
 }
 
-/// What reading the files has not joined: T-junctions, faces of different files, faces listed twice.
+/// Stitch gaps that reading left: T-junctions, faces of different files, duplicate faces.
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;

@@ -7,7 +7,7 @@
 namespace lacuna::io {
 namespace {
 
-/// A section of a Medit file: a count, then records of so many numbers.
+/// A section of a Medit file: a count, then records with a fixed number of values.
 struct Section {
     std::string_view name;
     int values;
@@ -15,7 +15,7 @@ struct Section {
     DeckShape shape = DeckShape::tri3; ///< of elements
 };
 
-/// Shapes without a middle node are read as they are, others give their corners.
+/// Shapes without middle nodes are read as they are; others are reduced to their corners.
 constexpr Section kSections[] = {{"Vertices", 4},
                                  {"Triangles", 4, true, DeckShape::tri3},
                                  {"TrianglesP2", 7, true, DeckShape::tri3},

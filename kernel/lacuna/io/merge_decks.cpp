@@ -14,7 +14,7 @@
 namespace lacuna::io {
 namespace {
 
-/// What both have, rising.
+/// The common values, increasing.
 std::vector<DeckTag> in_both(std::vector<DeckTag> a, std::vector<DeckTag> b)
 {
     std::ranges::sort(a);
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// Refuse, or mark, what both decks have.
+    /// Refuse or record numbers that both decks have.
     void check_clash(const char* what, const std::vector<DeckTag>& both)
     {
         if (both.empty()) return;
@@ -105,7 +105,7 @@ private:
         });
     }
 
-    /// Cards name sets and materials.
+    /// Check the names of sets and materials, which cards use.
     void check_names()
     {
         std::vector<std::string> both;

@@ -19,15 +19,14 @@ namespace lacuna::io {
 
 namespace {
 
-/// What must be known of an element type to read or to skip it, and what it is read as.
+/// Data of an element type for reading or skipping it, and the shape that it becomes.
 struct ElementType {
     int type, dimension, nodes;
     DeckShape shape = DeckShape::line2;
     bool is_kept = true; ///< else only counted
 };
 
-/// Types that are no shapes: points and lines of order 3 and more, and others of order 3 and more, which give
-/// their corners.
+/// Types without a DeckShape: points, and elements of order 3 and more, which are reduced to their corners.
 using enum DeckShape;
 constexpr ElementType kFurtherTypes[] = {
     {15, 0, 1, line2, false}, {26, 1, 4, line2, false}, {27, 1, 5, line2, false}, {28, 1, 6, line2, false},
@@ -130,7 +129,7 @@ private:
             if (first == std::string_view::npos || last == first) cursor_.fail("expected a name in quotes");
             Cursor numbers = cursor_.part(line.substr(0, first));
             const auto next = [&] { return small_int(numbers.more() ? numbers.word() : std::string_view()); };
-            // Version 2.0 does not say the dimension.
+            // Version 2.0 does not store the dimension.
             int dimension = -1, tag = next();
             if (numbers.more() || into_.deck().version > 2) {
                 dimension = tag;
@@ -149,7 +148,7 @@ private:
 
     void read_entities() { read_entities(false); }
 
-    /// Parts of entities are what these are: a mesh in parts is read as a whole one.
+    /// Read the parents of partitioned entities: a partitioned mesh is read as a whole one.
     void read_parts()
     {
         cursor_.size(); // of parts
@@ -158,7 +157,7 @@ private:
         read_entities(true);
     }
 
-    /// The entity that one is a part of; itself where it is no part, or one of another dimension.
+    /// The parent of a partitioned entity; the entity itself if it has none, or one of another dimension.
     [[nodiscard]] int whole_of(int dimension, int entity) const
     {
         const auto found = whole_of_.find({dimension, entity});
@@ -189,7 +188,7 @@ private:
         }
     }
 
-    /// A negative tag says that the group holds the entity turned over.
+    /// A negative tag means that the group contains the entity with reversed orientation.
     int group_tag()
     {
         const int tag = cursor_.integer();
@@ -257,7 +256,7 @@ private:
         end_nodes(total);
     }
 
-    /// Tags and then points as they lie, in this machine's order of bytes.
+    /// Read tags and then points in binary, in this machine's byte order.
     void take_nodes_4(std::size_t count)
     {
         const std::size_t first = into_.points().size();
@@ -294,7 +293,7 @@ private:
         end_nodes(static_cast<std::uint64_t>(count));
     }
 
-    /// A tag and a point, one after the other, as they lie.
+    /// Read tags and points alternately, in binary.
     void take_nodes_2(std::size_t count)
     {
         constexpr std::size_t kRecord = 4 + sizeof(Vec3);
@@ -315,7 +314,7 @@ private:
         }
     }
 
-    /// The block of cells that are announced.
+    /// The block for the announced cells.
     void expect_cells(const ElementType& type, std::uint64_t count)
     {
         if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
@@ -328,7 +327,7 @@ private:
         return "cells of type " + std::to_string(type.type);
     }
 
-    /// The region of cells of an entity and, in version 2, of a physical group, 0: none.
+    /// The region of cells with an entity and, in version 2, a physical group; 0: none.
     void enter(const ElementType& type, int entity, int physical)
     {
         const Place place{type.dimension, entity, physical};
@@ -467,7 +466,7 @@ private:
         take_cell(type, tag, [&] { return node_tag(); });
     }
 
-    /// Cells as they lie, as many at a time as have the same physical group and entity.
+    /// Read binary cells in runs with the same physical group and entity.
     void take_cells_2(const ElementType& type, std::size_t count, std::size_t tags)
     {
         const std::size_t record = 4 * (1 + tags + static_cast<std::size_t>(type.nodes));
@@ -526,7 +525,7 @@ private:
         std::erase_if(deck.sets, [](const DeckSet& set) { return set.members.empty(); });
     }
 
-    /// Whether the cells of a region are in a group.
+    /// Whether the cells of a region belong to a group.
     bool holds(const Key& group, const std::set<int>& entities, std::size_t region) const
     {
         const auto& [dimension, tag] = group;
@@ -550,7 +549,7 @@ private:
             for (std::size_t e = 0; e < block.count(); ++e)
                 if (held[index(block.regions[e])]) set.members.push_back(block.tags[e]);
         tidy(set.members);
-        // Of several groups the one with the fewest cells names a region, of these one that has a name.
+        // A region is named after the group with the fewest cells, preferring groups with a name.
         const std::pair<std::size_t, bool> rank(set.members.size(), name.empty());
         for (std::size_t r = 0; r < held.size(); ++r) {
             if (!held[r]) continue;
@@ -562,7 +561,7 @@ private:
         deck.sets.push_back(std::move(set));
     }
 
-    /// In version 2 a cell of several groups stands once for each of them: one stays, in all of these.
+    /// In version 2 a cell in several groups is repeated for each: keep one, in all of these groups.
     void merge_copies()
     {
         std::map<std::pair<int, int>, int> groups_of; // of each entity

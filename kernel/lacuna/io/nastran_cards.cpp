@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kField = 8;       // characters of a small field, and of the first and last of each line
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
-/// Cards that replication may make in any deck; larger ones may make one more for each sixteen of their
-/// bytes, so that a count that lies costs no memory. A choice.
+/// Maximum number of cards created by replication in any deck, plus one for each sixteen bytes of the file.
+/// Without a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;
 
 bool begins_with(std::string_view line, std::string_view word)
@@ -28,10 +28,10 @@ bool is_bulk_line(std::string_view line, std::string_view word)
     return text.find("BULK") != std::string::npos || text.find("SUPER") != std::string::npos;
 }
 
-/// Cards that hold text, equations and labels, where commas part no fields.
+/// Cards of text, equations and labels, in which commas do not separate fields.
 constexpr std::string_view kTextCards[] = {"DEQATN", "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "UDNAME"};
 
-/// Whether commas part the fields: the first one ends a word, as it does not in text that stands in columns.
+/// Whether commas separate the fields: then the first comma ends a word, unlike in text in columns.
 bool is_free(std::string_view line)
 {
     const std::string_view before = line.substr(0, line.find(','));
@@ -41,7 +41,7 @@ bool is_free(std::string_view line)
            (before.find_first_not_of(" \t") < kField && word.find_first_of(" \t") == std::string_view::npos);
 }
 
-/// The n of `*n` and `*(n)`, `=n` and `=(n)`.
+/// The n in `*n` and `*(n)`, `=n` and `=(n)`.
 std::string_view replication_value(std::string_view field)
 {
     field.remove_prefix(1);
@@ -49,7 +49,7 @@ std::string_view replication_value(std::string_view field)
     return trimmed(field);
 }
 
-/// A field that replication makes larger by a step, which is whole where the field is.
+/// A field increased by a replication step; integers stay integers.
 std::string stepped(std::string_view field, std::string_view step, const DeckPlace& place)
 {
     const auto whole = parse_integer<Index>(field), by = parse_integer<Index>(step);
@@ -203,7 +203,7 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
     end_card();
 }
 
-/// The fields of a line, as `line_`.
+/// Split a line into `line_`.
 void BulkData::split(const Cursor& cursor, std::string_view line)
 {
     line_.clear();
@@ -227,7 +227,7 @@ void BulkData::free_fields(const Cursor& cursor, std::string_view line)
     line_.resize(all);
 }
 
-/// Small or large format, tabs to the next column of eight.
+/// Split a line in small or large format; a tab skips to the next column of eight.
 void BulkData::fixed_fields(std::string_view line)
 {
     constexpr std::size_t kColumns = (kFields + 2) * kField; // what is further right does not count
@@ -307,7 +307,7 @@ bool BulkData::take_fields(const DeckPlace& place)
     return true;
 }
 
-/// Whether the card in `line_` says what it repeats of the card before it, of the same name or without one.
+/// Whether the card in `line_` replicates the card before it, with the same name or none.
 bool BulkData::replicates(std::string_view name) const
 {
     const bool same = open_ && card_use_ != CardUse::keep && same_word(card_.name, name);
@@ -348,7 +348,7 @@ void BulkData::end_card()
     while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
 }
 
-/// Hand over a card, unless it is one of another superelement's once more. @return false  it is.
+/// Pass on a card, unless it repeats a card of another superelement. @return  false: it does.
 bool BulkData::hand_over(const Card& card, CardUse use)
 {
     if (use == CardUse::both) {
@@ -367,7 +367,7 @@ bool BulkData::hand_over(const Card& card, CardUse use)
 
 // --- replication -------------------------------------------------------------------------------------------
 
-/// A card made of the one before it, which is still open and becomes the pattern.
+/// Begin a card replicated from the one before it, which is still open and becomes the pattern.
 void BulkData::begin_replica(const DeckPlace& place)
 {
     pattern_.assign(card_.fields.begin(), card_.fields.end());
@@ -411,7 +411,7 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
 
 // --- continuations -----------------------------------------------------------------------------------------
 
-/// Whether a line of the deck names this continuation. The deck is looked through the first time it is asked.
+/// Whether a line of the deck names this continuation. The deck is searched on the first call.
 bool BulkData::is_awaited(std::string_view name)
 {
     if (!awaited_) {
@@ -421,7 +421,7 @@ bool BulkData::is_awaited(std::string_view name)
         for (Cursor scout = start_; !scout.at_end();) {
             const std::string_view raw = scout.raw_line();
             const std::string_view words = raw.substr(0, raw.find('$'));
-            // Lines of too many fields are refused when their turn comes.
+            // Lines with too many fields are refused when they are read.
             if (std::ranges::count(words, ',') > static_cast<std::ptrdiff_t>(kFields) + 1) continue;
             split(scout, words);
             if (is_named(line_.back())) awaited_->push_back(upper(line_.back().substr(1)));
@@ -440,7 +440,7 @@ void BulkData::own_fields(Card& card)
         if (!field.empty()) field = owned_.emplace_back(field);
 }
 
-/// The continuation in `line_`, which is not of the card before it.
+/// Store the continuation in `line_`, which does not belong to the card before it.
 void BulkData::take_elsewhere(const DeckPlace& place, std::string_view raw)
 {
     Waiting found{
@@ -458,7 +458,7 @@ void BulkData::take_elsewhere(const DeckPlace& place, std::string_view raw)
     go_on(std::move(waiting));
 }
 
-/// Add the continuations that a card names, as far as they have come, and hand it over where none is missing.
+/// Append the available continuations of a card, and pass it on if it is complete.
 void BulkData::go_on(Waiting waiting)
 {
     while (is_named(waiting.marker)) {

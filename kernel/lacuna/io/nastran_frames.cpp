@@ -7,9 +7,9 @@
 namespace lacuna::io {
 namespace {
 
-constexpr int kDeepest = 200; // frames given by frames: a choice; each takes a call within a call
+constexpr int kDeepest = 200; // nested frames; each level needs a recursive call. Not measured
 
-/// Coordinates as a frame of this kind gives them, along its axes.
+/// Components of a point along the axes of a frame of this kind.
 Vec3 along_axes(char kind, const Vec3& p)
 {
     constexpr double kDegree = std::numbers::pi / 180;

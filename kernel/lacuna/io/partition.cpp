@@ -22,7 +22,7 @@ namespace {
                            .remedy("ask for as many at most"));
 }
 
-/// How many parts each mesh is, where there are more parts than meshes: by its cells.
+/// Number of parts of each mesh, if there are more parts than meshes: by its cells.
 std::vector<int> parts_of_each(std::span<const mesh::MeshPart> meshes, int parts)
 {
     std::vector<int> each(meshes.size(), 1);
@@ -55,7 +55,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const mesh::MeshPart> 
                 all[m].resize(index(part.last), next++);
         return all;
     }
-    // The largest first, each to the part that has least so far.
+    // The largest mesh first, each to the part with the fewest cells so far.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::ranges::stable_sort(order, std::greater<>{},
@@ -69,7 +69,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const mesh::MeshPart> 
     return all;
 }
 
-/// Fills in the parts of which elements are ghosts: those that they share a node with, row after row.
+/// Finds the parts of which elements are ghosts: row by row, those of elements with a common node.
 class GhostFinder {
 public:
     GhostFinder(const Deck& deck, DeckPartition& partition) : deck_(deck), partition_(partition) {}

@@ -24,7 +24,7 @@ namespace {
 /// 109 MB in blocks of 256 KiB to 1 MiB, 24 ms in blocks of 64 KiB or 4 MiB.
 constexpr std::size_t kBufferBytes = std::size_t(512) * 1024;
 
-/// Some records in a row, and the section's text where they are the first.
+/// Consecutive records, and the section's text if they are the first.
 struct Chunk {
     const Section* section;
     std::string_view text;
@@ -40,8 +40,8 @@ struct Chunk {
     }
 };
 
-/// This process's share of each section, cut where the file's blocks of `kBufferBytes` begin: what is written
-/// then fills pages. The text goes with the first records.
+/// This process's share of each section, cut at multiples of `kBufferBytes` in the file, so that writes fill
+/// pages. The text precedes the first records.
 std::vector<Chunk> cut_exact(const std::vector<Section>& sections, const Team* team)
 {
     const bool first = team == nullptr || team->rank == 0;
@@ -80,7 +80,7 @@ std::uint64_t size_of(const std::vector<Section>& sections)
     return bytes;
 }
 
-/// Sections whose records vary, in pieces. The text goes with the first records.
+/// Split sections with records of varying size into pieces. The text precedes the first records.
 std::vector<Chunk> cut(const std::vector<Section>& sections)
 {
     std::vector<Chunk> chunks;
@@ -112,7 +112,7 @@ struct Buffer {
     }
 };
 
-/// Tells progress in steps of a hundredth, from the thread that the writing was asked on.
+/// Reports progress in steps of a hundredth, from the thread that called the writer.
 class Share {
 public:
     Share(const RunContext& context, std::string stage, std::size_t count)
@@ -139,7 +139,7 @@ private:
 
 using WriteAt = std::function<void(std::uint64_t offset, std::string_view bytes)>;
 
-/// Every chunk knows its place: while one thread fills, another writes.
+/// The offset of every chunk is known: while one thread fills, another writes.
 void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
                  const RunContext& context)
 {
@@ -157,13 +157,14 @@ void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& 
                  });
 }
 
-/// Places are known once the text before is: chunks are filled in rounds, and those of a round written in
-/// order. A team shares each round: all say how long theirs are before they write, so that nothing is filled
-/// twice.
+/// Offsets are known once the preceding text is: chunks are filled in rounds, and the chunks of a round are
+/// written in order. A team shares each round: the processes exchange the lengths of their chunks before they
+/// write, so that nothing is filled twice.
 void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
                    const RunContext& context, const Team* team)
 {
-    // Of a team 64 MB a round at most, of which text takes about half: a choice.
+    // With a team, at most 64 MB per round, about half of it text: more takes memory, less adds rounds. Not
+    // measured.
     const std::size_t most = team != nullptr ? 128 : 4 * static_cast<std::size_t>(thread_count(context));
     std::uint64_t offset = 0;
     std::vector<Buffer> buffers(std::min(most, chunks.size()));
@@ -203,7 +204,7 @@ void write_sections(const std::vector<Section>& sections, Sizes sizes, const Wri
     write_varying(chunks, write, share, context, team);
 }
 
-/// Room for a whole file, some at a time: where it is in memory that takes a while.
+/// Reserve space for a whole file in steps, because it takes time if the file is in memory.
 void reserve(WholeFile& file, std::uint64_t bytes, const RunContext& context)
 {
     constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // tens of milliseconds in memory: a choice
@@ -213,7 +214,7 @@ void reserve(WholeFile& file, std::uint64_t bytes, const RunContext& context)
     }
 }
 
-/// Files of rank 0 that all of a team write to.
+/// Files of rank 0 to which all processes of a team write.
 class SharedFiles {
 public:
     SharedFiles(const std::vector<OutputPath>& paths, const Team* team) : team_(team)
@@ -266,7 +267,7 @@ private:
         for (std::string& name : names_) reader(name);
     }
 
-    /// Whether nobody is kept from the open files of rank 0, as the system may.
+    /// Whether all processes can open the files of rank 0, which the system may forbid.
     [[nodiscard]] bool all_can_open() const
     {
         Writer writer;

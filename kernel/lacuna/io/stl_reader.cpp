@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kHeader = 80; // bytes, of any content
 constexpr std::size_t kFacet = 50;  // bytes: a normal and three points in floats, two bytes of no meaning
 
-/// The text a header begins with; empty where it is no text.
+/// The text at the start of a header; empty if it is not text.
 std::string_view name_in(std::string_view header)
 {
     header = trimmed(header.substr(0, header.find('\0')));
@@ -139,7 +139,7 @@ private:
         if (!is_index(into_.points().size() + 3 * facets)) cursor_.fail("too many facets");
     }
 
-    /// The region of the solid at hand, which is there from its first facet on.
+    /// The region of the current solid, created with its first facet.
     int label()
     {
         if (label_ < 0) label_ = into_.add_region(solids_, name_);

@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    /// @return false  it is no part of the mesh.
+    /// @return  false: the dataset is not part of the mesh.
     bool read_dataset(int dataset)
     {
         const auto group = std::ranges::find(kGroupDatasets, dataset, &GroupDataset::number);
@@ -146,7 +146,7 @@ private:
         return line_ != kMark;
     }
 
-    /// The next line of the dataset as words.
+    /// Read the next line of the dataset as words.
     bool next_line()
     {
         do {
@@ -189,7 +189,7 @@ private:
         read_node(tag, 0);
     }
 
-    /// @param first  which number of the line is x.
+    /// @param first  index of x in the line.
     void read_node(Index tag, std::size_t first)
     {
         expect_numbers(first + 3, "a node");

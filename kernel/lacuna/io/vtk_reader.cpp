@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Reads the geometry of a legacy file; data of points and cells come behind it and are left.
+/// Reads the geometry of a legacy file; data of points and cells follow and are ignored.
 class VtkReader {
 public:
     VtkReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
@@ -177,7 +177,7 @@ private:
         cursor_.line();
     }
 
-    /// A point's number, which must be one.
+    /// A point number; must be valid.
     Index place_of(std::int64_t value) const
     {
         const auto place = static_cast<Index>(value);

@@ -25,7 +25,7 @@ namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// The path itself, or the file it is a link to, so that a link stays one.
+/// The path itself, or the target of a link, so that the link is kept.
 fs::path resolved(const std::string& path)
 {
     std::error_code ignored;
@@ -70,8 +70,8 @@ std::uint64_t new_number()
     return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Whether the process that wrote a file is gone: those that live hold a lock on theirs. A file system
-/// without locks does not tell, and none is taken for left over there.
+/// Whether the process that wrote a file has ended: running processes hold a lock on theirs. On file systems
+/// without locks, no file counts as abandoned.
 bool is_abandoned(int folder, const char* name)
 {
     const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -81,12 +81,14 @@ bool is_abandoned(int folder, const char* name)
     return locked;
 }
 
-/// So long nothing was written to a file that is left over [s]. Its process may run on another machine, where
-/// its number says nothing: a choice.
+/// Age after which a file without writes counts as abandoned [s], since its process may run on another
+/// machine, where its number is meaningless. A lower value could remove files of slow writers; a higher one
+/// keeps remains longer.
 constexpr std::time_t kLeftOver = 3600;
 
-/// The system lets about a fifth of its memory wait for the disk and has writers wait then, so a larger file
-/// takes the disk's time either way. A choice.
+/// Files larger than the system's memory divided by this bypass the page cache. The system lets about a fifth
+/// of its memory wait for the disk before writers must wait, so larger files take the disk's time anyway. Not
+/// measured.
 constexpr std::uint64_t kCachedShare = 8;
 
 std::uint64_t share_of_memory()
@@ -185,7 +187,7 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
 void WholeFile::open_unnamed()
 {
 #ifdef O_TMPFILE
-    // A file without a name gets one through /proc alone, without privileges.
+    // A nameless file can get a name only through /proc without privileges.
     if (::access("/proc/self/fd", X_OK) != 0) return;
     descriptor_ = ::openat(folder_->descriptor(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
 #endif
@@ -224,7 +226,7 @@ void WholeFile::open_named()
         const bool runs = ::kill(file.process, 0) == 0 || errno != ESRCH;
         return !runs && std::time(nullptr) - file.written >= kLeftOver;
     });
-    // The name is taken by whoever makes the file first, so that two writers never share one.
+    // Exclusive creation, so that two writers never share a name.
     for (std::uint64_t attempt = 0; descriptor_ < 0; ++attempt) {
         unfinished_ = numbered(prefix, attempt);
         descriptor_ = ::openat(folder_->descriptor(), unfinished_.c_str(),
