@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Minimum turn of a round side. Heuristic.
+/// Minimum turn of a round side. A lower value treats flatter sides as round. Not measured.
 constexpr double kBulges = std::numbers::pi / 4;
 /// Relative depth of the rows along a round side, as in the disc patterns (`quads::pattern_counts()`).
 constexpr double kRowsOfRadius = 1.0 / 3;

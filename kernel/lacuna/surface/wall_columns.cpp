@@ -15,7 +15,8 @@ using namespace topology;
 
 namespace {
 
-/// Number of sampled columns if there are no side lines. Heuristic.
+/// Number of sampled columns if there are no side lines: more cost time, fewer miss local shape. Not
+/// measured.
 constexpr int kPlaces = 8;
 
 /// Walls longer than the straight line by a smaller share count as straight: this is less than one of ten
