@@ -47,7 +47,7 @@ TEST_CASE("a message about a part names the part and keeps its data")
                               .remedy("try more layers")
                               .attempt(Message("sweep.other", "no"));
     const Message part = whole.about("resin");
-    CHECK(part.text() == "resin: edge 4 folds; try more layers");
+    CHECK(part.text() == "resin: edge 4 folds; try more layers (no)");
     CHECK(part.remedy() == whole.remedy());
     CHECK(part.entities() == whole.entities());
     REQUIRE(part.attempts().size() == 1);

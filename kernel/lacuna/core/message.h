@@ -128,7 +128,7 @@ public:
         parts_.remedy = add(format.text(), {Argument(arguments)...});
         return std::move(*this);
     }
-    /// Add why an attempt failed; its text is not repeated.
+    /// Add why an attempt failed; the text ends with it, in brackets.
     Message&& attempt(Message failed) &&;
     /// The same message about a part, a file or a member: "subject: text".
     [[nodiscard]] Message about(std::string_view subject) const;

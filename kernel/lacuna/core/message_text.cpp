@@ -59,7 +59,15 @@ Message Message::about(std::string_view subject) const
     return message;
 }
 
-std::string Message::text() const { return text_of(parts_); }
+std::string Message::text() const
+{
+    std::string all = text_of(parts_);
+    for (const Message& failed : attempts_) {
+        const std::string why = failed.text();
+        if (all.find(why) == std::string::npos) all += " (" + why + ")";
+    }
+    return all;
+}
 
 std::string Message::add(std::string_view format, std::initializer_list<Argument> arguments)
 {
