@@ -222,7 +222,8 @@ do
     local joined = params.scratch .. "/between_joined.bdf"
     if twice then
       local why = check.fails(function() mesh:write(joined, { with = model }) end, "nodes", "merge")
-      check.that(why:find("107 and 152", 1, true) or why:find("110 and 153", 1, true), why)
+      check.that(why:find("node 107 and node 152", 1, true) or why:find("node 110 and node 153", 1, true),
+        why)
     else
       mesh:write(joined, { with = model })
       local text = read(joined)
