@@ -463,7 +463,8 @@ Vec3 mean_normal(const topology::Model& model, FaceId face)
 
 const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces)
 {
-    push_text(L, [&] { return faces.empty() ? "no faces" : topology::names_of(model, faces); });
+    push_text(
+        L, [&] { return faces.empty() ? "no faces" : formatted("{}", topology::entities_of(model, faces)); });
     return lua_tostring(L, -1);
 }
 

@@ -121,6 +121,7 @@ public:
     }
     /// A message of another process, rebuilt from its parts, which are kept as they are.
     explicit Message(MessageParts parts) : parts_(std::move(parts)) {}
+
     /// Add one thing to try; it follows the text after a semicolon.
     template <class... Arguments>
     Message&& remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/shared/left_out.h>
 #include <lacuna/topology/shared/names_of.h>

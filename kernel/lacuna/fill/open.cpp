@@ -113,9 +113,11 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         volume.classification = topology::classify(volume.volume);
     }
     for (const FaceId face : topology::bodies_inside(model, volume.volume.model, context))
-        log_line(context, "note: the body of " + topology::name_of(model, face) +
-                              " lies inside the volume, and the mesh goes through it; name its faces too if "
-                              "the mesh should leave it out");
+        log_line(
+            context,
+            formatted("note: the body of {} lies inside the volume, and the mesh goes through it; name its "
+                      "faces too if the mesh should leave it out",
+                      topology::entity_of(model, face)));
     if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
     volume.name = request.name;
     volume.material = request.material;

@@ -8,7 +8,6 @@
 #include <lacuna/matching/detail/nearest.h>
 #include <lacuna/matching/detail/problem.h>
 #include <lacuna/matching/detail/splits.h>
-#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <array>

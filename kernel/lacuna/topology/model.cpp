@@ -294,21 +294,6 @@ std::vector<std::vector<FaceUse>> edge_uses(const Model& model)
     return uses;
 }
 
-std::vector<FaceId> spread_over(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                std::vector<FaceId> faces, std::vector<bool>& wanted)
-{
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        for (const EdgeUse& use : uses_of(model[faces[i]])) {
-            for (const FaceUse& other : uses[use.edge.index()]) {
-                if (!wanted[other.face.index()]) continue;
-                wanted[other.face.index()] = false;
-                faces.push_back(other.face);
-            }
-        }
-    }
-    return faces;
-}
-
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces)
 {
     const auto uses = edge_uses(model);
@@ -318,7 +303,16 @@ std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::
     for (const FaceId start : faces) {
         if (!wanted[start.index()]) continue;
         wanted[start.index()] = false;
-        parts.push_back(spread_over(model, uses, {start}, wanted));
+        std::vector<FaceId>& part = parts.emplace_back(std::vector{start});
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            for (const EdgeUse& use : uses_of(model[part[i]])) {
+                for (const FaceUse& other : uses[use.edge.index()]) {
+                    if (!wanted[other.face.index()]) continue;
+                    wanted[other.face.index()] = false;
+                    part.push_back(other.face);
+                }
+            }
+        }
     }
     return parts;
 }

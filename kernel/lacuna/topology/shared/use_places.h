@@ -7,12 +7,6 @@
 
 namespace lacuna::topology {
 
-/// The given faces, then those connected to them over shared edges that are wanted, which become unwanted.
-/// @param uses    by edge_uses()
-/// @param wanted  by face
-std::vector<FaceId> spread_over(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                std::vector<FaceId> faces, std::vector<bool>& wanted);
-
 /// The use of the same edge in the other direction.
 constexpr EdgeUse opposite(EdgeUse use) { return {use.edge, !use.reversed}; }
 
