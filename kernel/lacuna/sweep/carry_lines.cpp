@@ -8,7 +8,7 @@
 #include <lacuna/surface/shared/imprint.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/seeds.h>
-#include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/turned_round.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 

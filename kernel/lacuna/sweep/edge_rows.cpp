@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
-#include <lacuna/sweep/detail/both_ways.h>
+#include <lacuna/sweep/detail/turned_round.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <algorithm>

@@ -172,8 +172,8 @@ surface::SizeField checked_size(const surface::SizeField& field, const std::stri
 SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
-    std::optional<SourceSize>* const known = links.sizes(volume, options.curvature);
-    if (known != nullptr && *known) return **known;
+    std::optional<SourceSize>& known = links.sizes(volume, options.curvature);
+    if (known) return *known;
     SourceSize size;
     size.layers = links.plan.layers;
     if (options.size) {
@@ -203,7 +203,7 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
         size.sizing.counts_across = false;
     }
     size.expected = expected_cells(volume, size, options, links, context);
-    if (known != nullptr) *known = size;
+    known = size;
     return size;
 }
 

@@ -7,11 +7,9 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/intervals.h>
-#include <lacuna/sweep/detail/both_ways.h>
-#include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
-#include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/plans.h>
 #include <lacuna/sweep/detail/second_order.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
@@ -31,60 +29,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// The rotation between the ends of round walls is undetermined; several loops together may determine it.
-bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
-{
-    return links.size() > 1 &&
-           std::ranges::any_of(links, [](const surface::LinkingSurface& link) { return link.lines.empty(); });
-}
-
-/// Align each loop by its own walls. If that makes poor cells, rotate all loops together as a rigid body and
-/// keep the better result.
-ProvedSweep better_turning(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                           const std::vector<double>& heights, const SourceSize& size,
-                           const SweepOptions& options, Outline outline, const RunContext& context)
-{
-    ProvedSweep alone = sweep_between(volume, links, heights, size, options, outline, context);
-    const bool poor = alone.proof.finding ? quality::can_be_improved(alone.proof.finding->fault)
-                                          : alone.swept.min_scaled_jacobian < options.improving.good_enough;
-    if (!poor) return alone;
-    const std::vector<surface::LinkingSurface> as_one = surface::linking_surfaces(
-        volume, surface::Turning::together, {}, context);
-    if (std::ranges::equal(as_one, links, {}, &surface::LinkingSurface::branch,
-                           &surface::LinkingSurface::branch))
-        return alone;
-    try { // The first error is more informative than the second.
-        ProvedSweep together = sweep_between(volume, as_one, heights, size, options, outline, context);
-        if (together.proof.finding) {
-            log_line(context, together.proof.finding->message.about("loops turned as one body").text());
-        } else if (alone.proof.finding ||
-                   together.swept.min_scaled_jacobian > alone.swept.min_scaled_jacobian) {
-            together.swept.report.insert(
-                together.swept.report.begin(),
-                "loops: turned as one body; each by its own walls the cells are worse");
-            return together;
-        }
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        log_line(context, error.message().about("loops turned as one body").text());
-    }
-    return alone;
-}
-
-/// Sweep from source to target with the linking surfaces of the walls.
-ProvedSweep sweep_one_way(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
-                          Outline outline, KnownLinks& known, const RunContext& context)
-{
-    const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
-    std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
-    if (volume.turned_round) reverse_heights(heights);
-    report_progress(context, "linking surfaces");
-    const std::vector<surface::LinkingSurface> links = known.of(volume, context);
-    return can_turn_together(links) ? better_turning(volume, links, heights, size, options, outline, context)
-                                    : sweep_between(volume, links, heights, size, options, outline, context);
-}
 
 /// Add middle nodes, prove the mesh, and compare the curved skin with the sealed one. Each curved quad is
 /// compared as four straight quads, whose error is at most a quarter of the quad's own straight sides'.
@@ -125,14 +69,22 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
     }
 }
 
-/// A proved mesh that was compared with the sealed skin.
-Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+/// The only maker of cells: mesh a volume by a plan, prove the mesh, and compare it with the sealed shape.
+/// @throw NotSweepable  what the plan cannot do, the finding of the proof, or how the shape differs.
+Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOptions& asked, KnownLinks& links,
                      const RunContext& context)
 {
-    const OneWay one_way = [&](const OpenVolume& way, const SweepOptions& rest, Outline outline) {
-        return sweep_one_way(way, source_size(way, rest, links, context), rest, outline, links, context);
-    };
-    ProvedSweep result = sweep_both_ways(volume, options, one_way, context);
+    const OpenVolume& way = plan.turned ? links.turned() : volume;
+    SweepOptions options = asked;
+    options.curvature = plan.per_turn;
+    if (!plan.heights.empty()) options.layers = {.heights = plan.heights};
+    const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
+    std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
+    if (way.turned_round) reverse_heights(heights);
+    report_progress(context, "linking surfaces");
+    ProvedSweep result = sweep_between(way, links.of(way, context, plan.turning), heights,
+                                       source_size(way, options, links, context), options, plan.outline,
+                                       context);
     quality::require(result.proof);
     report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
@@ -148,44 +100,90 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
     }
     swept.report.push_back(in_words(swept.fidelity));
     swept.faces = std::move(result.faces);
+    const std::optional<Message> misfit = sweep::misfit(
+        swept.fidelity, swept.mesh.layers, {options.max_deviation, options.beside.between, options.size});
+    if (misfit) throw NotSweepable(*misfit);
+    // At order 2, given middle nodes may bulge from straight facets.
+    if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
     return std::move(swept);
 }
 
-/// Cells with a lower minimum scaled Jacobian are poor. At order 2 they justify another sweep with more sides
-/// per turn: a quad with two sides on a round rim opens by nearly 180° between them. Such a quad had 0.002;
-/// with a few more sides the rim had none. All other cells tried were above 0.5. A higher value repeats more
-/// sweeps. Not measured.
-constexpr double kPoor = 0.1;
-/// Maximum number of sides per turn in these repeated sweeps: a higher value costs time and cells. Not
-/// measured.
-constexpr int kMostForCurved = 32;
+/// A mesh with this least scaled Jacobian is taken; below it the next plans are tried too. A square swept to
+/// a circle with 0.2 has 0.7 if swept from the circle. Not measured: a higher value tries more plans.
+constexpr double kGood = 0.3;
+/// The most meshes that are tried for a volume.
+constexpr std::size_t kMostTried = 6;
+/// The refusal of an end that came with triangles: no plan may mesh it anew unasked.
+constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// Sweep with the given options. At order 2, use more sides per turn while cells are poor or invalid.
-Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
-                     const RunContext& context)
-{
-    if (options.order == 1 || options.volume_share == 0 || options.curvature == 0)
-        return sweep_compared(volume, options, links, context);
-    std::optional<Swept> best;
-    std::optional<NotSweepable> refused;
-    for (SweepOptions rest = options; rest.curvature <= kMostForCurved;
-         rest.curvature += rest.curvature / 4 + 1) {
-        try {
-            Swept next = sweep_compared(volume, rest, links, context);
-            if (rest.curvature != options.curvature)
-                next.report.push_back(formatted(
-                    "order 2: {} sides for a full turn instead of {}, by which cells were poor or not valid",
-                    rest.curvature, options.curvature));
-            if (!best || next.min_scaled_jacobian > best->min_scaled_jacobian) best = std::move(next);
-            if (best->min_scaled_jacobian >= kPoor) break;
-        } catch (const NotSweepable& error) {
-            if (!refused) refused = error;
-            if (!best && refused->code() != "sweep.second_order") throw;
-        }
+/// The one search: meshes plans, best first, until one is good, and keeps the best that is valid and true to
+/// the shape.
+class Search {
+public:
+    Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+           const RunContext& context)
+        : volume_(volume), options_(options), links_(links), context_(context)
+    {
     }
-    if (!best) throw NotSweepable(*refused);
-    return std::move(*best);
-}
+
+    /// The mesh of the best plan; its report states the plan, and how those before it fared.
+    /// @throw NotSweepable  the first refusal, with the others as its attempts.
+    Swept run(const std::vector<Plan>& plans)
+    {
+        for (std::size_t i = 0; i < std::min(plans.size(), kMostTried); ++i) {
+            if (!is_like_each(plans[i])) attempt(plans[i]);
+            if (best_ && (best_->min_scaled_jacobian >= kGood || plan_->keeps_end)) break;
+        }
+        if (!best_) throw NotSweepable(std::move(*refusal_));
+        if (!plan_->layers.empty()) best_->report.push_back(plan_->layers);
+        if (tried_.size() > 1)
+            tried_.insert(tried_.begin(), formatted("taken: {}", in_words(*plan_, volume_)));
+        if (tried_.size() == 1) tried_ = {plan_->why};
+        std::erase(tried_, "");
+        best_->report.insert(best_->report.begin(), tried_.begin(), tried_.end());
+        return std::move(*best_);
+    }
+
+private:
+    /// Whether turning the loops as one body turns each of them as its own walls do.
+    [[nodiscard]] bool is_like_each(const Plan& plan)
+    {
+        if (plan.turning == surface::Turning::each) return false;
+        const OpenVolume& way = plan.turned ? links_.turned() : volume_;
+        return std::ranges::equal(links_.of(way, context_), links_.of(way, context_, plan.turning), {},
+                                  &surface::LinkingSurface::branch, &surface::LinkingSurface::branch);
+    }
+
+    void attempt(const Plan& plan)
+    {
+        const std::string words = in_words(plan, volume_);
+        try {
+            Swept swept = mesh_candidate(volume_, plan, options_, links_, context_);
+            tried_.push_back(formatted("{}: least scaled Jacobian {:.2g}", words, swept.min_scaled_jacobian));
+            if (best_ && best_->min_scaled_jacobian >= swept.min_scaled_jacobian) return;
+            best_ = std::move(swept);
+            plan_ = &plan;
+        } catch (const NotSweepable& error) {
+            if (error.code() == kOwnTriangles) throw; // all plans are to keep them
+            const Message why = error.message().about(words);
+            tried_.push_back(why.text());
+            if (!refusal_)
+                refusal_ = error.message();
+            else
+                std::move(*refusal_).attempt(why);
+        }
+        log_line(context_, tried_.back());
+    }
+
+    const OpenVolume& volume_;
+    const SweepOptions& options_;
+    KnownLinks& links_;
+    const RunContext& context_;
+    std::optional<Swept> best_;
+    const Plan* plan_ = nullptr; ///< of the best
+    std::optional<Message> refusal_;
+    std::vector<std::string> tried_; ///< a line for each plan
+};
 
 /// The options, including requested intervals on layers.
 SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options, KnownLinks& known,
@@ -209,20 +207,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// A mesh that follows the shape.
-/// @throw NotSweepable "sweep.deviation"
-Swept sweep_true(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
-                 const RunContext& context)
-{
-    Swept swept = sweep_as_asked(volume, options, links, context);
-    const std::optional<Message> misfit = sweep::misfit(
-        swept.fidelity, swept.mesh.layers, {options.max_deviation, options.beside.between, options.size});
-    if (misfit) throw NotSweepable(*misfit);
-    // At order 2, given middle nodes may bulge from straight facets.
-    if (options.max_deviation <= 0 && options.order == 1) require_volume(swept.fidelity, swept.mesh.layers);
-    return swept;
-}
-
+/// Plan the numbers of a mesh, and search.
 Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
                  const RunContext& context)
 {
@@ -240,50 +225,33 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
     options.curvature = links.plan.per_turn;
     // The volumes of an assembly are counted together.
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
-    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
-    if (!drawn) return sweep_true(volume, options, links, context);
-    std::optional<Message> why;
-    try {
-        SweepOptions moved = options;
-        moved.layers = {};
-        moved.layers.heights = drawn->heights;
-        Swept swept = sweep_true(volume, moved, links, context);
-        swept.report.push_back(drawn->report);
-        return swept;
-    } catch (const NotSweepable& error) {
-        why = error.message();
-    }
-    log_line(context, why->about("layers nearer to each other in the bends").text());
-    Swept swept = sweep_true(volume, options, links, context);
-    swept.report.push_back(
-        why->about("layers: even ones; nearer to each other in the bends they fail").text());
-    return swept;
+    return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
+/// Hexahedra alone or, where they are refused and the fallback asks for it, with wedges.
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     KnownLinks links(volume);
-    if (asked.fallback != Fallback::wedges || asked.wedges) return sweep_once(volume, asked, links, context);
-    std::optional<NotSweepable> why;
+    std::optional<Message> why;
     try {
         return sweep_once(volume, asked, links, context);
     } catch (const NotSweepable& error) {
-        why = error;
+        if (asked.fallback != Fallback::wedges || asked.wedges) throw;
+        why = error.message();
     }
+    SweepOptions with_wedges = asked;
+    with_wedges.wedges = true;
     try {
-        SweepOptions with_wedges = asked;
-        with_wedges.wedges = true;
         Swept swept = sweep_once(volume, with_wedges, links, context);
-        swept.report.push_back(formatted("fallback: meshed with wedges, because {}", why->message().text()));
+        swept.report.push_back(formatted("fallback: meshed with wedges, because {}", why->text()));
         return swept;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) { // the error without wedges is more informative
-        log_line(context, error.message().about("with wedges").text());
+    } catch (const NotSweepable& error) { // the error without wedges is more informative
+        throw NotSweepable(std::move(*why).attempt(error.message().about("with wedges")));
     }
-    throw NotSweepable(*why);
 }
 
+/// With default sizes, a mesh with a smaller least scaled Jacobian gets a warning. Not measured.
+constexpr double kPoor = 0.1;
 /// Relative volume difference above which a note is added.
 constexpr double kNoted = 0.02;
 /// Target for the sizes in that note, to reach 1 %: bends and barrels lost up to 1.6 times the estimate.

@@ -4,46 +4,56 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/sweep/detail/size_words.h>
+#include <lacuna/sweep/detail/turned_round.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
 
-/// A cache of one volume's linking surfaces, volume plan and quad sizes, which layer planning and each sweep
-/// attempt need.
+/// What the plans of one volume share, computed when it is first needed: the volume from its other end, the
+/// linking surfaces, sizes, and the numbers that keep its volume.
 class KnownLinks {
 public:
     /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.
     explicit KnownLinks(const topology::OpenVolume& volume) : volume_(volume) {}
 
-    /// @param volume  any; for others, such as a reversed copy, the linking surfaces are computed each time.
-    /// @throw  as `surface::linking_surfaces()`; nothing is cached then.
-    std::vector<surface::LinkingSurface> of(const topology::OpenVolume& volume, const RunContext& context)
+    /// The volume with source and target exchanged.
+    const topology::OpenVolume& turned()
     {
-        const auto find = [&] {
-            return surface::linking_surfaces(volume, surface::Turning::each, {}, context);
-        };
-        if (&volume != &volume_) return find();
-        if (!links_) links_ = find();
-        return *links_;
+        if (!turned_) turned_ = turned_round(volume_);
+        return *turned_;
+    }
+
+    /// @param volume  the volume or `turned()`.
+    /// @throw  as `surface::linking_surfaces()`; nothing is cached then.
+    const std::vector<surface::LinkingSurface>& of(const topology::OpenVolume& volume,
+                                                   const RunContext& context,
+                                                   surface::Turning turning = surface::Turning::each)
+    {
+        const auto found = links_.find({&volume, turning});
+        if (found != links_.end()) return found->second;
+        return links_[{&volume, turning}] = surface::linking_surfaces(volume, turning, {}, context);
     }
 
     VolumePlan plan; ///< by default nothing
 
-    /// Where the sizes for so many sides for a turn are kept; null: not of another volume.
-    std::optional<SourceSize>* sizes(const topology::OpenVolume& volume, int per_turn)
+    /// Where the sizes for so many sides for a turn are kept. @param volume  as in `of()`
+    std::optional<SourceSize>& sizes(const topology::OpenVolume& volume, int per_turn)
     {
-        return &volume == &volume_ ? &sizes_[per_turn] : nullptr;
+        return sizes_[{&volume, per_turn}];
     }
 
 private:
     const topology::OpenVolume& volume_;
-    std::map<int, std::optional<SourceSize>> sizes_;
-    std::optional<std::vector<surface::LinkingSurface>> links_;
+    std::optional<topology::OpenVolume> turned_;
+    std::map<std::pair<const topology::OpenVolume*, int>, std::optional<SourceSize>> sizes_;
+    std::map<std::pair<const topology::OpenVolume*, surface::Turning>, std::vector<surface::LinkingSurface>>
+        links_;
 };
 
 } // namespace lacuna::sweep

@@ -2,16 +2,25 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/linking_surface.h>
-#include <lacuna/sweep/detail/both_ways.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/detail/size_words.h>
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <set>
 #include <vector>
 
 namespace lacuna::sweep {
+
+/// A mesh and the result of its proof.
+struct ProvedSweep {
+    Swept swept;
+    quality::Proof proof;
+    std::vector<FaceId> faces; ///< of each patch of the skin
+    std::set<FaceId> kept;     ///< source faces whose own quads are the mesh
+};
 
 /// The requested shape of the mesh: in an assembly, without the nodes and meshes of neighbours.
 const topology::OpenVolume& shape_of(const topology::OpenVolume& volume, const SweepOptions& options);

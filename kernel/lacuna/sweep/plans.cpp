@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/plans.h>
+
+#include <lacuna/core/message.h>
+#include <lacuna/surface/shared/imprint.h>
+#include <lacuna/sweep/detail/drawn_layers.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// Whether the source keeps its given quads.
+bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
+{
+    if (options.quads == Quads::keep) return true;
+    const std::vector<FaceId> source = volume.faces(Role::source);
+    const bool any = options.quads == Quads::automatic && options.rows == 0;
+    return std::ranges::any_of(source, [&](FaceId face) {
+        const Face& f = volume.model[face];
+        return (any || options.beside.handed.contains(face)) &&
+               (!f.given_quads.empty() || has_cells_to_keep(f, options.wedges));
+    });
+}
+
+/// Whether the quads can be generated in the mean outline of both ends, each a single face.
+bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
+{
+    return (options.quads == Quads::automatic || options.quads == Quads::paved) && options.rows == 0 &&
+           options.boundary_layers.empty() && volume.faces(Role::source).size() == 1 &&
+           volume.faces(Role::target).size() == 1;
+}
+
+/// Whether the rotation between the ends is undetermined for a loop, and several loops together may determine
+/// it.
+bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
+{
+    return links.size() > 1 &&
+           std::ranges::any_of(links, [](const surface::LinkingSurface& link) { return link.lines.empty(); });
+}
+
+/// The end that a volume is swept from, as the user named it.
+std::string end_of(const OpenVolume& volume, bool turned)
+{
+    return turned != volume.turned_round ? "target" : "source";
+}
+
+/// Directions and layouts, best first.
+std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                          const RunContext& context)
+{
+    if (keeps_quads(volume, options)) return {{.keeps_end = true}};
+    std::vector<Plan> plans;
+    const std::string source = end_of(volume, false), target = end_of(volume, true);
+    if (keeps_quads(links.turned(), options))
+        plans.push_back(
+            {.turned = true,
+             .keeps_end = true,
+             .why = formatted("swept from the {}, which came with quads; the {} did not", target, source)});
+    const bool turned = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
+                        surface::inner_edges(volume, Role::source).empty();
+    Plan first{.turned = turned};
+    if (turned)
+        first.why = formatted("swept from the {}, whose faces meet in edges; the {} is one face", target,
+                              source);
+    plans.push_back(first);
+    if (can_turn_together(links.of(volume, context)))
+        plans.push_back({.turned = turned, .turning = surface::Turning::together});
+    plans.push_back({.turned = !turned});
+    if (can_lie_between(volume, options))
+        for (const bool way : {turned, !turned}) plans.push_back({.turned = way, .outline = Outline::mean});
+    return plans;
+}
+
+/// The factor on the sides for a full turn with which order 2 is repeated: a quad with two sides on a round
+/// rim opens by nearly 180° between them, and half as long sides are laid out anew. Not measured.
+constexpr int kMoreSides = 2;
+
+} // namespace
+
+std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+                        const RunContext& context)
+{
+    const std::vector<Plan> ways = layouts(volume, options, links, context);
+    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
+    std::vector<Plan> all;
+    for (const int sides : {options.curvature, kMoreSides * options.curvature}) {
+        for (const bool thinner : {true, false}) {
+            if (thinner && !drawn) continue;
+            for (Plan plan : ways) {
+                plan.per_turn = sides;
+                plan.wedges = options.wedges;
+                if (thinner) plan.heights = drawn->heights;
+                if (thinner) plan.layers = drawn->report;
+                all.push_back(std::move(plan));
+            }
+        }
+        if (options.order == 1 || options.volume_share == 0 || options.curvature == 0) break;
+    }
+    return all;
+}
+
+std::string in_words(const Plan& plan, const OpenVolume& volume)
+{
+    std::string words = formatted("swept from the {}", end_of(volume, plan.turned));
+    if (plan.outline == Outline::mean) words += ", laid out between the outlines of both ends";
+    if (plan.turning == surface::Turning::together) words += ", its loops turned as one body";
+    if (!plan.heights.empty()) words += ", layers nearer to each other in the bends";
+    if (plan.wedges) words += ", with wedges";
+    return words + formatted(", {} sides for a full turn", plan.per_turn);
+}
+
+} // namespace lacuna::sweep
