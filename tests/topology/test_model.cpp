@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -51,7 +52,7 @@ void check_loops(const Model& model)
 Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>& faces,
               const std::vector<std::vector<Index>>& edges)
 {
-    Model model;
+    ModelBuilder model;
     model.points = std::move(points);
     model.tolerance = 1e-9;
     model.diagonal = 1;
@@ -75,7 +76,7 @@ Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>
         face.triangles = triangles;
         model.faces.push_back(face);
     }
-    return model;
+    return std::move(model).finish();
 }
 
 } // namespace
@@ -115,7 +116,8 @@ TEST_CASE("loops are closed walks with the face on the left, whatever the sectio
                         std::vector<FaceId> all;
                         for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
                         CHECK(volume_integral(model, all) == doctest::Approx(prism.facet_volume));
-                        for (const auto& uses : edge_uses(model)) {
+                        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+                            const auto uses = model.uses_of_edge(EdgeId(e));
                             REQUIRE(uses.size() == 2);
                             CHECK(uses[0].reversed != uses[1].reversed);
                         }
@@ -159,7 +161,7 @@ TEST_CASE("a closed wall has two loops without a seam, and one of four uses with
         const EdgeId seam(prism.model.edges.size() - 1);
         CHECK(uses.at(seam) == 0);
         CHECK(uses.size() == 3);
-        const auto by_seam = edge_uses(prism.model)[seam.index()];
+        const auto by_seam = prism.model.uses_of_edge(seam);
         REQUIRE(by_seam.size() == 2);
         CHECK(by_seam[0].face == wall);
         CHECK(by_seam[1].face == wall);
@@ -175,7 +177,7 @@ TEST_CASE("two loops of one face that touch in a vertex are told apart by the fa
                                    {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 2}, {0, 2, 3}, {2, 4, 5}, {2, 5, 6}}},
                           {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 4}, {4, 5}, {5, 6}, {6, 2}});
-    build_loops(model);
+    model = with_loops(model);
     check_loops(model);
     REQUIRE(model.faces[0].loops.size() == 2);
     for (const Loop& loop : model.faces[0].loops) CHECK(loop.uses.size() == 4);
@@ -188,7 +190,7 @@ TEST_CASE("a hole that touches the outer border in a vertex makes one walk that 
     const std::vector<Vec3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 1, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 3}, {3, 1, 2}, {3, 2, 4}, {4, 2, 0}}},
                           {{0, 1}, {1, 2}, {2, 0}, {0, 4}, {4, 3}, {3, 0}});
-    build_loops(model);
+    model = with_loops(model);
     check_loops(model);
     REQUIRE(model.faces[0].loops.size() == 1);
     CHECK(model.faces[0].loops[0].uses.size() == 6);
@@ -199,9 +201,9 @@ TEST_CASE("facets that overlap, and a border that leaves its edges, are refused 
     const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const std::vector<std::vector<Index>> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     const auto code_of = [](Model model) {
-        model.faces[0].tag = 17;
+        test::edit(model, [](ModelBuilder& tagged) { tagged.faces[0].tag = 17; });
         try {
-            build_loops(model);
+            model = with_loops(model);
         } catch (const InvalidInput& error) {
             CHECK(std::string(error.what()).find("face 17") != std::string::npos);
             return error.code();
@@ -227,7 +229,10 @@ TEST_CASE("orientation is consistent and outward whichever faces come turned ove
             if ((bits >> f) & 1U) flip_faces(model, {FaceId(f)});
         }
         orient_consistently(model);
-        for (const auto& uses : edge_uses(model)) CHECK(uses[0].reversed != uses[1].reversed);
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const auto uses = model.uses_of_edge(EdgeId(e));
+            CHECK(uses[0].reversed != uses[1].reversed);
+        }
         CHECK(volume_integral(model, all) == doctest::Approx(prism.facet_volume));
         check_loops(model);
         ++combinations;
