@@ -12,6 +12,9 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 using namespace lacuna;
 using namespace lacuna::topology;
@@ -255,6 +258,45 @@ TEST_CASE("turning a face over twice changes nothing, and its area vector turns 
         for (std::size_t l = 0; l < loops.size(); ++l)
             CHECK(prism.model[face].loops[l].uses == loops[l].uses);
     }
+}
+
+TEST_CASE("a model made from another has the uses of its own edges and leaves the other as it was")
+{
+    const auto check_uses = [](const Model& model) {
+        std::vector<std::vector<std::pair<FaceId, bool>>> uses(model.edges.size());
+        for (const FaceId face : all_faces(model))
+            for (const Loop& loop : model[face].loops)
+                for (const EdgeUse& use : loop.uses) uses[use.edge.index()].emplace_back(face, use.reversed);
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            std::vector<std::pair<FaceId, bool>> kept;
+            for (const FaceUse& use : model.uses_of_edge(EdgeId(e)))
+                kept.emplace_back(use.face, use.reversed);
+            CHECK((kept == uses[e]));
+        }
+    };
+    static_assert(!std::is_convertible_v<ModelBuilder&, Model>); // a copy would change with the builder
+    auto prism = test::prism({.sides = 5, .holes = 1});
+    const Model before = prism.model;
+    const FaceId wall = prism.face({Role::wall, 0, 0, 0, 0});
+    const auto triangles = before[wall].triangles;
+    check_uses(before);
+    flip_faces(prism.model, {wall});
+    check_uses(prism.model);
+    CHECK(prism.model[wall].triangles != triangles);
+    CHECK(before[wall].triangles == triangles);
+    check_uses(before);
+
+    ModelBuilder builder(before);
+    const Model& unfinished = builder;
+    CHECK_THROWS_AS(static_cast<void>(unfinished.uses_of_edge(EdgeId(0UL))), std::out_of_range);
+    builder.faces.pop_back();
+    const Model open = std::move(builder).finish();
+    check_uses(open);
+    CHECK(open.faces.size() + 1 == before.faces.size());
+    Model moved = open;
+    const Model taken = std::move(moved);
+    CHECK(moved.faces.empty()); // NOLINT(bugprone-use-after-move)
+    check_uses(taken);
 }
 
 TEST_CASE("a band with a half twist is refused, and the faces at the seam of the two directions are named")
