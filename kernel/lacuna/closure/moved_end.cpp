@@ -59,7 +59,7 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
 /// first.
 std::vector<FaceId> possible_ends(const Model& model)
 {
-    constexpr std::size_t kMost = 16; // limits run time: each costs a copy of the faces
+    constexpr std::size_t kMost = 16; // limits run time: each may be closed on trial
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
         const bool bare = std::ranges::any_of(uses_of(model[face]), [&](const EdgeUse& use) {
