@@ -142,11 +142,12 @@ public:
         }
         model_.faces = std::move(faces);
         roles_ = std::move(renumbered);
-        topology::build_loops(model_);
-        topology::orient_consistently(model_);
+        model_.build_loops();
+        made_ = std::move(model_).finish();
+        topology::orient_consistently(made_);
     }
 
-    [[nodiscard]] topology::OpenVolume volume() const { return topology::open_volume(model_, roles_); }
+    [[nodiscard]] topology::OpenVolume volume() const { return topology::open_volume(made_, roles_); }
 
 private:
     Index moved(Index p)
@@ -202,7 +203,8 @@ private:
         add_face(std::move(wall), roles_.walls);
     }
 
-    topology::Model model_;
+    topology::ModelBuilder model_;
+    topology::Model made_;
     topology::Roles roles_;
     Vec3 by_;
     std::map<Index, Index> moved_;

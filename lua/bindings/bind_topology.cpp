@@ -210,19 +210,16 @@ int model_to_string(lua_State* L)
     return 1;
 }
 
-template <double topology::Model::*Member>
-int model_length(lua_State* L)
-{
-    return give(L, hold_model(L, 1)->model.*Member);
-}
+int model_tolerance(lua_State* L) { return give(L, hold_model(L, 1)->model.tolerance); }
+int model_diagonal(lua_State* L) { return give(L, hold_model(L, 1)->model.diagonal); }
 
 const luaL_Reg kModelMethods[] = {
     {"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}, {nullptr, nullptr},
 };
 const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
 const Field kModelFields[] = {
-    {"tolerance", model_length<&topology::Model::tolerance>},
-    {"diagonal", model_length<&topology::Model::diagonal>},
+    {"tolerance", model_tolerance},
+    {"diagonal", model_diagonal},
     {nullptr, nullptr},
 };
 

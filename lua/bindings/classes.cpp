@@ -11,7 +11,7 @@ namespace {
 
 /// The splitter meets triangles before quads; give each face the number of its label.
 /// @pre a face a label.
-void put_in_order_of_adding(topology::Model& model, const healing::FacetSoup& soup)
+void put_in_order_of_adding(topology::ModelBuilder& model, const healing::FacetSoup& soup)
 {
     std::vector<topology::Face> faces(model.faces.size());
     std::vector<bool> met(model.faces.size(), false);
@@ -35,7 +35,7 @@ void refresh(ModelState& state, const RunContext& context)
     healing::SplitOptions options;
     options.whole_labels = true;
     options.tolerance = state.tolerance;
-    topology::Model model = healing::split_facets(state.added, options, context);
+    topology::ModelBuilder model(healing::split_facets(state.added, options, context));
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput(Message("lua.face_in_parts",
                                    "the {} faces added became {}: the cells of one do not hang together",
@@ -43,7 +43,7 @@ void refresh(ModelState& state, const RunContext& context)
                                .remedy("add each part as a face of its own"));
     put_in_order_of_adding(model, state.added);
     model.source = "faces of the recipe";
-    state.model = std::move(model);
+    state.model = std::move(model).finish();
     state.stale = false;
 }
 

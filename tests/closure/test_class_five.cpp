@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
+#include "support/edit_model.h"
 
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/healing/split_facets.h>
@@ -174,9 +175,10 @@ TEST_CASE("a tube as near to one end as to the other is refused")
                             {inner, Vec3(0, 0, 0.5)}});
     std::vector<FaceId> all;
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) all.emplace_back(f);
-    for (Vec3& p : volume.model.points) {
-        if (p.head<2>().norm() < 0.5) p = Vec3(p.z() - 1, p.y(), p.x() + 1);
-    }
+    test::edit(volume.model, [](ModelBuilder& model) {
+        for (Vec3& p : model.points)
+            if (p.head<2>().norm() < 0.5) p = Vec3(p.z() - 1, p.y(), p.x() + 1);
+    });
     const std::string code = test::refusal([&] { test::seal(volume); }, {"name the source"});
     CHECK(code == "closure.ambiguous_loops");
 }

@@ -286,11 +286,12 @@ TEST_CASE("a plane that misses or only touches is refused by what it touches and
 TEST_CASE("quads a face came with are kept along their lines and never cut")
 {
     OpenVolume whole = box({2, 3, 4});
-    for (Face& face : whole.model.faces) face.keeps_nodes = true;
+    ModelBuilder model(std::move(whole.model));
+    for (Face& face : model.faces) face.keeps_nodes = true;
     std::size_t walls = 0;
     for (const FaceId wall : whole.faces(Role::wall)) {
         // Facets of a wall in pairs of one level: quads of half a height.
-        Face& face = whole.model[wall];
+        Face& face = model[wall];
         std::map<std::set<Index>, std::size_t> seen;
         for (std::size_t a = 0; a < face.triangles.size(); ++a) {
             for (std::size_t b = a + 1; b < face.triangles.size(); ++b) {
@@ -307,7 +308,7 @@ TEST_CASE("quads a face came with are kept along their lines and never cut")
                 const Triangle &t = face.triangles[a], &u = face.triangles[b];
                 const Index far = u[static_cast<std::size_t>(lone(u, t))];
                 const Quad quad{t[k], t[(k + 1) % 3], far, t[(k + 2) % 3]};
-                const Vec3 diagonal = whole.model.at(quad[0]) - whole.model.at(quad[2]);
+                const Vec3 diagonal = model.at(quad[0]) - model.at(quad[2]);
                 if (std::abs(diagonal.z()) < 0.1 || std::hypot(diagonal.x(), diagonal.y()) < 0.1) continue;
                 seen.emplace(corners, a);
                 if (face.given_quads.empty()) face.given_quads.push_back(quad);
@@ -315,6 +316,7 @@ TEST_CASE("quads a face came with are kept along their lines and never cut")
         }
         walls += face.given_quads.empty() ? 0 : 1;
     }
+    whole.model = std::move(model).finish();
     REQUIRE(walls == 4);
     const FaceId wall = whole.faces(Role::wall).front();
     const Quad quad = whole.model[wall].given_quads.front();
@@ -347,8 +349,6 @@ TEST_CASE(
     CHECK(test::refusal([&] { closure::cut_by_face(whole, whole.model, whole.faces(Role::wall).front()); },
                         {"touches"}) == "closure.cut_misses");
     // A roof over the rim of one level, ridge in the middle.
-    Model roof;
-    roof.tolerance = whole.model.tolerance;
     OpenVolume stacked = whole;
     {
         PrismOptions options;

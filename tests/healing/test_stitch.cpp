@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/dirt.h"
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -34,7 +35,7 @@ constexpr double pi = std::numbers::pi;
 std::vector<std::size_t> uses_of(const Model& model)
 {
     std::vector<std::size_t> uses;
-    for (const auto& users : edge_uses(model)) uses.push_back(users.size());
+    for (std::size_t e = 0; e < model.edges.size(); ++e) uses.push_back(model.uses_of_edge(EdgeId(e)).size());
     return uses;
 }
 
@@ -115,7 +116,7 @@ private:
 };
 
 /// A ring of `sides` points from angle `begin` on, cut into `arcs` edges.
-std::vector<Index> add_ring(Model& model, double radius, double z, int sides, int arcs, double begin)
+std::vector<Index> add_ring(ModelBuilder& model, double radius, double z, int sides, int arcs, double begin)
 {
     const auto circle = std::make_shared<Circle>(radius, z);
     std::vector<Index> ring;
@@ -146,8 +147,9 @@ std::vector<Index> add_ring(Model& model, double radius, double z, int sides, in
     return ring;
 }
 
-void add_disc(Model& model, double radius, double z, int sides, int arcs, double begin)
+void add_disc(Model& whole, double radius, double z, int sides, int arcs, double begin)
 {
+    ModelBuilder model(std::move(whole));
     const std::vector<Index> ring = add_ring(model, radius, z, sides, arcs, begin);
     const auto centre = static_cast<Index>(model.points.size());
     model.points.push_back({0, 0, z});
@@ -156,11 +158,13 @@ void add_disc(Model& model, double radius, double z, int sides, int arcs, double
     for (std::size_t i = 0; i < ring.size(); ++i)
         face.triangles.push_back({centre, ring[i], ring[(i + 1) % ring.size()]});
     model.faces.push_back(face);
+    whole = std::move(model).finish();
 }
 
 /// A tube whose rims have as many sides as said.
-void add_tube(Model& model, double radius, double height, int sides, int arcs, double begin)
+void add_tube(Model& whole, double radius, double height, int sides, int arcs, double begin)
 {
+    ModelBuilder model(std::move(whole));
     const std::vector<Index> low = add_ring(model, radius, 0, sides, arcs, begin);
     const std::vector<Index> high = add_ring(model, radius, height, sides, arcs, begin);
     Face face;
@@ -171,11 +175,13 @@ void add_tube(Model& model, double radius, double height, int sides, int arcs, d
         face.triangles.push_back({low[i], high[k], high[i]});
     }
     model.faces.push_back(face);
+    whole = std::move(model).finish();
 }
 
 /// A polygon in space as a face of its own: a fan, an edge a side (with `cuts` sides each).
-void add_polygon(Model& model, const std::vector<Vec3>& corners, int cuts = 1)
+void add_polygon(Model& whole, const std::vector<Vec3>& corners, int cuts = 1)
 {
+    ModelBuilder model(std::move(whole));
     Face face;
     face.tag = static_cast<int>(model.faces.size()) + 1;
     std::vector<Index> rim;
@@ -205,6 +211,7 @@ void add_polygon(Model& model, const std::vector<Vec3>& corners, int cuts = 1)
     for (std::size_t i = 0; i < rim.size(); ++i)
         face.triangles.push_back({centre, rim[i], rim[(i + 1) % rim.size()]});
     model.faces.push_back(face);
+    whole = std::move(model).finish();
 }
 
 /// The six faces of a box, loose.
@@ -241,8 +248,9 @@ void add_patch(healing::FacetSoup& soup, int n, const Vec3& o, const Vec3& u, co
 }
 
 /// A unit square of n × n quads, which are a mesh to be kept or just facets.
-void add_grid(Model& model, const Vec3& corner, int n, bool keep)
+void add_grid(Model& whole, const Vec3& corner, int n, bool keep)
 {
+    ModelBuilder model(std::move(whole));
     const auto first = static_cast<Index>(model.points.size());
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i)
@@ -270,6 +278,7 @@ void add_grid(Model& model, const Vec3& corner, int n, bool keep)
         for (int i = 0; i <= n; ++i) edge.points.push_back(corners[k] + i * step[k]);
         model.edges.push_back(edge);
     }
+    whole = std::move(model).finish();
 }
 
 /// The closed solids of the tests, as models whose faces share their edges.
@@ -352,7 +361,7 @@ TEST_CASE("circles divided differently, begun elsewhere or in arcs share their p
                 add_disc(model, 1, 2, 48, arcs, 0);
                 add_tube(model, 1, 2, 36, 1, 0);
                 shake(model, 0.4 * kTolerance, 1);
-                build_loops(model);
+                model = with_loops(model);
                 const healing::StitchReport report = healing::stitch(model, kTolerance);
                 CHECK(report.notes.empty());
                 const double least = sides == 12 ? 24 : 36; // no coarser than the finest side needs
@@ -372,11 +381,13 @@ TEST_CASE("a closed polyline without a corner begins at the vertex found on it")
         add_disc(model, 1, 0, 24, 1, 2 * pi * shift / 24);
         add_disc(model, 1, 2, 24, 1, -2 * pi * shift / 24);
         add_tube(model, 1, 2, 24, 1, 0);
-        for (Edge& edge : model.edges) {
-            edge.curve = nullptr;
-            edge.params.clear();
-        }
-        build_loops(model);
+        test::edit(model, [](ModelBuilder& plain) {
+            for (Edge& edge : plain.edges) {
+                edge.curve = nullptr;
+                edge.params.clear();
+            }
+        });
+        model = with_loops(model);
         CHECK(healing::stitch(model, kTolerance).notes.empty());
         check_closed(model, 24 * std::sin(2 * pi / 24), 1e-9);
         CHECK(model.edges.size() == 2);
@@ -392,9 +403,11 @@ TEST_CASE("edges that part between their ends merge below the tolerance and stay
         add_polygon(model, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 4);
         add_polygon(model, {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, 4);
         // The last edge of the second face bows away from the first.
-        for (std::size_t i = 1; i < 4; ++i)
-            model.points[index(model.edges[7].points[i])].x() += part * kTolerance;
-        build_loops(model);
+        test::edit(model, [&](ModelBuilder& bowed) {
+            for (std::size_t i = 1; i < 4; ++i)
+                bowed.points[index(bowed.edges[7].points[i])].x() += part * kTolerance;
+        });
+        model = with_loops(model);
         const healing::StitchReport report = healing::stitch(model, kTolerance);
         check_whole(model);
         const std::vector<std::size_t> uses = uses_of(model);
@@ -424,7 +437,7 @@ TEST_CASE("a side shared by one face here and several there is split where they 
             const auto front = static_cast<std::ptrdiff_t>(2);
             Model others;
             for (std::size_t f = 0; f < 6; ++f) {
-                build_loops(model);
+                model = with_loops(model);
                 if (static_cast<std::ptrdiff_t>(f) != front) append_loose(others, model, {FaceId(f)});
             }
             for (int k = 0; k < pieces; ++k) {
@@ -432,7 +445,7 @@ TEST_CASE("a side shared by one face here and several there is split where they 
                 add_polygon(others, {{a, 0, 0}, {b, 0, 0}, {b, 0, 1}, {a, 0, 1}}, cuts + k);
             }
             shake(others, 0.4 * kTolerance, 4);
-            build_loops(others);
+            others = with_loops(others);
             const healing::StitchReport report = healing::stitch(others, kTolerance);
             CHECK(report.edges_split == 2);
             CHECK(report.notes.empty());
@@ -447,11 +460,11 @@ TEST_CASE("edges no longer than the tolerance become vertices, and faces no wide
     Model corner;
     add_box(corner, {0, 0, 0}, {1, 1, 1}, 3);
     Model model;
-    build_loops(corner);
+    corner = with_loops(corner);
     append_loose(model, corner, {FaceId(0UL), FaceId(2UL), FaceId(3UL), FaceId(4UL), FaceId(5UL)});
     const double e = kTolerance / 2;
     add_polygon(model, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {1 - e, 1, 1}, {0, 1, 1}}, 3);
-    build_loops(model);
+    model = with_loops(model);
     healing::StitchReport report = healing::stitch(model, kTolerance);
     CHECK(report.edges_collapsed == 1);
     check_closed(model, 1, 10 * kTolerance);
@@ -461,7 +474,7 @@ TEST_CASE("edges no longer than the tolerance become vertices, and faces no wide
     add_polygon(strip, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 5);
     add_polygon(strip, {{1, 0, 0}, {1 + e, 0, 0}, {1 + e, 1, 0}, {1, 1, 0}}, 3);
     add_polygon(strip, {{1 + e, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1 + e, 1, 0}}, 2);
-    build_loops(strip);
+    strip = with_loops(strip);
     report = healing::stitch(strip, kTolerance);
     check_whole(strip);
     CHECK(report.faces_left_out == 1);
@@ -483,7 +496,7 @@ TEST_CASE(
             CAPTURE(f);
             Model model = exploded(solid.model);
             append_loose(model, solid.model, {FaceId(f)});
-            model.faces.back().tag = 777;
+            test::edit(model, [](ModelBuilder& tagged) { tagged.faces.back().tag = 777; });
             if (f % 2 == 0) flip_faces(model, {FaceId(model.faces.size() - 1)});
             shake(model, 0.4 * kTolerance, static_cast<unsigned>(f));
             const healing::StitchReport report = healing::stitch(model, kTolerance);
@@ -503,7 +516,7 @@ TEST_CASE(
         add_box(model, {0, 0, 0}, {1, 1, 1}, 2);
         const Vec3 away = gap == 1 ? Vec3(1, 0, 0) : Vec3(gap, gap, gap);
         add_box(model, away, away + Vec3(1, 1, 1), 2);
-        build_loops(model);
+        model = with_loops(model);
         const healing::StitchReport report = healing::stitch(model, kTolerance);
         check_whole(model);
         CHECK(report.faces_left_out == (gap == 0 ? 6 : 0));
@@ -520,10 +533,12 @@ TEST_CASE("a facet side inside a face does not pass for another face's edge betw
     // Two facets of a face meet along a diagonal, a triangle of another face stands on it.
     const Vec3 a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0), top(0.5, 0.5, 1);
     add_polygon(model, {a, b, c, d});
-    model.points.pop_back(); // the fan's centre
-    model.faces[0].triangles = {{0, 1, 2}, {0, 2, 3}};
+    test::edit(model, [](ModelBuilder& halves) {
+        halves.points.pop_back(); // the fan's centre
+        halves.faces[0].triangles = {{0, 1, 2}, {0, 2, 3}};
+    });
     add_polygon(model, {a, c, top});
-    build_loops(model);
+    model = with_loops(model);
     healing::stitch(model, kTolerance);
     check_whole(model);
     REQUIRE(model.faces[0].loops.size() == 1);
@@ -541,7 +556,7 @@ TEST_CASE("nodes of a mesh that is kept stay to the bit and get no others betwee
             add_grid(model, {0, 0, 0}, nodes, both); // met first
             add_grid(model, {1, 0, 0}, 3, true);
             shake(model, 0.4 * kTolerance, 9);
-            build_loops(model);
+            model = with_loops(model);
             std::vector<Vec3> kept;
             for (std::size_t f = both ? 0 : 1; f < 2; ++f)
                 for (const Quad& q : model.faces[f].given_quads)
@@ -631,7 +646,7 @@ TEST_CASE("a thousand loose faces are stitched in well under a second")
             for (int k = 0; k < 5; ++k)
                 add_box(model, Vec3(i, j, k) * 1.5, Vec3(i, j, k) * 1.5 + Vec3(1, 1, 1), 8);
     shake(model, 0.4 * kTolerance, 2);
-    build_loops(model);
+    model = with_loops(model);
     const std::clock_t start = std::clock();
     healing::stitch(model, kTolerance);
     const double taken = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

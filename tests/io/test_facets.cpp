@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "folder.h"
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
@@ -274,7 +275,8 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
     const test::Folder folder;
     for (auto& [name, volume] : sealed_volumes()) {
         CAPTURE(name);
-        volume.model.faces.front().name = "a \"given\" name";
+        test::edit(volume.model,
+                   [](topology::ModelBuilder& model) { model.faces.front().name = "a \"given\" name"; });
         io::write_facets(volume, folder.file("a.msh"), {.binary = false, .all_groups = true});
         const TextMsh msh(test::bytes_of(folder.file("a.msh")));
         REQUIRE(msh.facets.size() == volume.model.faces.size());

@@ -93,7 +93,7 @@ inline std::vector<Vec2> regular(int corners, double radius = 1, double turn = 0
     return result;
 }
 
-inline void add_end(topology::Model& model, const Ends& ends, const Place& place, bool upward)
+inline void add_end(topology::ModelBuilder& model, const Ends& ends, const Place& place, bool upward)
 {
     using namespace topology;
     std::vector<Vec2> flat;
@@ -140,7 +140,7 @@ inline void add_end(topology::Model& model, const Ends& ends, const Place& place
 /// of outlines, source first.
 inline topology::OpenVolume two_ends(const Ends& low, const Ends& high, const Place& place)
 {
-    topology::Model model;
+    topology::ModelBuilder model;
     add_end(
         model, low, [](const Vec2& p) { return Vec3(p.x(), p.y(), 0); }, false);
     add_end(model, high, place, true);
@@ -151,8 +151,8 @@ inline topology::OpenVolume two_ends(const Ends& low, const Ends& high, const Pl
     }
     model.diagonal = (most - least).norm();
     model.tolerance = 1e-6 * model.diagonal;
-    build_loops(model);
-    return open_volume(model, {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
+    model.build_loops();
+    return open_volume(std::move(model).finish(), {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
 }
 
 inline Place lifted(double height, double scale = 1, double turn = 0, const Vec2& shift = {0, 0})

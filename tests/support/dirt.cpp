@@ -13,8 +13,9 @@ namespace {
 
 } // namespace
 
-void append_loose(Model& to, const Model& from, const std::vector<FaceId>& faces)
+void append_loose(Model& model, const Model& from, const std::vector<FaceId>& faces)
 {
+    ModelBuilder to(std::move(model));
     for (const FaceId f : faces) {
         const Model one = extract(from, {f});
         const auto points = static_cast<Index>(to.points.size());
@@ -41,13 +42,15 @@ void append_loose(Model& to, const Model& from, const std::vector<FaceId>& faces
             for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
         to.faces.push_back(face);
     }
+    model = std::move(to).finish();
 }
 
 Model exploded(const Model& model)
 {
-    Model loose;
-    loose.tolerance = model.tolerance;
-    loose.diagonal = model.diagonal;
+    ModelBuilder builder;
+    builder.tolerance = model.tolerance;
+    builder.diagonal = model.diagonal;
+    Model loose = std::move(builder).finish();
     append_loose(loose, model, all_faces(model));
     return loose;
 }
@@ -59,8 +62,9 @@ Vec3 wobble(std::mt19937& random)
     return v / std::max(1.0, v.norm());
 }
 
-void shake(Model& model, double amount, unsigned seed)
+void shake(Model& whole, double amount, unsigned seed)
 {
+    ModelBuilder model(std::move(whole));
     std::mt19937 random(seed);
     std::vector<bool> done(model.points.size(), false);
     for (const Edge& edge : model.edges) {
@@ -70,10 +74,12 @@ void shake(Model& model, double amount, unsigned seed)
             model.points[index(p)] += amount * wobble(random);
         }
     }
+    whole = std::move(model).finish();
 }
 
-void divide_sides(Model& model, unsigned seed)
+void divide_sides(Model& whole, unsigned seed)
 {
+    ModelBuilder model(std::move(whole));
     std::mt19937 random(seed);
     SidePoints sides;
     for (Edge& edge : model.edges) {
@@ -99,10 +105,12 @@ void divide_sides(Model& model, unsigned seed)
         edge = finer;
     }
     for (Face& face : model.faces) cut_at_sides(model.points, face, sides);
+    whole = std::move(model).finish();
 }
 
-void divide_edges(Model& model, std::size_t every)
+void divide_edges(Model& whole, std::size_t every)
 {
+    ModelBuilder model(std::move(whole));
     const std::size_t count = model.edges.size();
     for (std::size_t e = 0; e < count; e += every) {
         if (model.edges[e].points.size() < 3) continue;
@@ -123,7 +131,8 @@ void divide_edges(Model& model, std::size_t every)
         model.edges.push_back(second);
     }
     for (Face& face : model.faces) face.loops.clear();
-    build_loops(model);
+    model.build_loops();
+    whole = std::move(model).finish();
 }
 
 } // namespace lacuna::test

@@ -308,12 +308,15 @@ void add_seam(Model& model, FaceId wall)
     for (Index p = end; p != start; p = back.at(p)) seam.points.push_back(p);
     seam.points.push_back(start);
     std::reverse(seam.points.begin(), seam.points.end());
-    model.edges.push_back(std::move(seam));
-    build_loops(model);
+    ModelBuilder builder(std::move(model));
+    builder.edges.push_back(std::move(seam));
+    builder.build_loops();
+    model = std::move(builder).finish();
 }
 
-Model moved(Model model, const std::function<Vec3(const Vec3&)>& map)
+Model moved(Model whole, const std::function<Vec3(const Vec3&)>& map)
 {
+    ModelBuilder model(std::move(whole));
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (Vec3& p : model.points) {
         p = map(p);
@@ -322,7 +325,7 @@ Model moved(Model model, const std::function<Vec3(const Vec3&)>& map)
     }
     model.diagonal = (high - low).norm();
     model.tolerance = 1e-6 * model.diagonal;
-    return model;
+    return std::move(model).finish();
 }
 
 healing::FacetSoup scrambled_facets(const healing::FacetSoup& soup, unsigned seed)

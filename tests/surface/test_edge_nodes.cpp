@@ -62,7 +62,7 @@ TEST_CASE(
 
 TEST_CASE("points of an edge with an exact curve lie on the curve, not on the chords")
 {
-    Model model;
+    ModelBuilder model;
     model.tolerance = 1e-9;
     model.diagonal = 2;
     Edge edge;

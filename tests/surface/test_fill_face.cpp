@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include <lacuna/core/error.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/shared/pave.h>
@@ -70,6 +71,7 @@ struct Disc {
 
     Disc(double a, double b, int rings, int spokes, bool exact) : graph(std::make_shared<Graph>(a, b))
     {
+        topology::ModelBuilder built;
         std::vector<Vec2> plan{Vec2(0, 0)};
         for (int r = 1; r <= rings; ++r) {
             for (int s = 0; s < spokes; ++s) {
@@ -86,7 +88,7 @@ struct Disc {
                 if (r > 0) face.triangles.push_back({number(r, s), number(r + 1, s + 1), number(r, s + 1)});
             }
         }
-        for (const Vec2& p : plan) model.points.push_back(graph->at(p));
+        for (const Vec2& p : plan) built.points.push_back(graph->at(p));
         if (exact) {
             face.surface = graph;
             for (const Triangle& t : face.triangles)
@@ -94,7 +96,7 @@ struct Disc {
                     {plan[std::size_t(t[0])], plan[std::size_t(t[1])], plan[std::size_t(t[2])]});
         }
         for (int e = 0; e < 4; ++e) {
-            model.vertices.push_back({number(rings, e * spokes / 4), e + 1, topology::Origin::given});
+            built.vertices.push_back({number(rings, e * spokes / 4), e + 1, topology::Origin::given});
             topology::Edge edge;
             edge.tag = e + 1;
             edge.from = VertexId(std::size_t(e));
@@ -104,12 +106,13 @@ struct Disc {
                 if (exact) edge.params.push_back(2 * std::numbers::pi * s / spokes);
             }
             if (exact) edge.curve = std::make_shared<Rim>(graph);
-            model.edges.push_back(std::move(edge));
+            built.edges.push_back(std::move(edge));
         }
-        model.faces.push_back(std::move(face));
-        model.diagonal = 2 * std::numbers::sqrt2;
-        model.tolerance = 1e-6;
-        topology::build_loops(model);
+        built.faces.push_back(std::move(face));
+        built.diagonal = 2 * std::numbers::sqrt2;
+        built.tolerance = 1e-6;
+        built.build_loops();
+        model = std::move(built).finish();
     }
 };
 
@@ -248,11 +251,13 @@ TEST_CASE("a curved face in two parts is refused by its name and with what to do
     for (const bool made : {false, true}) {
         CAPTURE(made);
         Disc disc(0.4, 0.2, 4, 24, false);
-        const auto first = static_cast<Index>(disc.model.points.size());
-        for (const Vec3& p : {Vec3(5, 0, 0), Vec3(6, 0, 1), Vec3(5, 1, 0)}) disc.model.points.push_back(p);
-        topology::Face& face = disc.model.faces[0];
-        face.triangles.push_back({first, first + 1, first + 2});
-        if (made) face.origin = topology::Origin::made_void;
+        test::edit(disc.model, [made](topology::ModelBuilder& model) {
+            const auto first = static_cast<Index>(model.points.size());
+            for (const Vec3& p : {Vec3(5, 0, 0), Vec3(6, 0, 1), Vec3(5, 1, 0)}) model.points.push_back(p);
+            topology::Face& face = model.faces[0];
+            face.triangles.push_back({first, first + 1, first + 2});
+            if (made) face.origin = topology::Origin::made_void;
+        });
         try {
             fill(disc, 0.3);
             FAIL("filled");

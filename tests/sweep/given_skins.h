@@ -118,7 +118,6 @@ inline Opened open(const GivenSkin& skin, const std::function<Given(int part, co
         }
     }
     Model model = healing::split_facets(soup);
-    build_loops(model);
     orient_consistently(model);
     Roles roles;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "layers_of.h"
 #include "support/check_valid.h"
+#include "support/edit_model.h"
 #include "support/refusal.h"
 #include "surface/sealed.h"
 
@@ -436,10 +437,10 @@ TEST_CASE("rows cross and end on edges between the faces of an end, on leaning w
     for (const double lean : {0.0, 0.3}) {
         CAPTURE(lean);
         OpenVolume volume = test::board_box(3, 2, 1.5);
-        for (Vec3& p : volume.model.points) {
+        test::edit(volume.model, [lean](topology::ModelBuilder& model) {
             const Vec3 middle(1.5, 1, 0);
-            p += lean * p.z() * Vec3(p.x() - middle.x(), p.y() - middle.y(), 0);
-        }
+            for (Vec3& p : model.points) p += lean * p.z() * Vec3(p.x() - middle.x(), p.y() - middle.y(), 0);
+        });
         surface::BoundaryLayer layer;
         layer.walls.names = {"walls"};
         layer.first = 0.02;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/check_valid.h"
+#include "support/edit_model.h"
 #include "support/whole_families.h"
 #include "surface/sealed.h"
 
@@ -296,14 +297,16 @@ OpenVolume bent_rod(int sides, double leg, double degrees, double thickness = 1)
     const double angle = degrees * std::numbers::pi / 180, arc = kRadius * angle;
     OpenVolume volume = test::sealed(
         {.sides = sides, .height = 2 * leg + arc, .cuts = sides == 0 ? 4 : 3, .levels = 96});
-    for (Vec3& p : volume.model.points) {
-        const double turn = std::clamp(p.z() - leg, 0.0, arc) / kRadius;
-        const double before = std::min(p.z(), leg), after = std::max(0.0, p.z() - leg - arc);
-        p.head<2>() *= thickness;
-        const Vec3 out(std::cos(turn), 0, std::sin(turn)), up(-std::sin(turn), 0, std::cos(turn));
-        const Vec3 centre(-kRadius, 0, before);
-        p = centre + (kRadius + p.x()) * out + p.y() * Vec3::UnitY() + after * up;
-    }
+    test::edit(volume.model, [&](ModelBuilder& model) {
+        for (Vec3& p : model.points) {
+            const double turn = std::clamp(p.z() - leg, 0.0, arc) / kRadius;
+            const double before = std::min(p.z(), leg), after = std::max(0.0, p.z() - leg - arc);
+            p.head<2>() *= thickness;
+            const Vec3 out(std::cos(turn), 0, std::sin(turn)), up(-std::sin(turn), 0, std::cos(turn));
+            const Vec3 centre(-kRadius, 0, before);
+            p = centre + (kRadius + p.x()) * out + p.y() * Vec3::UnitY() + after * up;
+        }
+    });
     return volume;
 }
 

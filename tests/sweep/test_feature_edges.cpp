@@ -356,9 +356,9 @@ std::vector<std::string> edges_cut(const OpenVolume& volume, const mesh::HexMesh
         }
     }
     std::vector<std::string> cut;
-    const auto uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const auto uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
         std::vector<Vec3> line;
         double length = 0;
         for (const Index p : model.edges[e].points) {

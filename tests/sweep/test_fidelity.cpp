@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "layers_of.h"
 #include "support/check_valid.h"
+#include "support/edit_model.h"
 #include "support/whole_families.h"
 #include "surface/sealed.h"
 
@@ -442,7 +443,9 @@ TEST_CASE("the least deviation that is allowed depends on the model and the face
             return misfits(compared(volume, mesh)).size();
         };
         for (const double diagonal : {80.0, 1000.0}) {
-            volume.model.diagonal = diagonal; // of the part that the volume is a small recess of
+            // Of the part that the volume is a small recess of.
+            test::edit(volume.model,
+                       [diagonal](topology::ModelBuilder& model) { model.diagonal = diagonal; });
             double least = 1e-4 * diagonal;
             for (const Face& face : volume.model.faces) {
                 Eigen::AlignedBox3d box;

@@ -231,9 +231,8 @@ TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
     // The edges beside that wall are those of the walls next to it.
     const auto links = surface::linking_surfaces(volume);
     const auto& uses = links.front().source.uses();
-    const auto all_uses = edge_uses(volume.model);
     const auto wall_of = [&](EdgeId edge) {
-        for (const FaceUse& use : all_uses[edge.index()]) {
+        for (const FaceUse& use : volume.model.uses_of_edge(edge)) {
             if (volume.role[use.face.index()] == Role::wall) return volume.model[use.face].tag;
         }
         return 0;

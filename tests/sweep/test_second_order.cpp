@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/check_valid.h"
+#include "support/edit_model.h"
 #include "support/refusal.h"
 #include "surface/sealed.h"
 
@@ -75,7 +76,7 @@ private:
 /// Round walls and rims of a prism get the surfaces and curves they were faceted from.
 OpenVolume exact(OpenVolume volume)
 {
-    Model& model = volume.model;
+    ModelBuilder model(std::move(volume.model));
     for (Edge& edge : model.edges) {
         const Vec3& first = model.at(edge.points.front());
         const double radius = first.head<2>().norm();
@@ -92,6 +93,7 @@ OpenVolume exact(OpenVolume volume)
         face.surface = std::make_shared<Cylinder>(model.at(face.triangles[0][0]).head<2>().norm());
         face.uv.resize(face.triangles.size());
     }
+    volume.model = std::move(model).finish();
     return volume;
 }
 
@@ -274,7 +276,9 @@ namespace {
 OpenVolume given_box()
 {
     OpenVolume volume = test::sealed({.sides = 4, .cuts = 3, .levels = 3});
-    for (Face& face : volume.model.faces) face.keeps_nodes = true;
+    test::edit(volume.model, [](ModelBuilder& model) {
+        for (Face& face : model.faces) face.keeps_nodes = true;
+    });
     return volume;
 }
 

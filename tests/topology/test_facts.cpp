@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/topology/shared/cone_shape.h>
@@ -84,7 +85,7 @@ TEST_CASE("a narrow piece of what a file calls a cone or a torus is no cylinder 
             const FaceId wall = prism.face({Role::wall});
             alike += round_shape(prism.model, wall) ? 1 : 0;
             for (const char* kind : {"cone", "torus"}) {
-                prism.model[wall].kind = kind;
+                test::edit(prism.model, [&](ModelBuilder& model) { model[wall].kind = kind; });
                 CHECK(!round_shape(prism.model, wall));
             }
         }
@@ -111,13 +112,12 @@ TEST_CASE("a gap between faces apart is found with its width, and its tolerance 
 {
     for (const double width : {1e-5, 3.3e-4, 2e-3}) {
         const auto prism = test::prism({.sides = 4});
-        Model apart = prism.model;
         // The source with points, edges and vertices of its own, moved off.
         const Model source = extract(prism.model, {prism.face({Role::source})});
         std::vector<FaceId> rest;
         for (std::size_t f = 0; f < prism.model.faces.size(); ++f)
             if (FaceId(f) != prism.face({Role::source})) rest.emplace_back(f);
-        apart = extract(prism.model, rest);
+        ModelBuilder apart(extract(prism.model, rest));
         const auto points = static_cast<Index>(apart.points.size());
         const std::size_t vertices = apart.vertices.size(), edges = apart.edges.size();
         for (const Vec3& p : source.points) apart.points.push_back(p - width * Vec3::UnitZ());
@@ -138,11 +138,12 @@ TEST_CASE("a gap between faces apart is found with its width, and its tolerance 
             for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
         apart.faces.push_back(face);
         apart.tolerance = 1e-9;
-        const auto found = gaps(apart);
+        const Model model = std::move(apart).finish();
+        const auto found = gaps(model);
         REQUIRE(found.size() == 4);
         for (const Gap& gap : found) {
             CHECK(gap.width == doctest::Approx(width));
-            const double enough = sewing_tolerance(apart, gap);
+            const double enough = sewing_tolerance(model, gap);
             CHECK(enough > gap.width);
             CHECK(enough < 1.2 * gap.width);
         }

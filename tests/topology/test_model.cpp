@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -11,6 +12,9 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 using namespace lacuna;
 using namespace lacuna::topology;
@@ -51,7 +55,7 @@ void check_loops(const Model& model)
 Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>& faces,
               const std::vector<std::vector<Index>>& edges)
 {
-    Model model;
+    ModelBuilder model;
     model.points = std::move(points);
     model.tolerance = 1e-9;
     model.diagonal = 1;
@@ -75,7 +79,7 @@ Model by_hand(std::vector<Vec3> points, const std::vector<std::vector<Triangle>>
         face.triangles = triangles;
         model.faces.push_back(face);
     }
-    return model;
+    return std::move(model).finish();
 }
 
 } // namespace
@@ -115,7 +119,8 @@ TEST_CASE("loops are closed walks with the face on the left, whatever the sectio
                         std::vector<FaceId> all;
                         for (std::size_t f = 0; f < model.faces.size(); ++f) all.emplace_back(f);
                         CHECK(volume_integral(model, all) == doctest::Approx(prism.facet_volume));
-                        for (const auto& uses : edge_uses(model)) {
+                        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+                            const auto uses = model.uses_of_edge(EdgeId(e));
                             REQUIRE(uses.size() == 2);
                             CHECK(uses[0].reversed != uses[1].reversed);
                         }
@@ -159,7 +164,7 @@ TEST_CASE("a closed wall has two loops without a seam, and one of four uses with
         const EdgeId seam(prism.model.edges.size() - 1);
         CHECK(uses.at(seam) == 0);
         CHECK(uses.size() == 3);
-        const auto by_seam = edge_uses(prism.model)[seam.index()];
+        const auto by_seam = prism.model.uses_of_edge(seam);
         REQUIRE(by_seam.size() == 2);
         CHECK(by_seam[0].face == wall);
         CHECK(by_seam[1].face == wall);
@@ -175,7 +180,7 @@ TEST_CASE("two loops of one face that touch in a vertex are told apart by the fa
                                    {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 2}, {0, 2, 3}, {2, 4, 5}, {2, 5, 6}}},
                           {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 4}, {4, 5}, {5, 6}, {6, 2}});
-    build_loops(model);
+    model = with_loops(model);
     check_loops(model);
     REQUIRE(model.faces[0].loops.size() == 2);
     for (const Loop& loop : model.faces[0].loops) CHECK(loop.uses.size() == 4);
@@ -188,7 +193,7 @@ TEST_CASE("a hole that touches the outer border in a vertex makes one walk that 
     const std::vector<Vec3> points{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {2, 1, 0}, {1, 2, 0}};
     Model model = by_hand(points, {{{0, 1, 3}, {3, 1, 2}, {3, 2, 4}, {4, 2, 0}}},
                           {{0, 1}, {1, 2}, {2, 0}, {0, 4}, {4, 3}, {3, 0}});
-    build_loops(model);
+    model = with_loops(model);
     check_loops(model);
     REQUIRE(model.faces[0].loops.size() == 1);
     CHECK(model.faces[0].loops[0].uses.size() == 6);
@@ -199,9 +204,9 @@ TEST_CASE("facets that overlap, and a border that leaves its edges, are refused 
     const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const std::vector<std::vector<Index>> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     const auto code_of = [](Model model) {
-        model.faces[0].tag = 17;
+        test::edit(model, [](ModelBuilder& tagged) { tagged.faces[0].tag = 17; });
         try {
-            build_loops(model);
+            model = with_loops(model);
         } catch (const InvalidInput& error) {
             CHECK(std::string(error.what()).find("face 17") != std::string::npos);
             return error.code();
@@ -227,7 +232,10 @@ TEST_CASE("orientation is consistent and outward whichever faces come turned ove
             if ((bits >> f) & 1U) flip_faces(model, {FaceId(f)});
         }
         orient_consistently(model);
-        for (const auto& uses : edge_uses(model)) CHECK(uses[0].reversed != uses[1].reversed);
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const auto uses = model.uses_of_edge(EdgeId(e));
+            CHECK(uses[0].reversed != uses[1].reversed);
+        }
         CHECK(volume_integral(model, all) == doctest::Approx(prism.facet_volume));
         check_loops(model);
         ++combinations;
@@ -250,6 +258,45 @@ TEST_CASE("turning a face over twice changes nothing, and its area vector turns 
         for (std::size_t l = 0; l < loops.size(); ++l)
             CHECK(prism.model[face].loops[l].uses == loops[l].uses);
     }
+}
+
+TEST_CASE("a model made from another has the uses of its own edges and leaves the other as it was")
+{
+    const auto check_uses = [](const Model& model) {
+        std::vector<std::vector<std::pair<FaceId, bool>>> uses(model.edges.size());
+        for (const FaceId face : all_faces(model))
+            for (const Loop& loop : model[face].loops)
+                for (const EdgeUse& use : loop.uses) uses[use.edge.index()].emplace_back(face, use.reversed);
+        for (std::size_t e = 0; e < uses.size(); ++e) {
+            std::vector<std::pair<FaceId, bool>> kept;
+            for (const FaceUse& use : model.uses_of_edge(EdgeId(e)))
+                kept.emplace_back(use.face, use.reversed);
+            CHECK((kept == uses[e]));
+        }
+    };
+    static_assert(!std::is_convertible_v<ModelBuilder&, Model>); // a copy would change with the builder
+    auto prism = test::prism({.sides = 5, .holes = 1});
+    const Model before = prism.model;
+    const FaceId wall = prism.face({Role::wall, 0, 0, 0, 0});
+    const auto triangles = before[wall].triangles;
+    check_uses(before);
+    flip_faces(prism.model, {wall});
+    check_uses(prism.model);
+    CHECK(prism.model[wall].triangles != triangles);
+    CHECK(before[wall].triangles == triangles);
+    check_uses(before);
+
+    ModelBuilder builder(before);
+    const Model& unfinished = builder;
+    CHECK_THROWS_AS(static_cast<void>(unfinished.uses_of_edge(EdgeId(0UL))), std::out_of_range);
+    builder.faces.pop_back();
+    const Model open = std::move(builder).finish();
+    check_uses(open);
+    CHECK(open.faces.size() + 1 == before.faces.size());
+    Model moved = open;
+    const Model taken = std::move(moved);
+    CHECK(moved.faces.empty()); // NOLINT(bugprone-use-after-move)
+    check_uses(taken);
 }
 
 TEST_CASE("a band with a half twist is refused, and the faces at the seam of the two directions are named")

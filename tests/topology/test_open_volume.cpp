@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include "support/refusal.h"
 #include "support/volumes.h"
 
@@ -138,8 +139,10 @@ TEST_CASE("a face in two roles, a face twice, and no face at all are refused by 
     const auto prism = test::prism({});
     const FaceId source = prism.roles.source.front(), wall = prism.roles.walls.front();
     Model model = prism.model;
-    model[source].name = "floor";
-    model[wall].name = "side";
+    test::edit(model, [&](ModelBuilder& named) {
+        named[source].name = "floor";
+        named[wall].name = "side";
+    });
     CHECK(refusal(
               [&] {
                   open_volume(model, {{source}, {source}, {}});
@@ -238,7 +241,8 @@ TEST_CASE("an open volume holds only what its faces use, and the model it came f
         for (const Triangle& t : face.triangles) used.insert(t.begin(), t.end());
     }
     CHECK(used.size() == volume.model.points.size());
-    for (const auto& uses : edge_uses(volume.model)) CHECK(!uses.empty());
+    for (std::size_t e = 0; e < volume.model.edges.size(); ++e)
+        CHECK(!volume.model.uses_of_edge(EdgeId(e)).empty());
     for (const Edge& edge : volume.model.edges) {
         CHECK(volume.model[edge.from].point == edge.points.front());
         CHECK(volume.model[edge.to].point == edge.points.back());

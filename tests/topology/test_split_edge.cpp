@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/edit_model.h"
 #include "support/volumes.h"
 
 #include <lacuna/core/error.h>
@@ -57,8 +58,7 @@ void check_model(const Model& model)
     std::set<int> vertices, edges;
     for (const Vertex& vertex : model.vertices) CHECK(vertices.insert(vertex.tag).second);
     for (const Edge& edge : model.edges) CHECK(edges.insert(edge.tag).second);
-    Model again = model;
-    build_loops(again);
+    const Model again = with_loops(model);
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         for (const Loop& loop : model.faces[f].loops) {
             for (std::size_t i = 0; i < loop.uses.size(); ++i)
@@ -92,7 +92,7 @@ Model disc(int sides)
     for (int i = 0; i < sides; ++i) soup.triangles.push_back({0, i + 1, (i + 1) % sides + 1});
     healing::SplitOptions options;
     options.feature_angle = 120;
-    Model model = healing::split_facets(soup, options);
+    ModelBuilder model(healing::split_facets(soup, options));
     REQUIRE(model.edges.size() == 1);
     Edge& edge = model.edges.front();
     edge.curve = std::make_shared<Circle>();
@@ -102,7 +102,7 @@ Model disc(int sides)
     const double step = std::atan2(start.cross(second).z(), start.dot(second));
     for (std::size_t i = 0; i < edge.points.size(); ++i)
         edge.params.push_back(from + step * static_cast<double>(i));
-    return model;
+    return std::move(model).finish();
 }
 
 } // namespace
@@ -231,10 +231,11 @@ TEST_CASE("surface parameters of new corners lie between those of their facets' 
 {
     const auto uv_of = [](const Vec3& p) { return Vec2(2 * p.x() + p.z() + 3, p.y() - p.z()); };
     Model whole = test::prism({.sides = 5, .holes = 1, .levels = 2}).model;
-    for (Face& face : whole.faces) {
-        for (const Triangle& t : face.triangles)
-            face.uv.push_back({uv_of(whole.at(t[0])), uv_of(whole.at(t[1])), uv_of(whole.at(t[2]))});
-    }
+    test::edit(whole, [&](ModelBuilder& model) {
+        for (Face& face : model.faces)
+            for (const Triangle& t : face.triangles)
+                face.uv.push_back({uv_of(model.at(t[0])), uv_of(model.at(t[1])), uv_of(model.at(t[2]))});
+    });
     for (std::size_t e = 0; e < whole.edges.size(); ++e) {
         Model model = whole;
         split_edge(model, EdgeId(e), 0.37);

@@ -12,7 +12,7 @@ using namespace cad_protocol;
 
 namespace {
 
-void add_edges(topology::Model& model, LoadReply& reply, double scale,
+void add_edges(topology::ModelBuilder& model, LoadReply& reply, double scale,
                const std::shared_ptr<const CadSource>& source)
 {
     for (std::size_t p = 0; p < reply.vertex_tags.size(); ++p)
@@ -37,7 +37,7 @@ void add_edges(topology::Model& model, LoadReply& reply, double scale,
 }
 
 /// Remove points and vertices that no edge or facet uses, and set the diagonal.
-void compact(topology::Model& model)
+void compact(topology::ModelBuilder& model)
 {
     std::vector<Index> place(model.points.size(), -1);
     std::vector<Vec3> points;
@@ -81,7 +81,7 @@ void compact(topology::Model& model)
 
 topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr<const CadSource>& source)
 {
-    topology::Model model;
+    topology::ModelBuilder model;
     model.source = source->path();
     model.notes = std::move(reply.notes);
     model.points = std::move(reply.points);
@@ -98,7 +98,7 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
     }
     for (Vec3& p : model.points) p *= scale;
     compact(model);
-    return model;
+    return std::move(model).finish();
 }
 
 } // namespace
@@ -116,12 +116,12 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
     std::vector<std::string> warnings(
         reply.notes.begin(), reply.notes.begin() + static_cast<std::ptrdiff_t>(reply.left_out.size()));
-    topology::Model model = build_model(std::move(reply), options.scale, source);
+    topology::ModelBuilder model(build_model(std::move(reply), options.scale, source));
     warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
     model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
     healing::orient_groups(model, solids);
-    return {.model = std::move(model), .scale = options.scale, .warnings = std::move(warnings)};
+    return {.model = std::move(model).finish(), .scale = options.scale, .warnings = std::move(warnings)};
 }
 
 } // namespace lacuna::cad

@@ -123,17 +123,18 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
     const auto depth = parting_depth(sealed.model, mouth);
     if (!depth) return std::nullopt;
     Bowl bowl;
-    bowl.volume.model = sealed.model;
-    Model& model = bowl.volume.model;
     bowl.mouth = mouth.faces.front();
     bowl.depth = *depth;
     geometry::Plane plane = mouth.plane;
     plane.origin -= *depth * plane.normal;
-    const std::vector<SectionWalk> walks = section_walks(model, all_faces(model), plane, model.tolerance);
+    const std::vector<SectionWalk> walks = section_walks(sealed.model, all_faces(sealed.model), plane,
+                                                         sealed.model.tolerance);
     const auto open = [](const SectionWalk& walk) { return !walk.closed; };
     if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
-    bowl.parent = imprint_walks(model, walks, plane, model.tolerance, context).parent;
-    build_loops(model, context);
+    ModelBuilder parted(sealed.model);
+    bowl.parent = imprint_walks(parted, walks, plane, parted.tolerance, context).parent;
+    bowl.volume.model = std::move(parted).finish();
+    const Model& model = bowl.volume.model;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const bool at_mouth = has(mouth.faces, bowl.parent[f]);
         const bool below = geometry::height(plane, face_centroid(model, FaceId(f))) < 0;

@@ -79,11 +79,7 @@ std::vector<Vec3> places(const Model& model, const std::vector<EdgeId>& edges)
 class BranchFinder {
 public:
     BranchFinder(const OpenVolume& volume, const RunContext& context)
-        : volume_(volume),
-          model_(volume.model),
-          context_(context),
-          uses_(edge_uses(volume.model)),
-          ends_(volume.faces(Role::source))
+        : volume_(volume), model_(volume.model), context_(context), ends_(volume.faces(Role::source))
     {
         std::ranges::copy(volume.faces(Role::target), std::back_inserter(ends_));
     }
@@ -130,10 +126,10 @@ private:
         std::set<EdgeId> barred;
         for (const Mouth& mouth : result_.mouths) barred.insert(mouth.edges.begin(), mouth.edges.end());
         geometry::UnionFind sets(model_.faces.size());
-        for (std::size_t e = 0; e < uses_.size(); ++e) {
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             if (barred.contains(EdgeId(e))) continue;
-            for (const FaceUse& use : uses_[e])
-                sets.unite_least(uses_[e].front().face.index(), use.face.index());
+            const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
+            for (const FaceUse& use : uses) sets.unite_least(uses.front().face.index(), use.face.index());
         }
         std::map<std::size_t, std::size_t> number;
         result_.region.clear();
@@ -150,7 +146,7 @@ private:
         for (const Rim& rim : free_loops(volume_)) {
             std::vector<EdgeId> edges;
             for (const EdgeUse& use : rim.uses) edges.push_back(use.edge);
-            const std::size_t own = result_.region[uses_[edges.front().index()].front().face.index()];
+            const std::size_t own = result_.region[model_.uses_of_edge(edges.front()).front().face.index()];
             result_.ends[own].push_back(geometry::mean_point(places(model_, edges)));
         }
     }
@@ -158,7 +154,7 @@ private:
     /// Decide which side of a mouth is the main body; false if neither is.
     bool set_sides(Mouth& mouth)
     {
-        const std::vector<FaceUse>& users = uses_[mouth.edges.front().index()];
+        const std::span<const FaceUse> users = model_.uses_of_edge(mouth.edges.front());
         mouth.host = result_.region[users[0].face.index()];
         mouth.branch = result_.region[users[1].face.index()];
         if (mouth.host == mouth.branch) return false;
@@ -186,7 +182,6 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const RunContext& context_;
-    std::vector<std::vector<FaceUse>> uses_;
     std::vector<FaceId> ends_; ///< the faces of both
     Branching result_;
 };
@@ -317,10 +312,10 @@ private:
     {
         const Model& model = volume_.model;
         std::vector<std::array<Vec3, 2>> across; // ends of lines across the ends of the main body
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
-        for (std::size_t e = 0; e < uses.size(); ++e) {
-            const bool inner = uses[e].size() == 2 && uses[e][0].face != uses[e][1].face &&
-                               std::ranges::all_of(uses[e], [&](const FaceUse& use) {
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+            const bool inner = uses.size() == 2 && uses[0].face != uses[1].face &&
+                               std::ranges::all_of(uses, [&](const FaceUse& use) {
                                    return found_.region[use.face.index()] == mouths.front()->host &&
                                           volume_.role[use.face.index()] != Role::wall;
                                });
@@ -369,18 +364,18 @@ private:
         std::vector<FaceId> walls = found_.faces[found_.mouths.front().host];
         std::erase_if(walls, [&](FaceId face) { return volume_.role[face.index()] != Role::wall; });
         for (const geometry::Plane& plane : planes) {
-            Model& model = lined.model;
+            ModelBuilder model(std::move(lined.model));
             std::vector<SectionWalk> walks = section_walks(model, walls, plane, model.tolerance);
             std::erase_if(walks, [&](const SectionWalk& walk) {
                 return is_beside_line(model, walls, walk, plane, kBeside * width());
             });
             const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
+            lined.model = std::move(model).finish();
             for (std::size_t f = lined.role.size(); f < made.parent.size(); ++f) {
                 lined.role.push_back(lined.role[made.parent[f].index()]);
                 if (std::ranges::find(walls, made.parent[f]) != walls.end()) walls.emplace_back(f);
             }
         }
-        build_loops(lined.model);
         Branching again = BranchFinder(lined, context_).run();
         return BranchCutter(lined, std::move(again), context_, true).run();
     }
@@ -516,9 +511,11 @@ private:
         const geometry::Plane plane = geometry::plane_across(centre, axis_);
         PartedVolume parted{volume_};
         OpenVolume& work = parted.volume;
-        Model& model = work.model;
         const std::vector<SectionWalk> walks = walks_across(mouths, plane);
-        const WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context_);
+        ModelBuilder cut(volume_.model);
+        const WalkImprint made = imprint_walks(cut, walks, plane, cut.tolerance, context_);
+        work.model = std::move(cut).finish();
+        Model& model = work.model;
         for (std::size_t f = work.role.size(); f < made.parent.size(); ++f)
             work.role.push_back(work.role[made.parent[f].index()]);
         std::vector<FaceId> host;
@@ -548,9 +545,9 @@ private:
                 Loop loop{half};
                 loop.uses.push_back({dip, use_to(model, half.back()) != model[dip].from});
                 const std::string name = partition_name(model);
-                partition.face = closure::add_void_face(work, fill(work, {loop}, nullptr, {name}, context_),
-                                                        Role::wall);
-                model[partition.face].name = name;
+                VoidFilling filling = fill(work, {loop}, nullptr, {name}, context_);
+                filling.name = name;
+                partition.face = add_void_face(work, std::move(filling), Role::wall);
                 parted.partitions.push_back(partition);
             }
         }
@@ -572,10 +569,10 @@ private:
             middle.behind.insert(middle.behind.end(), made.lines[l].begin(), made.lines[l].end());
         }
         order_rings(model, plane, rings);
-        middle.face = add_partition(model, rings, plane, context_);
+        middle.face = add_partition(model, rings, plane, partition_name(model), context_);
         work.role.push_back(Role::wall);
         parted.partitions.insert(parted.partitions.begin(), middle);
-        build_loops(model);
+        model = with_loops(std::move(model));
         return pieces_of(
             parted, {"the cut at the branch of ", {wall_entity(*mouths.front(), mouths.front()->branch)}},
             context_);

@@ -143,7 +143,6 @@ EndLoops group_loops(OpenVolume& volume)
 std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loop>& end)
 {
     const Model& model = volume.model;
-    const auto uses = edge_uses(model);
     std::vector<FaceId> floors;
     for (const Loop& loop : end) {
         const auto is_of_loop = [&](const EdgeUse& use) {
@@ -159,7 +158,7 @@ std::vector<FaceId> floors_round(const OpenVolume& volume, const std::vector<Loo
                 if (is_of_loop(use))
                     ++around;
                 else
-                    goes_on = goes_on && uses[use.edge.index()].size() == 2;
+                    goes_on = goes_on && model.uses_of_edge(use.edge).size() == 2;
             }
             if (goes_on && around == loop.uses.size() && lies_in_plane(model, wall, plane))
                 floors.push_back(wall);

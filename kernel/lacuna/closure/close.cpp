@@ -35,13 +35,13 @@ namespace {
 void prove_sealed(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    const auto uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 2 && uses[e][0].reversed != uses[e][1].reversed) continue;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2 && uses[0].reversed != uses[1].reversed) continue;
         throw NotClosed(Message("closure.not_watertight",
                                 "{} is used {} times{} after closing instead of twice in opposite directions",
-                                entity_of(model, EdgeId(e)), found(uses[e].size()),
-                                uses[e].size() == 2 ? " in the same direction" : "")
+                                entity_of(model, EdgeId(e)), found(uses.size()),
+                                uses.size() == 2 ? " in the same direction" : "")
                             .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
@@ -147,11 +147,10 @@ void assume_walls(const OpenVolume& sealed, const char* code, const std::string&
 /// For each edge of the source's rims, the share of its length without a wall.
 std::vector<double> shares_without_walls(const OpenVolume& volume)
 {
-    const auto uses = edge_uses(volume.model);
     std::vector<double> shares;
     for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
         const auto bare = std::ranges::count_if(
-            rim.uses, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+            rim.uses, [&](const EdgeUse& use) { return volume.model.uses_of_edge(use.edge).size() == 1; });
         shares.push_back(static_cast<double>(bare) / static_cast<double>(rim.uses.size()));
     }
     return shares;

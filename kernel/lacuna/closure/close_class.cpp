@@ -91,11 +91,10 @@ void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 /// A loop without any wall is connected by void edges only, so it needs matched vertices.
 void check_matched(const OpenVolume& volume, const matching::Match& match)
 {
-    const auto uses = edge_uses(volume.model);
     for (std::size_t l = 0; l < match.source_loops.size(); ++l) {
         const std::vector<EdgeUse>& rim = match.source_loops[l].uses;
         const bool bare = std::ranges::all_of(
-            rim, [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
+            rim, [&](const EdgeUse& use) { return volume.model.uses_of_edge(use.edge).size() == 1; });
         const bool matched = std::ranges::any_of(rim, [&](const EdgeUse& use) {
             return std::ranges::any_of(
                 match.vertices, [&](const auto& pair) { return pair.first == use_from(volume.model, use); });
@@ -155,13 +154,12 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     std::vector<Loop> loops;
     const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
     const std::vector<Rim> open = free_loops(volume);
     for (const Rim& rim : open) {
         for (const EdgeUse& use : rim.uses) {
-            if (volume.role[uses[use.edge.index()].front().face.index()] != Role::source) continue;
+            if (volume.role[model.uses_of_edge(use.edge).front().face.index()] != Role::source) continue;
             throw NotClosed(Message("closure.wall_missing",
                                     "{} of the source has no wall, and the tops of the walls given do not "
                                     "determine the missing target there",

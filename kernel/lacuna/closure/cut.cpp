@@ -60,13 +60,15 @@ public:
     {
         find_walks();
         if (within != nullptr) choose(*within);
-        const WalkImprint made = imprint_walks(model_, walks_, plane_, tolerance_, context_);
+        ModelBuilder cut(std::move(model_));
+        const WalkImprint made = imprint_walks(cut, walks_, plane_, tolerance_, context_);
+        model_ = std::move(cut).finish();
         std::vector<Role>& role = parted_.volume.role;
         for (std::size_t f = role.size(); f < made.parent.size(); ++f)
             role.push_back(role[made.parent[f].index()]);
         parted_.plane = plane_;
         add_partitions(made);
-        build_loops(model_);
+        model_ = with_loops(std::move(model_));
         return pieces_of(parted_, {"the plane"}, context_);
     }
 
@@ -246,7 +248,7 @@ private:
                 partition.behind.insert(partition.behind.end(), skin[l].begin(), skin[l].end());
             }
             try {
-                partition.face = add_partition(model_, rings, plane_, context_);
+                partition.face = add_partition(model_, rings, plane_, partition_name(model_), context_);
             } catch (const InvalidInput& error) {
                 throw NotSweepable(
                     Message("closure.cut_touches", "the plane runs along faces that are nearly in it")
@@ -315,22 +317,22 @@ public:
 
     std::vector<StepPiece> run(const RunContext& context)
     {
-        Model& model = parted_.volume.model;
+        ModelBuilder model(std::move(parted_.volume.model));
         Face face = model_[face_];
         if (face.name.empty() && face.origin == Origin::made_void) face.name = partition_name(model);
-        for (Index& p : face.triangles | std::views::join) p = point(p);
-        for (Index& p : face.given_quads | std::views::join) p = point(p);
+        for (Index& p : face.triangles | std::views::join) p = point(p, model.points);
+        for (Index& p : face.given_quads | std::views::join) p = point(p, model.points);
         parted_.partitions.push_back({FaceId(model.faces.size()), rim_});
         parted_.volume.role.push_back(Role::wall);
         model.faces.push_back(std::move(face));
-        build_loops(model);
+        model.build_loops();
+        parted_.volume.model = std::move(model).finish();
         return pieces_of(parted_, {"", {entity_of(model_, face_)}}, context);
     }
 
 private:
-    Index point(Index p)
+    Index point(Index p, std::vector<Vec3>& points)
     {
-        std::vector<Vec3>& points = parted_.volume.model.points;
         const auto [found, fresh] = there_.try_emplace(p, static_cast<Index>(points.size()));
         if (fresh) points.push_back(model_.at(p));
         return found->second;

@@ -17,11 +17,10 @@ using namespace topology;
 std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
 {
     const Model& model = volume.model;
-    const auto uses = edge_uses(model);
     const auto enclosed = [&](const Rim& rim) {
         return geometry::newell_vector(loop_places(model, rim.uses)).norm();
     };
-    const auto is_free = [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; };
+    const auto is_free = [&](const EdgeUse& use) { return model.uses_of_edge(use.edge).size() == 1; };
     std::vector<EndHole> holes;
     for (const Role end : {Role::source, Role::target}) {
         for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(end))) {
@@ -30,7 +29,7 @@ std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
             all.erase(std::ranges::max_element(all, {}, enclosed));
             for (Rim& rim : all) {
                 if (!std::ranges::all_of(rim.uses, is_free)) continue;
-                const FaceId beside = uses[rim.uses.front().edge.index()].front().face;
+                const FaceId beside = model.uses_of_edge(rim.uses.front().edge).front().face;
                 holes.push_back({end, beside, std::move(rim)});
             }
         }

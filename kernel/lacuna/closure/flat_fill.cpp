@@ -89,8 +89,7 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
             std::vector<std::vector<EdgeUse>> bounds;
             for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
             filling.each_alone = filling.each_alone && region.size() == 1;
-            const FaceId face = add_partition(model, bounds, one.plane, context);
-            model[face].name.clear();
+            const FaceId face = add_partition(model, bounds, one.plane, "", context);
             filling.volume.role.push_back(Role::wall);
             filling.closure.void_faces.push_back(face);
         }
@@ -126,7 +125,7 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
 bool prove(FlatFilling& filling, const RunContext& context)
 {
     OpenVolume& volume = filling.volume;
-    build_loops(volume.model, context);
+    volume.model = with_loops(std::move(volume.model), context);
     orient_consistently(volume.model);
     filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
     return filling.closure.watertight;

@@ -260,10 +260,9 @@ bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy
 }
 
 /// The given face with a hole that a void face closes in its plane, if there is one.
-std::optional<FaceId> face_round_hole(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                      FaceId filler)
+std::optional<FaceId> face_round_hole(const Model& model, FaceId filler)
 {
-    const std::set<FaceId> round = faces_beside(model, uses, filler);
+    const std::set<FaceId> round = faces_beside(model, filler);
     if (round.size() != 1 || model[*round.begin()].loops.size() < 2) return std::nullopt;
     const auto plane = plane_of(model, *round.begin());
     if (!plane || !lies_in_plane(model, filler, *plane)) return std::nullopt;
@@ -302,9 +301,8 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
                                      const std::vector<FaceId>& void_faces)
 {
     std::vector<ClosedHole> holes;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(own);
     for (const FaceId face : void_faces) {
-        const auto round = face_round_hole(own, uses, face);
+        const auto round = face_round_hole(own, face);
         if (round && round->index() < given) holes.push_back({*round, face});
     }
     return holes;
@@ -338,7 +336,7 @@ std::optional<Message> guess_of_bent(const OpenVolume& sealed, const Closure& cl
     for (const FaceId face : closure.void_faces) {
         if (!is_in_doubt(sealed, enclosed, face, by)) continue;
         std::set<int> tags;
-        for (const FaceId other : faces_beside(model, edge_uses(model), face))
+        for (const FaceId other : faces_beside(model, face))
             if (model[other].origin == Origin::given) tags.insert(model[other].tag);
         std::vector<NamedEntity> beside;
         for (const int tag : tags) beside.push_back({"face", tag});

@@ -57,14 +57,15 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
 
 /// The flat faces with some adjacent walls given and others missing, those with the most adjacent faces
 /// first.
-std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vector<FaceUse>>& uses)
+std::vector<FaceId> possible_ends(const Model& model)
 {
-    constexpr std::size_t kMost = 16; // limits run time: each costs a copy of the faces
+    constexpr std::size_t kMost = 16; // limits run time: each may be closed on trial
     std::vector<std::pair<std::size_t, FaceId>> found;
     for (const FaceId face : all_faces(model)) {
-        const bool bare = std::ranges::any_of(
-            uses_of(model[face]), [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 1; });
-        const std::size_t beside = faces_beside(model, uses, face).size();
+        const bool bare = std::ranges::any_of(uses_of(model[face]), [&](const EdgeUse& use) {
+            return model.uses_of_edge(use.edge).size() == 1;
+        });
+        const std::size_t beside = faces_beside(model, face).size();
         if (bare && beside > 0 && plane_of(model, face)) found.emplace_back(beside, face);
     }
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, FaceId>::first);
@@ -78,12 +79,8 @@ std::vector<FaceId> possible_ends(const Model& model, const std::vector<std::vec
 class EndMover {
 public:
     /// @pre  the volume's model is oriented, its source is the given end, and all other faces are walls
-    /// @param uses  of the model's edges
-    EndMover(OpenVolume volume, std::vector<std::vector<FaceUse>> uses)
-        : volume_(std::move(volume)),
-          end_(volume_.faces(Role::source)),
-          climber_(volume_),
-          uses_(std::move(uses))
+    explicit EndMover(OpenVolume volume)
+        : volume_(std::move(volume)), end_(volume_.faces(Role::source)), climber_(volume_)
     {
     }
     EndMover(const EndMover&) = delete; // the climber references the volume
@@ -147,7 +144,7 @@ public:
     [[nodiscard]] const std::vector<EdgeId>& made_edges() const { return made_edges_; }
 
 private:
-    [[nodiscard]] bool is_free(EdgeId edge) const { return uses_[edge.index()].size() == 1; }
+    [[nodiscard]] bool is_free(EdgeId edge) const { return volume_.model.uses_of_edge(edge).size() == 1; }
 
     /// Index the free uses of the walls by their start vertex. False if two leave one vertex.
     bool index_rim(const Rim& rim)
@@ -372,9 +369,10 @@ private:
     {
         const auto known = above_.find(foot);
         if (known != above_.end()) return known->second;
-        Model& model = volume_.model;
+        ModelBuilder model(std::move(volume_.model));
         model.points.push_back(motion_(model.at(model[foot].point)));
-        const VertexId made = add_void_vertex(model, static_cast<Index>(model.points.size()) - 1);
+        const VertexId made = model.add_void_vertex(static_cast<Index>(model.points.size()) - 1);
+        volume_.model = std::move(model).finish();
         above_.emplace(foot, made);
         return made;
     }
@@ -401,7 +399,6 @@ private:
     std::vector<FaceId> end_;
     FaceId made_;
     Climber climber_;
-    std::vector<std::vector<FaceUse>> uses_;
     std::set<VertexId> on_end_;
     std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by start vertex
     std::vector<Rim> free_rims_;          ///< of walls
@@ -417,11 +414,11 @@ private:
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
 /// @param stop  out: set if the missing faces exist already
-std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::vector<FaceUse>>& uses,
-                                 const Known& known, bool& stop, const RunContext& context)
+std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, bool& stop,
+                                 const RunContext& context)
 {
     const FaceId end = open.faces(Role::source).front();
-    EndMover mover(open, uses);
+    EndMover mover(open);
     if (!mover.can_move()) return std::nullopt;
     stop = known(mover.missing_places());
     if (stop) return std::nullopt;
@@ -452,7 +449,7 @@ std::optional<MovedEnd> move_source(const OpenVolume& open, const RunContext& co
         return std::nullopt;
     bool stop = false;
     return move_end(
-        open, edge_uses(model), [](const std::vector<Vec3>&) { return false; }, stop, context);
+        open, [](const std::vector<Vec3>&) { return false; }, stop, context);
 }
 
 std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& faces, const Known& known,
@@ -461,15 +458,14 @@ std::vector<MovedEnd> move_ends(const Model& model, const std::vector<FaceId>& f
     OpenVolume open;
     open.model = extract(model, faces);
     orient_consistently(open.model);
-    const auto uses = edge_uses(open.model);
     std::vector<MovedEnd> found;
     if (connected_parts(open.model, all_faces(open.model)).size() != 1) return found;
-    for (const FaceId end : possible_ends(open.model, uses)) {
+    for (const FaceId end : possible_ends(open.model)) {
         check_cancelled(context);
         open.role.assign(faces.size(), Role::wall);
         open.role[end.index()] = Role::source;
         bool stop = false;
-        auto moved = move_end(open, uses, known, stop, context);
+        auto moved = move_end(open, known, stop, context);
         if (stop) return {};
         if (!moved) continue;
         moved->from = faces[end.index()];

@@ -60,11 +60,10 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
 {
     const Model& model = volume.model;
     const std::vector<double> turns = concave_turns(volume, context);
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     std::vector<FaceId> tried;
     for (std::size_t e = 0; e < turns.size(); ++e) {
         if (!(turns[e] > kConcaveEdge)) continue;
-        for (const FaceUse& use : uses[e]) {
+        for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
             const auto plane = plane_of(model, use.face);
             if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
                 continue;
@@ -96,11 +95,11 @@ EdgeId crossing_of_bores(const Model& model)
     const auto is_bore = [&](FaceId face) {
         return face_area_vector(model, face).norm() < kHalfTurn * face_area(model, face);
     };
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
-        if (!is_bore(uses[e][0].face) || !is_bore(uses[e][1].face)) continue;
-        const auto a = round_shape(model, uses[e][0].face), b = round_shape(model, uses[e][1].face);
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
+        if (!is_bore(uses[0].face) || !is_bore(uses[1].face)) continue;
+        const auto a = round_shape(model, uses[0].face), b = round_shape(model, uses[1].face);
         if (a && b && a->axis && b->axis && std::abs(a->axis->dot(*b->axis)) < kParallel) return EdgeId(e);
     }
     return {};

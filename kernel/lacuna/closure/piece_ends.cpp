@@ -54,7 +54,6 @@ class Skin {
 public:
     explicit Skin(const Model& model) : model_(model)
     {
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
         const std::size_t count = model.faces.size();
         faces_.resize(count);
         std::vector<FaceSet> at(model.vertices.size(), 0);
@@ -67,7 +66,7 @@ public:
                 for (const EdgeUse& use : loop.uses) {
                     at[use_from(model, use).index()] |= one(f);
                     at[use_to(model, use).index()] |= one(f);
-                    for (const FaceUse& user : uses[use.edge.index()]) {
+                    for (const FaceUse& user : model.uses_of_edge(use.edge)) {
                         if (user.face.index() == f) continue;
                         sides.push_back({user.face.index(), edge_length(model, use.edge), use.edge});
                         face.beside |= one(user.face.index());

@@ -35,11 +35,7 @@ struct Part {
 class Parter {
 public:
     Parter(const PartedVolume& parted, const Subject& tool, const RunContext& context)
-        : parted_(parted),
-          model_(parted.volume.model),
-          tool_(tool),
-          context_(context),
-          uses_(edge_uses(model_))
+        : parted_(parted), model_(parted.volume.model), tool_(tool), context_(context)
     {
     }
 
@@ -62,10 +58,10 @@ private:
             is_partition[partition.face.index()] = 1;
             for (const EdgeUse& use : partition.behind) rims.insert(use.edge);
         }
-        for (std::size_t e = 0; e < uses_.size(); ++e) {
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             if (rims.contains(EdgeId(e))) continue;
             std::size_t first = faces;
-            for (const FaceUse& use : uses_[e]) {
+            for (const FaceUse& use : model_.uses_of_edge(EdgeId(e))) {
                 if (is_partition[use.face.index()] != 0) continue;
                 if (first != faces) sets.unite_least(first, use.face.index());
                 first = use.face.index();
@@ -73,7 +69,7 @@ private:
         }
         for (std::size_t p = 0; p < parted_.partitions.size(); ++p) {
             for (const EdgeUse& use : parted_.partitions[p].behind) {
-                for (const FaceUse& user : uses_[use.edge.index()]) {
+                for (const FaceUse& user : model_.uses_of_edge(use.edge)) {
                     if (is_partition[user.face.index()] != 0) continue;
                     const bool behind = user.reversed == use.reversed;
                     sets.unite(faces + 2 * p + (behind ? 0 : 1), user.face.index());
@@ -241,7 +237,6 @@ private:
     const Model& model_;
     const Subject& tool_;
     const RunContext& context_;
-    std::vector<std::vector<FaceUse>> uses_;
     std::vector<Part> parts_;
 };
 
@@ -297,17 +292,20 @@ std::string partition_name(const Model& model)
 }
 
 FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loops,
-                     const geometry::Plane& plane, const RunContext& context)
+                     const geometry::Plane& plane, const std::string& name, const RunContext& context)
 {
     Outline outline;
     for (const std::vector<EdgeUse>& loop : loops)
         outline.add_loop(flat_places(plane, loop_places(model, loop)), loop_points(model, loop));
     const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
                                                                {.interior_points = false}, context);
-    const std::string name = partition_name(model);
-    const FaceId face = add_void_face(model, Geometry::newell);
-    model[face].name = name;
-    model[face].triangles = filling_of(model, outline, made, [](std::size_t) { return Vec3(); }).triangles;
+    ModelBuilder builder(std::move(model));
+    const FaceId face = builder.add_void_face(Geometry::newell);
+    builder[face].name = name;
+    builder[face].triangles = filling_of(builder, outline, made, [](std::size_t) {
+                                  return Vec3();
+                              }).triangles;
+    model = std::move(builder).finish();
     return face;
 }
 

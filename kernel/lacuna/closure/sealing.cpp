@@ -76,7 +76,8 @@ double enclosed_volume(const OpenVolume& volume)
 
 bool is_watertight(const OpenVolume& volume)
 {
-    for (const auto& uses : edge_uses(volume.model)) {
+    for (std::size_t e = 0; e < volume.model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
         if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return false;
     }
     return enclosed_volume(volume) > 0;

@@ -32,9 +32,7 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 }
 
 /// The walls that meet an end smoothly, directly or through each other; empty if they must not join it.
-std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
-                                 const std::vector<std::vector<FaceUse>>& uses,
-                                 const std::vector<double>& angle)
+std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& angle)
 {
     const Model& model = volume.model;
     const std::vector<FaceId> given = volume.faces(end);
@@ -43,7 +41,7 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
         if (!is_free_of_meshes(model[extended[i]])) return {};
         for (const EdgeUse& use : uses_of(model[extended[i]])) {
             if (angle[use.edge.index()] >= kSmooth) continue;
-            for (const FaceUse& user : uses[use.edge.index()]) {
+            for (const FaceUse& user : model.uses_of_edge(use.edge)) {
                 if (std::ranges::find(extended, user.face) != extended.end()) continue;
                 if (volume.role[user.face.index()] != Role::wall) return {};
                 extended.push_back(user.face);
@@ -54,7 +52,7 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
     if (rims(model, extended).size() != rims(model, given).size() || depth_by_width(model, extended) > 1)
         return {};
     for (const EdgeId edge : rim_edges(model, extended)) {
-        for (const FaceUse& user : uses[edge.index()]) {
+        for (const FaceUse& user : model.uses_of_edge(edge)) {
             const bool own = std::ranges::find(extended, user.face) != extended.end();
             if (!own && volume.role[user.face.index()] != Role::wall) return {};
         }
@@ -66,11 +64,10 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
 
 std::vector<FaceId> extend_smooth_ends(OpenVolume& sealed, const RunContext& context)
 {
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(sealed.model);
-    const std::vector<double> angle = angles_across(sealed.model, uses, context);
+    const std::vector<double> angle = angles_across(sealed.model, context);
     std::vector<FaceId> joined;
     for (const Role end : {Role::source, Role::target}) {
-        for (const FaceId wall : smooth_walls(sealed, end, uses, angle)) {
+        for (const FaceId wall : smooth_walls(sealed, end, angle)) {
             sealed.role[wall.index()] = end;
             joined.push_back(wall);
         }

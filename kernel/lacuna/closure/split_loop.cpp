@@ -119,15 +119,6 @@ std::optional<Run> half_run(const std::vector<std::size_t>& run)
     return std::nullopt;
 }
 
-/// The faces with free edges.
-std::vector<FaceId> faces_at_edges(const Model& model)
-{
-    std::vector<FaceId> at(model.edges.size());
-    for (const FaceId face : all_faces(model))
-        for (const EdgeUse& use : uses_of(model[face])) at[use.edge.index()] = face;
-    return at;
-}
-
 /// How often an open chain of points changes direction.
 std::size_t turns(const std::vector<Vec3>& chain)
 {
@@ -173,7 +164,6 @@ bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();
-    const std::vector<FaceId> at = faces_at_edges(model);
     std::vector<Run> ends;
     for (std::size_t i = 0; i < uses; ++i) {
         if (run[i] == 0 || run[i] == uses) continue;
@@ -182,8 +172,9 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
         const std::vector<Vec3> points = use_places(model, own);
         if (turns(points) < 2 || is_of_ring(model, own)) continue;
         const geometry::Plane plane = geometry::newell_plane({&points, 1});
-        const bool given = std::ranges::all_of(
-            own, [&](const EdgeUse& use) { return lies_in_plane(model, at[use.edge.index()], plane); });
+        const bool given = std::ranges::all_of(own, [&](const EdgeUse& use) {
+            return lies_in_plane(model, model.uses_of_edge(use.edge).back().face, plane);
+        });
         if (!given) ends.push_back({i, run[i]});
     }
     return ends;

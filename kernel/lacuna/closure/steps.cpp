@@ -52,7 +52,6 @@ struct Steps {
 Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& turns)
 {
     const Model& model = volume.model;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     Steps steps;
     const std::vector<FaceId> faces = volume.faces(end);
     if (faces.empty()) return steps;
@@ -63,11 +62,11 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
                 if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
-                    if (uses[use.edge.index()].size() > 1) ++onward;
+                    if (model.uses_of_edge(use.edge).size() > 1) ++onward;
                     continue;
                 }
                 ++away;
-                for (const FaceUse& user : uses[use.edge.index()])
+                for (const FaceUse& user : model.uses_of_edge(use.edge))
                     if (volume.role[user.face.index()] == Role::wall) risers.push_back(user.face);
             }
             if (away == 0) continue;
@@ -96,6 +95,7 @@ public:
     StepCutter(const OpenVolume& volume, Role stepped, Steps steps, const RunContext& context)
         : volume_(volume),
           model_(volume.model),
+          builder_(volume.model),
           stepped_(stepped),
           other_(stepped == Role::source ? Role::target : Role::source),
           context_(context),
@@ -110,7 +110,8 @@ public:
         across_.v = across_.normal.cross(across_.u);
         for (const Hanging& hanging : steps_.closed) hang(hanging);
         for (const FaceId face : volume_.faces(other_)) split(face);
-        build_loops(model_);
+        builder_.build_loops();
+        model_ = std::move(builder_).finish();
         return pieces();
     }
 
@@ -161,22 +162,22 @@ private:
         const auto lift = [&](Index p) {
             const auto known = above_of.find(p);
             if (known != above_of.end()) return known->second;
-            const Vec3 from = model_.at(p);
+            const Vec3 from = builder_.at(p);
             const std::optional<Hit> hit = above(from);
             if (!hit || (image.target.valid() && hit->face != image.target)) {
-                const NamedEntity step = entity_of(model_, steps_.parts[hanging.part].front());
+                const NamedEntity step = entity_of(builder_, steps_.parts[hanging.part].front());
                 if (!hit)
                     throw NotSweepable(
                         "closure.steps",
                         "the rim of the step at {} does not lie below the opposite end everywhere", step);
                 throw NotSweepable(Message("closure.steps", "the rim of the step at {} lies below {} and {}",
-                                           step, entity_of(model_, image.target),
-                                           entity_of(model_, hit->face))
+                                           step, entity_of(builder_, image.target),
+                                           entity_of(builder_, hit->face))
                                        .remedy("give the opposite end there as one face"));
             }
             image.target = hit->face;
-            const auto made = static_cast<Index>(model_.points.size());
-            model_.points.push_back(hit->place);
+            const auto made = static_cast<Index>(builder_.points.size());
+            builder_.points.push_back(hit->place);
             uv_.emplace(made, hit->uv);
             above_of.emplace(p, made);
             return made;
@@ -186,32 +187,34 @@ private:
         const auto vertex = [&](VertexId v) {
             const auto known = vertex_above.find(v);
             if (known != vertex_above.end()) return known->second;
-            return vertex_above.emplace(v, add_void_vertex(model_, lift(model_[v].point))).first->second;
+            return vertex_above.emplace(v, builder_.add_void_vertex(lift(builder_[v].point))).first->second;
         };
         const auto side_line = [&](VertexId v) {
-            if (lined.insert(v).second) add_void_edge_through(model_, v, vertex(v));
+            if (!lined.insert(v).second) return;
+            const VertexId above = vertex(v);
+            builder_.add_void_edge(v, above, {builder_[v].point, builder_[above].point});
         };
         for (const EdgeUse& use : rim.uses) {
-            const std::vector<Index> low = use_points(model_, use);
+            const std::vector<Index> low = use_points(builder_, use);
             std::vector<Index> high;
             for (const Index p : low) high.push_back(lift(p));
-            const VertexId from = use_from(model_, use), to = use_to(model_, use);
+            const VertexId from = use_from(builder_, use), to = use_to(builder_, use);
             // A closed rim gives a ring face with two loops, other rims one face per side.
             const bool closed = rim.uses.size() == 1;
-            add_void_edge(model_, vertex(from), vertex(to), high);
+            builder_.add_void_edge(vertex(from), vertex(to), high);
             if (!closed) {
                 side_line(from);
                 side_line(to);
             }
-            image.curtain.push_back(add_void_face(model_, Geometry::transfinite));
-            Face& face = model_.faces.back();
+            image.curtain.push_back(builder_.add_void_face(Geometry::transfinite));
+            Face& face = builder_.faces.back();
             for (std::size_t i = 0; i + 1 < low.size(); ++i) {
                 face.triangles.push_back({low[i], low[i + 1], high[i + 1]});
                 face.triangles.push_back({low[i], high[i + 1], high[i]});
             }
             image.points.insert(image.points.end(), high.begin(), high.end() - 1);
         }
-        image.flat = flat_places(across_, places_at(model_, image.points));
+        image.flat = flat_places(across_, places_at(builder_, image.points));
         images_.push_back(std::move(image));
     }
 
@@ -232,9 +235,9 @@ private:
             std::vector<Vec2> flat;
         };
         std::vector<Ring> rings;
-        for (const Loop& loop : border_loops(model_, id)) {
-            std::vector<Index> points = loop_points(model_, loop.uses);
-            std::vector<Vec2> flat = flat_places(across_, places_at(model_, points));
+        for (const Loop& loop : border_loops(builder_, id)) {
+            std::vector<Index> points = loop_points(builder_, loop.uses);
+            std::vector<Vec2> flat = flat_places(across_, places_at(builder_, points));
             rings.push_back({std::move(points), std::move(flat)});
         }
         const std::size_t given = rings.size();
@@ -250,8 +253,8 @@ private:
                 if (depth_in(i, o) && (best == rings.size() || depth_in(o, best))) best = o;
         }
 
-        const Face before = model_[id];
-        const Vec3 area = face_area_vector(model_, id);
+        const Face before = builder_[id];
+        const Vec3 area = face_area_vector(builder_, id);
         const bool turned = area.dot(across_.normal) < 0;
         bool first = true;
         for (std::size_t outer = 0; outer < rings.size(); ++outer) {
@@ -268,7 +271,7 @@ private:
             } catch (const InvalidInput& error) { // the error names loops, not faces
                 throw NotSweepable(Message("closure.steps",
                                            "{} cannot be split along the projected outlines of the steps",
-                                           entity_of(model_, id))
+                                           entity_of(builder_, id))
                                        .attempt(error.message()));
             }
             Face face = before;
@@ -276,17 +279,17 @@ private:
             face.uv.clear();
             face.given_quads.clear();
             face.keeps_nodes = false;
-            const auto first_made = static_cast<Index>(model_.points.size());
-            VoidFilling filling = filling_of(model_, outline, made, [&](std::size_t p) {
+            const auto first_made = static_cast<Index>(builder_.points.size());
+            VoidFilling filling = filling_of(builder_, outline, made, [&](std::size_t p) {
                 const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()));
                 if (!hit)
                     throw NotSweepable("closure.steps",
                                        "{} folds back as seen along the sweep and cannot be cut",
-                                       entity_of(model_, id));
+                                       entity_of(builder_, id));
                 uv_.insert_or_assign(first_made + static_cast<Index>(p - outline.flat.size()), hit->uv);
                 return hit->place;
             });
-            model_.points.insert(model_.points.end(), filling.points.begin(), filling.points.end());
+            builder_.points.insert(builder_.points.end(), filling.points.begin(), filling.points.end());
             face.triangles = std::move(filling.triangles);
             if (turned)
                 for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
@@ -294,18 +297,18 @@ private:
             region[outer] = regions_.size();
             if (first) {
                 regions_.push_back(id);
-                model_[id] = std::move(face);
+                builder_[id] = std::move(face);
             } else {
-                regions_.emplace_back(model_.faces.size());
-                model_.faces.push_back(std::move(face));
+                regions_.emplace_back(builder_.faces.size());
+                builder_.faces.push_back(std::move(face));
             }
             first = false;
         }
         for (std::size_t i = 0; i < own.size(); ++i) {
             if (parents[given + i] == rings.size())
                 throw NotSweepable("closure.steps", "the rim of the step at {} does not lie within {}",
-                                   entity_of(model_, steps_.parts[own[i]->part].front()),
-                                   entity_of(model_, id));
+                                   entity_of(builder_, steps_.parts[own[i]->part].front()),
+                                   entity_of(builder_, id));
             own[i]->inside = region[given + i];
             own[i]->outside = region[parents[given + i]];
         }
@@ -419,7 +422,6 @@ private:
         for (const Imprinted& image : images_) {
             for (const EdgeUse& use : image.rim.uses) hung.emplace(use.edge, &image);
         }
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model_);
         const Imprinted* down = nullptr;
         std::size_t beside = steps_.parts.size();
         for (const FaceId face : faces) {
@@ -428,7 +430,7 @@ private:
                     down = at->second;
                     continue;
                 }
-                for (const FaceUse& user : uses[use.edge.index()]) {
+                for (const FaceUse& user : model_.uses_of_edge(use.edge)) {
                     for (std::size_t p = 0; p < steps_.parts.size(); ++p)
                         if (std::ranges::find(steps_.parts[p], user.face) != steps_.parts[p].end()) return p;
                     for (std::size_t p = 0; p < opposite.size(); ++p)
@@ -440,7 +442,8 @@ private:
     }
 
     const OpenVolume& volume_;
-    Model model_;
+    Model model_; ///< with the cuts as soon as all are made
+    ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
     Steps steps_;            ///< of the stepped end
@@ -467,7 +470,7 @@ void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunC
     add_void_face(volume,
                   fill(volume, {reversed(open.front())}, nullptr, {"the end opposite ", {step}}, context),
                   other);
-    build_loops(volume.model);
+    volume.model = with_loops(std::move(volume.model));
 }
 
 /// Cut a volume, and all resulting pieces that are crossed, by the planes of some of its faces in turn.

@@ -19,9 +19,9 @@ class Walker {
 public:
     Walker(const Model& model, const std::vector<EdgeId>& void_edges) : model_(model)
     {
-        const auto uses = edge_uses(model);
-        for (std::size_t e = 0; e < uses.size(); ++e) {
-            if (uses[e].size() == 1) add({EdgeId(e), !uses[e].front().reversed});
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+            if (uses.size() == 1) add({EdgeId(e), !uses.front().reversed});
         }
         for (const EdgeId edge : void_edges) {
             made_.insert(edge);

@@ -380,21 +380,26 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
 
 EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
 {
+    ModelBuilder builder(std::move(model));
     std::vector<Index> points(between.size() + 2);
-    std::iota(points.begin() + 1, points.end(), static_cast<Index>(model.points.size()));
-    points.front() = model[from].point;
-    points.back() = model[to].point;
-    model.points.insert(model.points.end(), between.begin(), between.end());
-    return add_void_edge(model, from, to, std::move(points));
+    std::iota(points.begin() + 1, points.end(), static_cast<Index>(builder.points.size()));
+    points.front() = builder[from].point;
+    points.back() = builder[to].point;
+    builder.points.insert(builder.points.end(), between.begin(), between.end());
+    const EdgeId edge = builder.add_void_edge(from, to, std::move(points));
+    model = std::move(builder).finish();
+    return edge;
 }
 
 FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)
 {
-    Model& model = volume.model;
-    const FaceId id = topology::add_void_face(model, filling.geometry);
+    ModelBuilder model(std::move(volume.model));
+    const FaceId id = model.add_void_face(filling.geometry);
+    model[id].name = std::move(filling.name);
     model[id].triangles = std::move(filling.triangles);
     model[id].loops = std::move(filling.loops);
     model.points.insert(model.points.end(), filling.points.begin(), filling.points.end());
+    volume.model = std::move(model).finish();
     volume.role.push_back(role);
     return id;
 }

@@ -163,10 +163,11 @@ FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
     return soup;
 }
 
-/// Restore the previous order of faces, new ones last, and their tags, names and groups.
+/// Restore the previous order of faces, new ones last, their tags, names and groups, and the model's source,
+/// diagonal and notes.
 void arrange(const topology::Model& before, Index seed, GrownFace& found)
 {
-    topology::Model& model = found.model;
+    topology::ModelBuilder model(std::move(found.model));
     const std::size_t count = before.faces.size();
     std::vector<std::vector<std::size_t>> parts(count + 1); // by label, the largest first
     for (std::size_t f = 0; f < model.faces.size(); ++f) parts[std::stoul(model.faces[f].name)].push_back(f);
@@ -198,6 +199,10 @@ void arrange(const topology::Model& before, Index seed, GrownFace& found)
         for (std::size_t p = 1; p < parts[f].size(); ++p) take(parts[f][p], f, ++next);
     for (std::size_t p = 1; p < parts[count].size(); ++p) take(parts[count][p], index(seed), ++next);
     model.faces = std::move(all);
+    model.source = before.source;
+    model.diagonal = before.diagonal;
+    model.notes = before.notes;
+    found.model = std::move(model).finish();
 }
 
 } // namespace
@@ -232,9 +237,6 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
     found.model = split_facets(soup_of(model, grower.cells(), grown),
                                {options.feature_angle, model.tolerance, true}, context);
     arrange(model, seed, found);
-    found.model.source = model.source;
-    found.model.diagonal = model.diagonal;
-    found.model.notes = model.notes;
     return found;
 }
 

@@ -40,8 +40,8 @@ bool drop_folds(topology::Face& face)
 
 } // namespace
 
-LooseModel::LooseModel(topology::Model model)
-    : model_(std::move(model)),
+LooseModel::LooseModel(const topology::Model& model)
+    : model_(model),
       edge_gone_(model_.edges.size(), false),
       face_gone_(model_.faces.size(), false),
       users_(model_.edges.size()),
@@ -53,9 +53,8 @@ LooseModel::LooseModel(topology::Model model)
 {
     for (std::size_t v = 0; v < vertex_joined_.size(); ++v) vertex_joined_[v] = VertexId(v);
     for (const topology::Edge& edge : model_.edges) next_edge_tag_ = std::max(next_edge_tag_, edge.tag + 1);
-    const auto uses = edge_uses(model_);
-    for (std::size_t e = 0; e < uses.size(); ++e)
-        for (const topology::FaceUse& use : uses[e]) users_[e].push_back(use.face);
+    for (std::size_t e = 0; e < users_.size(); ++e)
+        for (const topology::FaceUse& use : model.uses_of_edge(EdgeId(e))) users_[e].push_back(use.face);
     for (const topology::Face& face : model_.faces)
         for (const Quad& q : face.given_quads)
             for (const Index p : q) kept_[index(p)] = true;
@@ -304,8 +303,8 @@ topology::Model LooseModel::settled(const RunContext& context)
     renew_parameters(context);
     compact();
     for (topology::Face& face : model_.faces) face.loops.clear();
-    topology::build_loops(model_);
-    return std::move(model_);
+    model_.build_loops();
+    return std::move(model_).finish();
 }
 
 void LooseModel::compact()

@@ -67,7 +67,7 @@ Part flood(FaceId start, const std::map<FaceId, std::vector<std::pair<FaceId, bo
 
 } // namespace
 
-void orient_groups(topology::Model& model, const std::vector<std::vector<std::size_t>>& groups)
+void orient_groups(topology::ModelBuilder& model, const std::vector<std::vector<std::size_t>>& groups)
 {
     for (const std::vector<std::size_t>& group : groups) {
         std::map<FaceId, std::vector<std::pair<FaceId, bool>>> neighbours;
@@ -87,10 +87,11 @@ void orient_groups(topology::Model& model, const std::vector<std::vector<std::si
             Part part = flood(FaceId(start), neighbours, turned);
             if (!part.agrees) continue;
             for (const FaceId f : part.faces) {
-                if (turned[f]) flip_faces(model, {f});
+                if (turned[f]) model.flip(f);
                 part.closed = part.closed && !open.contains(f);
             }
-            if (part.closed && volume_integral(model, part.faces) < 0) flip_faces(model, part.faces);
+            if (part.closed && volume_integral(model, part.faces) < 0)
+                for (const FaceId f : part.faces) model.flip(f);
         }
     }
 }

@@ -175,7 +175,7 @@ bool is_plane(const std::vector<Vec3>& points, const std::vector<Triangle>& tria
     return high - low <= 2 * tolerance;
 }
 
-void add_faces(topology::Model& model, const Facets& facets, const Flood& flood, const FacetSoup& soup)
+void add_faces(topology::ModelBuilder& model, const Facets& facets, const Flood& flood, const FacetSoup& soup)
 {
     model.faces.resize(index(flood.faces));
     for (std::size_t f = 0; f < facets.count(); ++f) {
@@ -206,7 +206,7 @@ void add_faces(topology::Model& model, const Facets& facets, const Flood& flood,
 /// Chains the segments between faces into edges.
 class Chains {
 public:
-    Chains(topology::Model& model, const FacetSides& sides, const Flood& flood, double feature,
+    Chains(topology::ModelBuilder& model, const FacetSides& sides, const Flood& flood, double feature,
            const RunContext& context)
         : model_(model),
           sides_(sides),
@@ -338,7 +338,7 @@ private:
         model_.edges.push_back(std::move(edge));
     }
 
-    topology::Model& model_;
+    topology::ModelBuilder& model_;
     const FacetSides& sides_;
     const RunContext& context_;
     double least_cosine_;
@@ -369,7 +369,7 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     check_cancelled(context);
     const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature,
                                     context);
-    topology::Model model;
+    topology::ModelBuilder model;
     model.points = facets.points;
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
@@ -386,8 +386,8 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     check_cancelled(context);
     Chains(model, sides, flood, feature, context).add_edges(flood);
     check_cancelled(context);
-    topology::build_loops(model, context);
-    return model;
+    model.build_loops(context);
+    return std::move(model).finish();
 }
 
 } // namespace lacuna::healing

@@ -27,8 +27,8 @@ constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {
 public:
-    Stitcher(topology::Model model, double tolerance, const RunContext& context, double share)
-        : loose_(std::move(model)), tolerance_(tolerance), share_(share), context_(context)
+    Stitcher(const topology::Model& model, double tolerance, const RunContext& context, double share)
+        : loose_(model), tolerance_(tolerance), share_(share), context_(context)
     {
     }
 
@@ -593,7 +593,7 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
     }
     const bool has_loops = std::any_of(model.faces.begin(), model.faces.end(),
                                        [](const topology::Face& face) { return !face.loops.empty(); });
-    if (!has_loops && !model.edges.empty()) topology::build_loops(model);
+    if (!has_loops && !model.edges.empty()) model = topology::with_loops(model);
     check_cancelled(context);
     Stitcher stitcher(model, tolerance, context, share);
     StitchReport report = stitcher.run();

@@ -88,9 +88,11 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.notes, more.notes);
 }
 
-/// Put the entities of `more` after those of `model`; face, edge and vertex tags count on.
-void append(topology::Model& model, topology::Model more)
+/// The entities of one model and after them those of another, without their loops; face, edge and vertex tags
+/// count on.
+topology::Model joined(topology::Model first, topology::Model second)
 {
+    topology::ModelBuilder model(std::move(first)), more(std::move(second));
     const auto points = static_cast<Index>(model.points.size());
     const std::size_t vertices = model.vertices.size();
     const int vertex_tag = highest_tag(model.vertices);
@@ -126,11 +128,12 @@ void append(topology::Model& model, topology::Model more)
     model.tolerance = std::max(model.tolerance, more.tolerance);
     model.source += ", " + more.source;
     move_in(model.notes, more.notes);
+    return std::move(model).finish();
 }
 
 /// Give faces the data of their labels and, if a label is a single face, its tag; other tags follow the
 /// highest one.
-void name_faces(topology::Model& model, const std::vector<std::string>& names, const FacetFile& file)
+void name_faces(topology::ModelBuilder& model, const std::vector<std::string>& names, const FacetFile& file)
 {
     std::vector<std::size_t> label_of_face;
     std::vector<int> faces_of_label(names.size(), 0);
@@ -222,11 +225,13 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
-    loaded.model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context);
-    name_faces(loaded.model, names, all);
-    loaded.model.source = source;
-    move_in(loaded.model.notes, all.notes);
-    loaded.model.notes.insert(loaded.model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
+    topology::ModelBuilder model(
+        healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context));
+    name_faces(model, names, all);
+    model.source = source;
+    move_in(model.notes, all.notes);
+    model.notes.insert(model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
+    loaded.model = std::move(model).finish();
     return loaded;
 }
 
@@ -247,7 +252,9 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
     if (report.changed()) log_line(context, report.summary());
     move_in(loaded.warnings, report.sewn);
-    move_in(model.notes, report.notes);
+    topology::ModelBuilder noted(std::move(model));
+    move_in(noted.notes, report.notes);
+    model = std::move(noted).finish();
     for (const std::string& note : model.notes) {
         const bool told = std::ranges::find(loaded.warnings, note) != loaded.warnings.end();
         log_line(context, told ? "note: " + note : note);
@@ -282,9 +289,9 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
         if (other.empty())
             loaded.model = std::move(more.model);
         else
-            append(loaded.model, std::move(more.model));
+            loaded.model = joined(std::move(loaded.model), std::move(more.model));
     }
-    if (!other.empty()) topology::build_loops(loaded.model, context);
+    if (!other.empty()) loaded.model = topology::with_loops(std::move(loaded.model), context);
     stitch(loaded, options, context);
     return loaded;
 }

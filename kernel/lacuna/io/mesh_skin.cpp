@@ -36,7 +36,7 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
     }
     healing::SplitOptions options;
     options.whole_labels = true;
-    topology::Model model = healing::split_facets(soup, options, context);
+    topology::ModelBuilder model(healing::split_facets(soup, options, context));
     topology::Roles roles;
     MeshSkin skin;
     skin.face.resize(mesh.patches.size());
@@ -57,7 +57,7 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
             throw InvalidInput("io.skin_in_pieces", "{} of a mesh has no quads",
                                numbered("patch", mesh.patches[p].tag));
     }
-    skin.volume = topology::open_volume(model, roles, context);
+    skin.volume = topology::open_volume(std::move(model).finish(), roles, context);
     return skin;
 }
 

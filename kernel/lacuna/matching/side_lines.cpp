@@ -183,10 +183,9 @@ bool has_choices(const OpenVolume& volume, const std::set<EdgeId>& edges)
 /// The wall parts that have some of these edges; heights of other parts are not needed.
 std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const std::set<EdgeId>& edges)
 {
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
     std::set<FaceId> beside;
     for (const EdgeId edge : edges)
-        for (const FaceUse& use : uses[edge.index()]) beside.insert(use.face);
+        for (const FaceUse& use : volume.model.uses_of_edge(edge)) beside.insert(use.face);
     std::vector<std::vector<FaceId>> parts = connected_parts(volume.model, volume.faces(Role::wall));
     std::erase_if(parts, [&](const std::vector<FaceId>& part) {
         return std::ranges::none_of(part, [&](FaceId face) { return beside.contains(face); });

@@ -75,7 +75,6 @@ void apply_splits(OpenVolume& volume, Match& match)
 {
     if (match.splits.empty()) return;
     Model& model = volume.model;
-    const auto uses = edge_uses(model);
     // Split each edge from its end, so that the part before a split keeps the edge's id.
     std::vector<Split> splits = std::exchange(match.splits, {});
     std::ranges::stable_sort(splits, std::greater{}, &Split::fraction);
@@ -83,12 +82,13 @@ void apply_splits(OpenVolume& volume, Match& match)
     for (const Split& split : splits) length.try_emplace(split.edge, edge_length(model, split.edge));
     for (const Split& split : splits) {
         const double wanted = split.fraction * length[split.edge];
-        const bool on_wall = uses[split.edge.index()].size() != 1;
+        const std::span<const FaceUse> uses = model.uses_of_edge(split.edge);
+        const bool on_wall = uses.size() != 1;
         // An edge that keeps its nodes is split at a node, so the part before may be shorter than this.
         const double in_front = edge_length(model, split.edge);
         const bool at_end = std::min(wanted, in_front - wanted) <= model.tolerance;
         const bool no_node = model[split.edge].points.size() == 2 &&
-                             std::ranges::any_of(uses[split.edge.index()], [&](const FaceUse& use) {
+                             std::ranges::any_of(uses, [&](const FaceUse& use) {
                                  return !model[use.face].given_quads.empty();
                              });
         if (on_wall || at_end || no_node) {

@@ -31,7 +31,7 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
 class RimReader {
 public:
     RimReader(const OpenVolume& volume, const LayerTables& tables)
-        : volume_(volume), model_(volume.model), tables_(tables), uses_(edge_uses(volume.model))
+        : volume_(volume), model_(volume.model), tables_(tables)
     {
         rows_.heights = tables.heights;
     }
@@ -42,8 +42,8 @@ public:
         for (const LinkingSurface& link : links) {
             for (const RimSegment& segment : link.segments) {
                 const EdgeId edge = link.source.uses()[segment.use].edge;
-                const FaceId low = wall_on(volume_, uses_, edge),
-                             high = wall_on(volume_, uses_, target_use(link, segment).edge);
+                const FaceId low = wall_on(volume_, edge),
+                             high = wall_on(volume_, target_use(link, segment).edge);
                 const FaceId wall = tables_.at(low) < 0 && tables_.at(high) >= 0 ? high : low;
                 const auto [from, to] = edge_part(link, segment);
                 rows_.parts[edge].push_back({from, to, tables_.at(wall), wall});
@@ -120,7 +120,6 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const LayerTables& tables_;
-    std::vector<std::vector<FaceUse>> uses_;
     RimRows rows_;
 };
 
@@ -167,9 +166,9 @@ bool has_face(const OpenVolume& volume, int tag)
     return std::ranges::any_of(volume.model.faces, [&](const Face& face) { return is_tagged(face, tag); });
 }
 
-FaceId wall_on(const OpenVolume& volume, std::span<const std::vector<FaceUse>> uses, EdgeId edge)
+FaceId wall_on(const OpenVolume& volume, EdgeId edge)
 {
-    for (const FaceUse& use : uses[edge.index()]) {
+    for (const FaceUse& use : volume.model.uses_of_edge(edge)) {
         if (volume.role[use.face.index()] == Role::wall) return use.face;
     }
     return {};

@@ -45,11 +45,11 @@ private:
         const Model& base = base_.model;
         std::map<VertexId, VertexId> partner;
         for (const RimPair& pair : pairs_) partner[pair.target] = pair.source;
-        const auto uses = edge_uses(base);
         std::set<VertexId> on_rim;
-        for (std::size_t e = 0; e < uses.size(); ++e) {
-            if (uses[e].size() != 2) continue;
-            const Role a = base_.role[uses[e][0].face.index()], b = base_.role[uses[e][1].face.index()];
+        for (std::size_t e = 0; e < base.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = base.uses_of_edge(EdgeId(e));
+            if (uses.size() != 2) continue;
+            const Role a = base_.role[uses[0].face.index()], b = base_.role[uses[1].face.index()];
             if ((a == Role::source) == (b == Role::source)) continue;
             on_rim.insert({base.edges[e].from, base.edges[e].to});
             flat_.rim.emplace_back(e);

@@ -66,15 +66,18 @@ public:
         pair_closed();
         flat_ = lay_flat(base_, *map_, pairs_, closed_, inner_, reach_);
         cut_source();
+        builder_.emplace(model());
         add_target();
         set_borders();
         check_sizes();
         split_faces();
+        model() = std::move(builder()).finish();
         return std::move(result_);
     }
 
 private:
     Model& model() { return result_.volume->model; }
+    ModelBuilder& builder() { return *builder_; }
 
     /// If both ends are split the same way, edges map to edges and no map is needed.
     bool match_alike()
@@ -97,7 +100,7 @@ private:
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
-            const Model& model = result_.volume->model;
+            const Model& model = *builder_;
             const double swept = std::abs(image.to - image.from) * edge_length(model, image.target);
             const double shrunk = swept / edge_length(model, edge);
             if (shrunk <= kMostShrunk) continue;
@@ -200,9 +203,10 @@ private:
             const FaceId face = map_->on_source(middle).face;
             split_.insert(face);
             const Edge edge = new_edge(piece, target, face);
-            borders_.push_back({EdgeId(model().edges.size()), EdgeImage{target, piece.from_at, piece.to_at}});
+            borders_.push_back(
+                {EdgeId(builder().edges.size()), EdgeImage{target, piece.from_at, piece.to_at}});
             new_on_[borders_.back().source] = face;
-            model().edges.push_back(edge);
+            builder().edges.push_back(edge);
         }
     }
 
@@ -210,16 +214,16 @@ private:
     {
         if (flat_.vertex[node].valid()) return flat_.vertex[node];
         Vertex vertex{add_point(face, flat_.place[node]), 1, Origin::made_void};
-        for (const Vertex& other : model().vertices) vertex.tag = std::max(vertex.tag, other.tag + 1);
-        flat_.vertex[node] = VertexId(model().vertices.size());
-        model().vertices.push_back(vertex);
+        for (const Vertex& other : builder().vertices) vertex.tag = std::max(vertex.tag, other.tag + 1);
+        flat_.vertex[node] = VertexId(builder().vertices.size());
+        builder().vertices.push_back(vertex);
         return flat_.vertex[node];
     }
 
     Index add_point(FaceId face, const Vec2& place)
     {
-        const auto point = static_cast<Index>(model().points.size());
-        model().points.push_back(
+        const auto point = static_cast<Index>(builder().points.size());
+        builder().points.push_back(
             points_at(base_.model, face, std::array{map_->on_face(face, place)}).front());
         set_place(point, place);
         return point;
@@ -278,20 +282,20 @@ private:
             const int parts = std::max(1, static_cast<int>(std::ceil(way.norm() / step)));
             for (int k = 1; k <= parts; ++k) line.emplace_back(piece.line[i] + way * k / parts);
         }
-        Edge edge = model()[target];
+        Edge edge = builder()[target];
         edge.curve = nullptr;
         edge.params.clear();
         edge.from = vertex_at(piece.from, face);
         edge.to = vertex_at(piece.to, face);
-        edge.points = {model()[edge.from].point};
+        edge.points = {builder()[edge.from].point};
         for (std::size_t i = 1; i + 1 < line.size(); ++i) edge.points.push_back(add_point(face, line[i]));
-        edge.points.push_back(model()[edge.to].point);
+        edge.points.push_back(builder()[edge.to].point);
         if (on.surface != nullptr) {
             std::vector<Vec3> points;
             std::vector<Vec2> uv;
             for (std::size_t i = 0; i < line.size(); ++i) {
                 const Vec2& inward = line[i == 0 ? 1 : i + 1 == line.size() ? i - 1 : i];
-                points.push_back(model().at(edge.points[i]));
+                points.push_back(builder().at(edge.points[i]));
                 uv.push_back(parameters(face, line[i] + kWayIn * (inward - line[i])));
                 if (i > 0) uv.back() = unwrapped(face, uv.back(), uv[i - 1]);
                 edge.params.push_back(static_cast<double>(i));
@@ -306,7 +310,7 @@ private:
     {
         std::map<EdgeUse, FaceId> left;
         for (const FaceId face : result_.volume->faces(role)) {
-            for (const EdgeUse& use : uses_of(model()[face])) left[use] = face;
+            for (const EdgeUse& use : uses_of(builder()[face])) left[use] = face;
         }
         return left;
     }
@@ -318,7 +322,7 @@ private:
         target_left_ = faces_on_left(Role::target);
         for (const EdgeId edge : flat_.rim) borders_.push_back({edge, {}});
         for (const Border& border : borders_) {
-            const Edge& edge = model()[border.source];
+            const Edge& edge = builder()[border.source];
             PlaneChain chain{{}, edge.from.index(), edge.to.index()};
             for (const Index p : edge.points) chain.line.push_back(place_[index(p)]);
             if (!new_on_.contains(border.source)) {
@@ -402,17 +406,17 @@ private:
             }
         }
         std::set<FaceId> begun;
-        result_.target_of.assign(model().faces.size(), {});
+        result_.target_of.assign(builder().faces.size(), {});
         for (std::size_t r = 0; r < regions.size(); ++r) {
             if (!target[r].valid() || !source[r].valid())
-                refuse_imprint(model(), inner_.front(),
+                refuse_imprint(builder(), inner_.front(),
                                "a part of the other end has no counterpart on this one");
             FaceId face = source[r];
             if (!begun.insert(face).second) {
                 if (!split_.contains(face)) // its loops bound one region, or the plane map is torn
-                    refuse_imprint(model(), inner_.front(), "the edges of both ends cross inconsistently");
-                face = FaceId(model().faces.size());
-                model().faces.push_back(base_.model[source[r]]);
+                    refuse_imprint(builder(), inner_.front(), "the edges of both ends cross inconsistently");
+                face = FaceId(builder().faces.size());
+                builder().faces.push_back(base_.model[source[r]]);
                 result_.volume->role.push_back(Role::source);
                 result_.source_of.push_back(source[r]);
                 result_.target_of.emplace_back();
@@ -427,7 +431,7 @@ private:
         if (!found.valid()) return;
         if (known.valid() && known != found) {
             const Border& border = borders_[use.chain];
-            refuse_imprint(model(), border.image ? border.image->target : inner_.front(),
+            refuse_imprint(builder(), border.image ? border.image->target : inner_.front(),
                            "there it crosses other edges inconsistently");
         }
         known = found;
@@ -445,7 +449,7 @@ private:
             Loop& own = uses.emplace_back();
             for (const PlaneUse& use : walk) {
                 own.uses.push_back({borders_[use.chain].source, use.reversed});
-                const std::vector<Index> along = use_points(model(), own.uses.back());
+                const std::vector<Index> along = use_points(builder(), own.uses.back());
                 for (std::size_t i = 0; i + 1 < along.size(); ++i) {
                     loop.push_back(static_cast<Index>(points.size()));
                     points.push_back(along[i]);
@@ -469,7 +473,7 @@ private:
                 Message("surface.not_imprinted",
                         "{} lies inside one end and cannot be imprinted on the other: the part "
                         "it cuts off on {} has no valid outline",
-                        entity_of(model(), edge), entity_of(base_.model, of))
+                        entity_of(builder(), edge), entity_of(base_.model, of))
                     .attempt(error.message()));
         }
         for (std::size_t p = places.size(); p < made.points.size(); ++p)
@@ -488,7 +492,7 @@ private:
                                        parameters(of, centre));
             }
         }
-        Face& now = model()[face];
+        Face& now = builder()[face];
         now.triangles = std::move(triangles);
         now.uv = std::move(uv);
         now.loops = std::move(uses);
@@ -501,7 +505,8 @@ private:
     std::vector<EdgeId> inner_;
     std::vector<RimPair> pairs_;
     Imprint result_;
-    OpenVolume base_; ///< with split rims and whole faces
+    std::optional<ModelBuilder> builder_; ///< of its model, when the rims are split
+    OpenVolume base_;                     ///< with split rims and whole faces
     std::optional<EndsMap> map_;
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
@@ -528,11 +533,11 @@ void refuse_imprint(const Model& model, EdgeId edge, const char* why)
 std::vector<EdgeId> inner_edges(const OpenVolume& volume, Role role)
 {
     std::vector<EdgeId> result;
-    const auto uses = edge_uses(volume.model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        const bool inner = uses[e].size() == 2 && uses[e][0].face != uses[e][1].face &&
-                           volume.role[uses[e][0].face.index()] == role &&
-                           volume.role[uses[e][1].face.index()] == role;
+    for (std::size_t e = 0; e < volume.model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
+        const bool inner = uses.size() == 2 && uses[0].face != uses[1].face &&
+                           volume.role[uses[0].face.index()] == role &&
+                           volume.role[uses[1].face.index()] == role;
         if (inner) result.emplace_back(e);
     }
     return result;

@@ -16,7 +16,7 @@ namespace {
 class IntervalFinder {
 public:
     IntervalFinder(const OpenVolume& volume, std::span<const LinkingSurface> links)
-        : volume_(volume), model_(volume.model), links_(links), uses_(edge_uses(volume.model))
+        : volume_(volume), model_(volume.model), links_(links)
     {
     }
 
@@ -45,7 +45,7 @@ private:
     [[nodiscard]] EdgeId edge_tagged(int tag) const
     {
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (model_.edges[e].tag == tag && !uses_[e].empty()) return EdgeId(e);
+            if (model_.edges[e].tag == tag && !model_.uses_of_edge(EdgeId(e)).empty()) return EdgeId(e);
         }
         throw InvalidInput(Message("surface.no_such_edge",
                                    "sweep: option 'intervals' names {}, which the volume does not have",
@@ -73,7 +73,7 @@ private:
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
             const bool along = is(edge.from, 0) && is(edge.to, 1), back = is(edge.from, 1) && is(edge.to, 0);
-            if (uses_[e].empty() || (!along && !back)) continue;
+            if (model_.uses_of_edge(EdgeId(e)).empty() || (!along && !back)) continue;
             found.emplace_back(e);
             reversed = !along;
         }
@@ -95,7 +95,7 @@ private:
     {
         SidesAsked asked{
             {}, interval.count, reversed ? 1 / interval.bias : interval.bias, entity_of(model_, edge)};
-        for (const FaceUse& use : uses_[edge.index()]) {
+        for (const FaceUse& use : model_.uses_of_edge(edge)) {
             if (volume_.role[use.face.index()] != Role::source) continue;
             asked.parts.push_back({edge, 0, 1, false});
             demands_.sides.push_back(std::move(asked));
@@ -182,8 +182,8 @@ private:
         for (const LinkingSurface& link : links_) {
             add_segments(link, asked, [&](const RimSegment& segment) {
                 const EdgeId low = link.source.uses()[segment.use].edge;
-                return walls.contains(wall_on(volume_, uses_, low)) ||
-                       walls.contains(wall_on(volume_, uses_, target_use(link, segment).edge));
+                return walls.contains(wall_on(volume_, low)) ||
+                       walls.contains(wall_on(volume_, target_use(link, segment).edge));
             });
         }
         if (asked.parts.empty())
@@ -211,7 +211,6 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     std::span<const LinkingSurface> links_;
-    std::vector<std::vector<FaceUse>> uses_;
     IntervalDemands demands_;
 };
 

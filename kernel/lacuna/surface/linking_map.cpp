@@ -88,9 +88,10 @@ double value_at(const std::vector<double>& values, double at)
 }
 
 /// Whether an edge was created by closing, between two void faces.
-bool is_void(const Model& model, EdgeId edge, const std::vector<FaceUse>& beside)
+bool is_void(const Model& model, EdgeId edge)
 {
-    return model[edge].origin == Origin::made_void && std::ranges::all_of(beside, [&](const FaceUse& user) {
+    return model[edge].origin == Origin::made_void &&
+           std::ranges::all_of(model.uses_of_edge(edge), [&](const FaceUse& user) {
                return model[user.face].origin == Origin::made_void;
            });
 }
@@ -397,13 +398,12 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
     }
     std::vector<Ring> pieces;
-    const auto uses = edge_uses(model);
     for (const FaceId wall : link.walls) {
         for (const EdgeUse& use : uses_of(model[wall])) {
             if (!taken.insert(use.edge).second) continue;
-            const std::vector<FaceUse>& beside = uses[use.edge.index()];
+            const std::span<const FaceUse> beside = model.uses_of_edge(use.edge);
             const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-            if (seam || (!void_edges && is_void(model, use.edge, beside))) continue;
+            if (seam || (!void_edges && is_void(model, use.edge))) continue;
             Ring piece;
             double along = 0, up = 0;
             const std::vector<Index> points = use_points(model, use);

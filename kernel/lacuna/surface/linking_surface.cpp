@@ -184,9 +184,8 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(volume.model);
     for (const EdgeUse& use : link.lines.front().line.uses) {
-        const std::vector<FaceUse>& beside = uses[use.edge.index()];
+        const std::span<const FaceUse> beside = volume.model.uses_of_edge(use.edge);
         if (beside.size() != 2 || beside[0].face != beside[1].face) return false;
     }
     const LinkingMap map(volume, link, true, context);

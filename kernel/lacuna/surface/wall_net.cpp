@@ -406,8 +406,7 @@ WallNet wall_net(const Model& model, const LinkingSurface& link, const LinkingMa
 void refuse_wall_edge(const Model& model, EdgeId edge, const char* why, const char* remedy)
 {
     std::vector<NamedEntity> faces;
-    const auto uses = edge_uses(model);
-    for (const FaceUse& use : uses[edge.index()]) faces.push_back(entity_of(model, use.face));
+    for (const FaceUse& use : model.uses_of_edge(edge)) faces.push_back(entity_of(model, use.face));
     throw NotSweepable(
         Message("surface.wall_edge", "{} of {} {}", entity_of(model, edge), faces, why).remedy("{}", remedy));
 }

@@ -33,20 +33,19 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
     for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) borders.insert(use.edge);
     }
-    const auto uses = edge_uses(model);
     const std::set<FaceId> walls(link.walls.begin(), link.walls.end());
     std::vector<std::vector<FaceId>> panels;
     for (const LinkingLine& line : link.lines) {
         const EdgeUse foot =
             link.source.uses()[link.source.position(line.source_at + 1e-9 * link.source.length()).use];
         std::vector<FaceId> faces;
-        for (const FaceUse& use : uses[foot.edge.index()]) {
+        for (const FaceUse& use : model.uses_of_edge(foot.edge)) {
             if (walls.contains(use.face)) faces.push_back(use.face);
         }
         for (std::size_t i = 0; i < faces.size(); ++i) {
             for (const EdgeUse& use : uses_of(model[faces[i]])) {
                 if (borders.contains(use.edge)) continue;
-                for (const FaceUse& other : uses[use.edge.index()]) {
+                for (const FaceUse& other : model.uses_of_edge(use.edge)) {
                     const bool known = std::ranges::find(faces, other.face) != faces.end();
                     if (!known && walls.contains(other.face)) faces.push_back(other.face);
                 }

@@ -45,7 +45,7 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
-    FaceCutter(Model& model, FaceId face) : model_(model), face_(face), tolerance_(model.tolerance) {}
+    FaceCutter(ModelBuilder& model, FaceId face) : model_(model), face_(face), tolerance_(model.tolerance) {}
 
     /// Cut the facets along a chain of points near the face. @return  its points; empty: the chain leaves the
     /// face
@@ -183,7 +183,7 @@ private:
         return -1;
     }
 
-    Model& model_;
+    ModelBuilder& model_;
     FaceId face_;
     double tolerance_;
 };
@@ -255,7 +255,7 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
                                 const RunContext& context)
 {
     if (lines.empty()) return {side.face};
-    Model& model = side.model();
+    ModelBuilder model(side.model());
     FaceCutter cutter(model, side.face);
     std::vector<SectionWalk> walks;
     for (const std::vector<Vec3>& line : lines) {
@@ -274,8 +274,9 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
         model.edges[e].curve = nullptr;
         model.edges[e].params.clear();
     }
+    side.model() = std::move(model).finish();
     std::vector<FaceId> parts{side.face};
-    for (std::size_t f = side.volume->role.size(); f < model.faces.size(); ++f) {
+    for (std::size_t f = side.volume->role.size(); f < made.parent.size(); ++f) {
         side.volume->role.push_back(side.volume->role[made.parent[f].index()]);
         if (made.parent[f] == side.face) parts.emplace_back(f);
     }

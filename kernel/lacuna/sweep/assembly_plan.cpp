@@ -713,10 +713,11 @@ private:
     {
         std::vector<bool> frame;
         for (std::size_t m = 0; m < members_.size(); ++m) {
-            for (const std::vector<FaceUse>& users : edge_uses(model(m)))
-                frame.push_back(std::ranges::any_of(users, [&](const FaceUse& user) {
-                    return members_[m].volume->role[user.face.index()] != Role::wall;
-                }));
+            for (std::size_t e = 0; e < model(m).edges.size(); ++e)
+                frame.push_back(
+                    std::ranges::any_of(model(m).uses_of_edge(EdgeId(e)), [&](const FaceUse& user) {
+                        return members_[m].volume->role[user.face.index()] != Role::wall;
+                    }));
         }
         for (const auto& [m, sides] : sides_)
             for (const EdgeUse& side : sides) frame[number(m, side.edge)] = true;

@@ -50,9 +50,11 @@ public:
     std::vector<FaceId> run()
     {
         copy_rim();
-        copy_edges();
-        std::vector<FaceId> copied = copy_faces();
-        build_loops(to_);
+        ModelBuilder to(to_);
+        copy_edges(to);
+        std::vector<FaceId> copied = copy_faces(to);
+        to.build_loops();
+        to_ = std::move(to).finish();
         return copied;
     }
 
@@ -126,10 +128,12 @@ private:
                 const double low = (p - to_.at(points[s])).norm(), high = (p - to_.at(points[s + 1])).norm();
                 const double at = arc[s] + low / (low + high) * (arc[s + 1] - arc[s]);
                 const EdgeSplit made = split_edge(to_, edge, at / arc.back());
-                place_[walk[i]] = to_[made.vertex].point;
-                to_.points[index(to_[made.vertex].point)] = p;
-                if (const auto param = param_of(walk[i], to_[edge].curve))
-                    to_[edge].params.back() = to_[made.behind].params.front() = *param;
+                ModelBuilder to(std::move(to_));
+                place_[walk[i]] = to[made.vertex].point;
+                to.points[index(to[made.vertex].point)] = p;
+                if (const auto param = param_of(walk[i], to[edge].curve))
+                    to[edge].params.back() = to[made.behind].params.front() = *param;
+                to_ = std::move(to).finish();
                 return;
             }
         }
@@ -161,65 +165,65 @@ private:
         }
     }
 
-    Index place_of(Index point)
+    Index place_of(ModelBuilder& to, Index point)
     {
-        const auto [found, fresh] = place_.try_emplace(point, static_cast<Index>(to_.points.size()));
-        if (fresh) to_.points.push_back(from_.at(point));
+        const auto [found, fresh] = place_.try_emplace(point, static_cast<Index>(to.points.size()));
+        if (fresh) to.points.push_back(from_.at(point));
         return found->second;
     }
 
-    VertexId vertex_of(VertexId vertex)
+    VertexId vertex_of(ModelBuilder& to, VertexId vertex)
     {
-        const Index point = place_of(from_[vertex].point);
-        for (std::size_t v = 0; v < to_.vertices.size(); ++v)
-            if (to_.vertices[v].point == point) return VertexId(v);
-        return add_void_vertex(to_, point);
+        const Index point = place_of(to, from_[vertex].point);
+        for (std::size_t v = 0; v < to.vertices.size(); ++v)
+            if (to.vertices[v].point == point) return VertexId(v);
+        return to.add_void_vertex(point);
     }
 
     /// Copy the edges between parts.
-    void copy_edges()
+    void copy_edges(ModelBuilder& to)
     {
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(from_);
         const auto is_part = [&](const FaceUse& use) {
             return std::ranges::find(parts_, use.face) != parts_.end();
         };
-        for (std::size_t e = 0; e < uses.size(); ++e) {
-            if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
-            if (!is_part(uses[e][0]) || !is_part(uses[e][1])) continue;
+        for (std::size_t e = 0; e < from_.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = from_.uses_of_edge(EdgeId(e));
+            if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
+            if (!is_part(uses[0]) || !is_part(uses[1])) continue;
             const Edge& edge = from_.edges[e];
             std::vector<Index> points;
-            for (const Index p : edge.points) points.push_back(place_of(p));
-            const VertexId start = vertex_of(edge.from), end = vertex_of(edge.to);
-            const EdgeId made = add_void_edge(to_, start, end, std::move(points));
-            to_[made].params = edge.params;
-            to_[made].curve = edge.curve;
+            for (const Index p : edge.points) points.push_back(place_of(to, p));
+            const VertexId start = vertex_of(to, edge.from), end = vertex_of(to, edge.to);
+            const EdgeId made = to.add_void_edge(start, end, std::move(points));
+            to[made].params = edge.params;
+            to[made].curve = edge.curve;
         }
     }
 
-    std::vector<FaceId> copy_faces()
+    std::vector<FaceId> copy_faces(ModelBuilder& to)
     {
         Vec3 area = Vec3::Zero();
         for (const FaceId part : parts_) area += face_area_vector(from_, part);
-        const bool turned = area.dot(face_area_vector(to_, whole_.front())) < 0;
-        const Face before = to_[whole_.front()];
+        const bool turned = area.dot(face_area_vector(to, whole_.front())) < 0;
+        const Face before = to[whole_.front()];
         std::vector<FaceId> copied;
         for (const FaceId part : parts_) {
             Face face = before;
             face.triangles = from_[part].triangles;
             face.uv = from_[part].uv;
             for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-                for (Index& p : face.triangles[t]) p = place_of(p);
+                for (Index& p : face.triangles[t]) p = place_of(to, p);
                 if (!turned) continue;
                 std::swap(face.triangles[t][1], face.triangles[t][2]);
                 if (!face.uv.empty()) std::swap(face.uv[t][1], face.uv[t][2]);
             }
             if (copied.empty()) {
                 copied.push_back(whole_.front());
-                to_[whole_.front()] = std::move(face);
+                to[whole_.front()] = std::move(face);
                 continue;
             }
-            copied.emplace_back(to_.faces.size());
-            to_.faces.push_back(std::move(face));
+            copied.emplace_back(to.faces.size());
+            to.faces.push_back(std::move(face));
             role_.push_back(role_[whole_.front().index()]);
         }
         return copied;

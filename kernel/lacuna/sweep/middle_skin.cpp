@@ -60,10 +60,10 @@ class EdgeFinder {
 public:
     explicit EdgeFinder(const Model& model) : model_(model)
     {
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
-        for (std::size_t e = 0; e < uses.size(); ++e) {
-            if (uses[e].size() != 2) continue;
-            const FaceId a = uses[e][0].face, b = uses[e][1].face;
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+            if (uses.size() != 2) continue;
+            const FaceId a = uses[0].face, b = uses[1].face;
             if (a != b) between_[std::minmax(a, b)].push_back(EdgeId(static_cast<Index>(e)));
         }
     }

@@ -213,14 +213,14 @@ private:
         const double around = kAround * pair_.window;
         box.min().array() -= around;
         box.max().array() += around;
-        const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             check_cancelled(context);
+            const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
             const std::vector<Vec3> line = surface::edge_line(model, EdgeId(e));
             Eigen::AlignedBox3d own_box;
             for (const Vec3& p : line) own_box.extend(p);
-            if (!box.intersects(own_box) || uses[e].empty()) continue;
-            const bool taken = std::ranges::any_of(uses[e], [&](const FaceUse& use) {
+            if (!box.intersects(own_box) || uses.empty()) continue;
+            const bool taken = std::ranges::any_of(uses, [&](const FaceUse& use) {
                 return shared_[own][use.face.index()] || is_near(own, use.face);
             });
             if (taken) continue;
@@ -247,7 +247,7 @@ private:
             if (!(within > 0) || within < kStaysNear * all ||
                 (within < kCorner * pair_.window && within < kPart * arc.back()))
                 continue;
-            const FaceId face = uses[e].front().face;
+            const FaceId face = uses.front().face;
             const bool of_a = own == pair_.a;
             NearMiss miss{pair_.a, pair_.b, of_a ? face : nearest, of_a ? nearest : face};
             miss.edge = EdgeId(e);

@@ -15,8 +15,7 @@ namespace {
 /// The face on the other side of an edge.
 NamedEntity beyond(const Model& model, EdgeId edge, FaceId face)
 {
-    const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
-    for (const FaceUse& use : uses[edge.index()])
+    for (const FaceUse& use : model.uses_of_edge(edge))
         if (use.face != face) return entity_of(model, use.face);
     return entity_of(model, edge);
 }

@@ -90,16 +90,16 @@ struct WallPart {
 
 /// The angles across edges, where the smooth edges of a flat face to a bent one count as just sharp: a floor
 /// with a rounded rim can then be an end.
-std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                         std::vector<double> angle)
+std::vector<double> parted_at_flat_faces(const Model& model, std::vector<double> angle)
 {
     std::vector<bool> flat(model.faces.size());
     for (std::size_t f = 0; f < flat.size(); ++f) {
         const FaceId id(f);
         flat[f] = face_area_vector(model, id).norm() > (1 - kOneWay) * face_area(model, id);
     }
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 2 && flat[uses[e][0].face.index()] != flat[uses[e][1].face.index()])
+    for (std::size_t e = 0; e < angle.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2 && flat[uses[0].face.index()] != flat[uses[1].face.index()])
             angle[e] = std::max(angle[e], kSmooth);
     }
     return angle;
@@ -112,10 +112,8 @@ public:
         : model_(model),
           flat_alone_(flat_alone),
           context_(context),
-          uses_(edge_uses(model)),
-          angle_(angles_across(model, uses_, context)),
-          map_{smooth_patches(model, uses_, flat_alone ? parted_at_flat_faces(model, uses_, angle_) : angle_,
-                              context),
+          angle_(angles_across(model, context)),
+          map_{smooth_patches(model, flat_alone ? parted_at_flat_faces(model, angle_) : angle_, context),
                std::vector<std::size_t>(2 * model.edges.size(), kNone),
                std::vector<EdgeUse>(2 * model.edges.size()),
                std::vector<std::vector<std::size_t>>(model.vertices.size())},
@@ -412,7 +410,7 @@ private:
         const std::vector<Rim>& all = map_.patches[p].rims;
         return !all.empty() && std::all_of(all.begin(), all.end(), [&](const Rim& rim) {
             return std::all_of(rim.uses.begin(), rim.uses.end(),
-                               [&](const EdgeUse& use) { return uses_[use.edge.index()].size() == 2; });
+                               [&](const EdgeUse& use) { return model_.uses_of_edge(use.edge).size() == 2; });
         });
     }
 
@@ -474,7 +472,7 @@ private:
             size.push_back(length);
             double along = 0;
             for (const EdgeUse& use : rim->uses) {
-                const FaceId wall = uses_[use.edge.index()].front().face;
+                const FaceId wall = model_.uses_of_edge(use.edge).front().face;
                 const Vec3 normal = face_area_vector(model_, wall).stableNormalized();
                 const double flat = face_area_vector(model_, wall).norm() / face_area(model_, wall);
                 along += edge_length(model_, use.edge) * flat * std::abs(normal.dot(area.stableNormalized()));
@@ -652,7 +650,6 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<std::vector<FaceUse>> uses_;
     std::vector<double> angle_; ///< of each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;

@@ -52,17 +52,17 @@ struct Choice {
 /// Enumerates the choices. A sheet is a set of faces connected by edges that no other faces use.
 class Sheets {
 public:
-    Sheets(const Model& model, const std::vector<std::vector<FaceUse>>& uses, std::vector<FaceId> ends,
-           const std::vector<FaceId>& reached, const RunContext& context)
+    Sheets(const Model& model, std::vector<FaceId> ends, const std::vector<FaceId>& reached,
+           const RunContext& context)
         : model_(model), context_(context), ends_(std::move(ends)), count_(model.edges.size(), 0)
     {
         std::vector<bool> in(model.faces.size(), false), is_wall(model.faces.size(), false);
         for (const FaceId face : ends_) in[face.index()] = true;
         for (const FaceId face : reached) in[face.index()] = is_wall[face.index()] = true;
         geometry::UnionFind hang(model.faces.size());
-        for (const std::vector<FaceUse>& all : uses) {
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
             std::vector<FaceId> here;
-            for (const FaceUse& use : all) {
+            for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
                 if (in[use.face.index()]) here.push_back(use.face);
             }
             crowded_ = crowded_ || here.size() > 2;
@@ -222,13 +222,12 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {
-    const auto uses = edge_uses(model);
     std::set<FaceId> found;
     for (const std::vector<FaceId>& part : connected_parts(model, walls)) {
         std::set<FaceId> round;
         for (const Rim& rim : rims(model, part))
             for (const EdgeUse& use : rim.uses)
-                for (const FaceUse& by : uses[use.edge.index()]) round.insert(by.face);
+                for (const FaceUse& by : model.uses_of_edge(use.edge)) round.insert(by.face);
         const auto is_outside = [&](FaceId face) {
             return !std::ranges::binary_search(cavity, face) && std::ranges::find(end, face) == end.end();
         };
@@ -284,7 +283,7 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     const std::vector<FaceId> reached = source.empty() ? reachable_from(model, target, source)
                                                        : reachable_from(model, source, target);
     if (auto cavity = walls_of_cavity(model, source, target, context)) return std::move(*cavity);
-    Sheets sheets(model, edge_uses(model), ends, reached, context);
+    Sheets sheets(model, ends, reached, context);
     std::optional<std::vector<Choice>> choices;
     if (sheets.crowded()) choices = sheets.choices();
     if (choices && (source.empty() || target.empty()))

@@ -13,11 +13,11 @@ std::vector<FaceFacts> face_facts(const Model& model)
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         for (const Triangle& t : model.faces[f].triangles)
             for (const Index p : t) facts[f].box.extend(model.at(p));
-    const auto uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 1) facts[uses[e].front().face.index()].free_edges.emplace_back(e);
-        for (const FaceUse& a : uses[e])
-            for (const FaceUse& b : uses[e])
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 1) facts[uses.front().face.index()].free_edges.emplace_back(e);
+        for (const FaceUse& a : uses)
+            for (const FaceUse& b : uses)
                 if (a.face != b.face) facts[a.face.index()].neighbours.push_back(b.face);
     }
     for (FaceFacts& own : facts) {

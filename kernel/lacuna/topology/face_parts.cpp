@@ -27,11 +27,11 @@ std::set<VertexId> vertices_of(const Model& model, const std::vector<FaceId>& fa
     return vertices;
 }
 
-std::set<FaceId> faces_beside(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face)
+std::set<FaceId> faces_beside(const Model& model, FaceId face)
 {
     std::set<FaceId> beside;
     for (const EdgeUse& use : uses_of(model[face]))
-        for (const FaceUse& by : uses[use.edge.index()]) beside.insert(by.face);
+        for (const FaceUse& by : model.uses_of_edge(use.edge)) beside.insert(by.face);
     beside.erase(face);
     return beside;
 }

@@ -36,10 +36,9 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     for (std::size_t p = 0; p < parts.size(); ++p)
         for (const FaceId face : parts[p]) part_of[face.index()] = p;
     std::vector<EdgeId> free;
-    const auto uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e)
-        if (uses[e].size() == 1) free.emplace_back(e);
-    const auto part = [&](EdgeId edge) { return part_of[uses[edge.index()].front().face.index()]; };
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        if (model.uses_of_edge(EdgeId(e)).size() == 1) free.emplace_back(e);
+    const auto part = [&](EdgeId edge) { return part_of[model.uses_of_edge(edge).front().face.index()]; };
 
     const double reach = kWidestSewn * model.diagonal;
     // Each free edge's points and, last, its middle: at its ends several edges are equally close.

@@ -106,7 +106,8 @@ Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<
 /// nodes.
 class EdgeRemesher {
 public:
-    explicit EdgeRemesher(Model& model) : model_(model), uses_(edge_uses(model)) {}
+    /// @param given  as it was before any change.
+    EdgeRemesher(const Model& given, ModelBuilder& model) : given_(given), model_(model) {}
 
     /// @param at     running lengths of the edge's points.
     /// @param nodes  in the edge's direction, ends included, ascending; those of a closed edge may start
@@ -137,17 +138,18 @@ public:
         chains_.push_back(std::move(made));
     }
 
-    [[nodiscard]] const std::vector<FaceUse>& users(EdgeId edge) const { return uses_[edge.index()]; }
+    [[nodiscard]] std::span<const FaceUse> users(EdgeId edge) const { return given_.uses_of_edge(edge); }
 
     /// Used twice by one face, or by none.
     [[nodiscard]] bool is_seam(EdgeId edge) const
     {
-        const std::vector<FaceUse>& uses = users(edge);
+        const std::span<const FaceUse> uses = users(edge);
         return uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face);
     }
 
     /// @param replaced  a face whose facets are replaced anyway; may be invalid.
-    void apply(FaceId replaced)
+    /// @return  the new model.
+    Model apply(FaceId replaced)
     {
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             if (FaceId(f) == replaced) continue;
@@ -169,9 +171,9 @@ public:
         for (Vertex& vertex : model_.vertices) vertex.point = moved(vertex.point);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) drop_folded(EdgeId(e));
         // Drop points that are no longer used, and removed seams.
-        Model whole = extract(model_, all_faces(model_));
-        whole.notes = std::move(model_.notes);
-        model_ = std::move(whole);
+        ModelBuilder whole(extract(model_, all_faces(model_)));
+        whole.notes = given_.notes;
+        return std::move(whole).finish();
     }
 
 private:
@@ -277,8 +279,8 @@ private:
         }
     }
 
-    Model& model_;
-    std::vector<std::vector<FaceUse>> uses_; ///< of each edge
+    const Model& given_;
+    ModelBuilder& model_;
     SidePoints sides_;
     std::unordered_map<Index, Index> move_; ///< old edge points to nodes
     std::vector<Chain> chains_;
@@ -286,8 +288,8 @@ private:
 
 class MeshGiver {
 public:
-    MeshGiver(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
-        : model_(volume.model), remesher_(volume.model), face_(face), quads_(quads.begin(), quads.end())
+    MeshGiver(const Model& model, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
+        : model_(model), remesher_(model, model_), face_(face), quads_(quads.begin(), quads.end())
     {
         const auto first = static_cast<Index>(model_.points.size());
         model_.points.insert(model_.points.end(), nodes.begin(), nodes.end());
@@ -296,7 +298,7 @@ public:
         }
     }
 
-    void run()
+    Model run()
     {
         const std::vector<Loop> loops = border_loops(model_, face_);
         for (const Loop& loop : loops) chains_.push_back(chain_of(model_, loop));
@@ -304,7 +306,7 @@ public:
         count_ends();
         for (std::size_t l = 0; l < chains_.size(); ++l) take_rim(chains_[l], rims_[l]);
         set_face(loops);
-        remesher_.apply(face_);
+        return remesher_.apply(face_);
     }
 
 private:
@@ -495,7 +497,7 @@ private:
         face.loops = loops;
     }
 
-    Model& model_;
+    ModelBuilder model_;
     EdgeRemesher remesher_;
     FaceId face_;
     std::vector<Quad> quads_;
@@ -518,8 +520,8 @@ std::set<EdgeId> kept_edges(const Model& model)
 
 void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
 {
-    Model& model = volume.model;
-    EdgeRemesher remesher(model);
+    ModelBuilder model(volume.model);
+    EdgeRemesher remesher(volume.model, model);
     for (const EdgeNodes& given : edges) {
         const std::vector<Index>& old = model[given.edge].points;
         const std::vector<double> at = geometry::arc_lengths(places_at(model, old));
@@ -552,12 +554,12 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
         }
         remesher.add(given.edge, at, nodes);
     }
-    remesher.apply(FaceId());
+    volume.model = remesher.apply(FaceId());
 }
 
 void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads)
 {
-    MeshGiver(volume, face, nodes, quads).run();
+    volume.model = MeshGiver(volume.model, face, nodes, quads).run();
 }
 
 } // namespace lacuna::topology

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace lacuna::topology {
@@ -20,11 +21,10 @@ namespace lacuna::topology {
 namespace {
 
 /// The parts of the model without free edges. @pre oriented
-std::vector<std::vector<FaceId>> closed_shells(const Model& model,
-                                               const std::vector<std::vector<FaceUse>>& uses)
+std::vector<std::vector<FaceId>> closed_shells(const Model& model)
 {
     std::vector<std::vector<FaceId>> shells = connected_parts(model, all_faces(model));
-    const auto is_shared = [&](const EdgeUse& use) { return uses[use.edge.index()].size() == 2; };
+    const auto is_shared = [&](const EdgeUse& use) { return model.uses_of_edge(use.edge).size() == 2; };
     std::erase_if(shells, [&](const std::vector<FaceId>& part) {
         return !std::ranges::all_of(
             part, [&](FaceId face) { return std::ranges::all_of(uses_of(model[face]), is_shared); });
@@ -150,16 +150,16 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
     } catch (const InvalidInput&) {
         return {};
     }
-    const auto uses = edge_uses(model);
-    const std::vector<std::vector<FaceId>> shells = closed_shells(model, uses);
+    const std::vector<std::vector<FaceId>> shells = closed_shells(model);
     const std::vector<std::vector<FaceId>> inner = turn_inner_shells(model, shells, context);
-    const std::vector<double> fold = folds_across(model, uses, context);
+    const std::vector<double> fold = folds_across(model, context);
     geometry::UnionFind hang(model.faces.size());
     for (const std::vector<FaceId>& shell : inner)
         for (const FaceId face : shell) hang.unite_least(shell.front().index(), face.index());
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 2 && fold[e] < kSmooth)
-            hang.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
+    for (std::size_t e = 0; e < fold.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2 && fold[e] < kSmooth)
+            hang.unite_least(uses[0].face.index(), uses[1].face.index());
     }
     std::map<std::size_t, std::vector<FaceId>> by_root;
     for (const std::vector<FaceId>& shell : shells)
@@ -194,10 +194,9 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& faces,
                                  const RunContext& context)
 {
-    const auto uses = edge_uses(given);
     const bool open = std::ranges::any_of(faces, [&](FaceId face) {
         const std::vector<Loop>& loops = given[face].loops; // none: closed by itself
-        return !loops.empty() && uses[loops.front().uses.front().edge.index()].size() != 2;
+        return !loops.empty() && given.uses_of_edge(loops.front().uses.front().edge).size() != 2;
     });
     const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(given, context);
     if (found.empty()) return {};
@@ -225,16 +224,17 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         own.insert(face.tag);
         facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
     }
-    const geometry::FacetTree tree(volume.points, facets, context);
+    std::optional<geometry::FacetTree> tree; // made for the first other shell: most models have none
     std::vector<FaceId> found;
-    for (const std::vector<FaceId>& shell : closed_shells(model, edge_uses(model))) {
+    for (const std::vector<FaceId>& shell : closed_shells(model)) {
         check_cancelled(context);
         const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
         if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
+        if (!tree) tree.emplace(volume.points, facets, context);
         const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
             const Triangle& t = model[face].triangles.front();
             const Vec3 p = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
-            return tree.bounds().contains(p) && std::abs(tree.winding_number(p)) > kInside;
+            return tree->bounds().contains(p) && std::abs(tree->winding_number(p)) > kInside;
         });
         if (inside != shell.end()) found.push_back(*inside);
     }

@@ -12,8 +12,12 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
+#include <numeric>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace lacuna::topology {
 
@@ -144,18 +148,49 @@ std::vector<Loop> loops_of(const Model& model, const Face& face, const EdgeSegme
     return loops;
 }
 
-void flip(Face& face)
+/// The parts of all models without any.
+const std::shared_ptr<const ModelParts>& nothing()
 {
-    for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
-    for (std::array<Vec2, 3>& uv : face.uv) std::swap(uv[1], uv[2]);
-    for (Quad& q : face.given_quads) std::swap(q[1], q[3]);
-    for (Loop& loop : face.loops) {
-        std::reverse(loop.uses.begin(), loop.uses.end());
-        for (EdgeUse& use : loop.uses) use.reversed = !use.reversed;
-    }
+    static const auto parts = std::make_shared<const ModelParts>();
+    return parts;
 }
 
 } // namespace
+
+Model::Model(std::shared_ptr<const ModelParts> parts)
+    : parts_(std::move(parts)),
+      points(parts_->points),
+      vertices(parts_->vertices),
+      edges(parts_->edges),
+      faces(parts_->faces),
+      diagonal(parts_->diagonal),
+      tolerance(parts_->tolerance),
+      source(parts_->source),
+      notes(parts_->notes)
+{
+}
+
+Model::Model() : Model(nothing()) {}
+Model::Model(Model&& other) noexcept : Model(std::as_const(other)) { other = Model(); }
+
+Model& Model::operator=(Model other) noexcept
+{
+    std::destroy_at(this); // the members are references, which only a new object in its place can change
+    return *std::construct_at(this, std::as_const(other));
+}
+
+ModelBuilder::ModelBuilder(Model from)
+{
+    const bool shared = from.parts_.use_count() != 1;
+    std::atomic_thread_fence(std::memory_order_acquire); // after the last read by another thread
+    ModelParts& parts = *this;
+    if (shared)
+        parts = *from.parts_;
+    else
+        parts = std::move(const_cast<ModelParts&>(*from.parts_)); // made as non-const by finish()
+    uses_.clear();
+    first_use_.clear();
+}
 
 VertexId use_from(const Model& model, EdgeUse use)
 {
@@ -244,59 +279,82 @@ Vec3 face_centroid(const Model& model, FaceId face)
     return area > 0 ? Vec3(sum / area) : model.at(model[face].triangles.front()[0]);
 }
 
-VertexId add_void_vertex(Model& model, Index point)
+VertexId ModelBuilder::add_void_vertex(Index point)
 {
     int tag = 0;
-    for (const Vertex& vertex : model.vertices) tag = std::max(tag, vertex.tag);
-    model.vertices.push_back({point, tag + 1, Origin::made_void});
-    return VertexId(model.vertices.size() - 1);
+    for (const Vertex& vertex : vertices) tag = std::max(tag, vertex.tag);
+    vertices.push_back({point, tag + 1, Origin::made_void});
+    return VertexId(vertices.size() - 1);
 }
 
-EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points)
+EdgeId ModelBuilder::add_void_edge(VertexId from, VertexId to, std::vector<Index> chain)
 {
     Edge edge;
-    edge.tag = next_tag(model.edges, Origin::made_void);
+    edge.tag = next_tag(edges, Origin::made_void);
     edge.origin = Origin::made_void;
     edge.from = from;
     edge.to = to;
-    edge.points = std::move(points);
-    model.edges.push_back(std::move(edge));
-    return EdgeId(model.edges.size() - 1);
+    edge.points = std::move(chain);
+    edges.push_back(std::move(edge));
+    return EdgeId(edges.size() - 1);
 }
 
-FaceId add_void_face(Model& model, Geometry geometry)
+FaceId ModelBuilder::add_void_face(Geometry geometry)
 {
     Face face;
-    face.tag = next_tag(model.faces, Origin::made_void);
+    face.tag = next_tag(faces, Origin::made_void);
     face.origin = Origin::made_void;
     face.geometry = geometry;
     face.kind = "void";
-    model.faces.push_back(std::move(face));
-    return FaceId(model.faces.size() - 1);
+    faces.push_back(std::move(face));
+    return FaceId(faces.size() - 1);
 }
 
-void build_loops(Model& model, const RunContext& context)
+void ModelBuilder::build_loops(const RunContext& context)
 {
-    const EdgeSegments segments(model, context);
-    DirectedSides sides(model.points.size());
-    for (Face& face : model.faces) {
+    const EdgeSegments segments(made_, context);
+    DirectedSides sides(points.size());
+    for (Face& face : faces) {
         check_cancelled(context);
-        face.loops = loops_of(model, face, segments, sides);
+        face.loops = loops_of(made_, face, segments, sides);
     }
 }
 
-std::vector<std::vector<FaceUse>> edge_uses(const Model& model)
+void ModelBuilder::flip(FaceId id)
 {
-    std::vector<std::vector<FaceUse>> uses(model.edges.size());
-    for (const FaceId face : all_faces(model))
-        for (const EdgeUse& use : uses_of(model[face]))
-            uses[use.edge.index()].push_back({face, use.reversed});
-    return uses;
+    Face& face = faces[id.index()];
+    for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
+    for (std::array<Vec2, 3>& uv : face.uv) std::swap(uv[1], uv[2]);
+    for (Quad& q : face.given_quads) std::swap(q[1], q[3]);
+    for (Loop& loop : face.loops) {
+        std::reverse(loop.uses.begin(), loop.uses.end());
+        for (EdgeUse& use : loop.uses) use.reversed = !use.reversed;
+    }
+}
+
+Model ModelBuilder::finish() &&
+{
+    first_use_.assign(edges.size() + 2, 0);
+    for (const Face& face : faces)
+        for (const EdgeUse& use : uses_of(face)) ++first_use_[use.edge.index() + 2];
+    std::partial_sum(first_use_.begin(), first_use_.end(), first_use_.begin());
+    uses_.resize(first_use_.back());
+    for (const FaceId face : all_faces(made_)) // the next place of an edge is one further than its first
+        for (const EdgeUse& use : uses_of(made_[face]))
+            uses_[first_use_[use.edge.index() + 1]++] = {face, use.reversed};
+    first_use_.pop_back();
+    return Model(std::make_shared<ModelParts>(std::move(*this)));
+}
+
+Model with_loops(Model model, const RunContext& context)
+{
+    ModelBuilder builder(std::move(model));
+    builder.build_loops(context);
+    return std::move(builder).finish();
 }
 
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces)
 {
-    const auto uses = edge_uses(model);
     std::vector<bool> wanted(model.faces.size(), false);
     for (const FaceId face : faces) wanted[face.index()] = true;
     std::vector<std::vector<FaceId>> parts;
@@ -306,7 +364,7 @@ std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::
         std::vector<FaceId>& part = parts.emplace_back(std::vector{start});
         for (std::size_t i = 0; i < part.size(); ++i) {
             for (const EdgeUse& use : uses_of(model[part[i]])) {
-                for (const FaceUse& other : uses[use.edge.index()]) {
+                for (const FaceUse& other : model.uses_of_edge(use.edge)) {
                     if (!wanted[other.face.index()]) continue;
                     wanted[other.face.index()] = false;
                     part.push_back(other.face);
@@ -332,55 +390,70 @@ double volume_integral(const Model& model, const std::vector<FaceId>& faces)
 
 void flip_faces(Model& model, const std::vector<FaceId>& faces)
 {
-    for (const FaceId face : faces) flip(model[face]);
+    if (faces.empty()) return;
+    ModelBuilder builder(std::move(model));
+    for (const FaceId face : faces) builder.flip(face);
+    model = std::move(builder).finish();
 }
 
 void orient_consistently(Model& model)
 {
-    const auto uses = edge_uses(model);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() <= 2) continue;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() <= 2) continue;
         std::vector<NamedEntity> faces;
-        for (const FaceUse& use : uses[e]) faces.push_back(entity_of(model, use.face));
+        for (const FaceUse& use : uses) faces.push_back(entity_of(model, use.face));
         throw InvalidInput(Message("topology.not_manifold",
                                    "{} is shared by {} faces ({}); the skin of a volume has {} at each edge",
-                                   entity_of(model, EdgeId(e)), found(uses[e].size()), faces, needed(2))
+                                   entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
                                .remedy("leave out the others"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);
+    std::vector<FaceId> against; // faces oriented against the first of their part
+    std::vector<std::vector<FaceId>> closed;
     for (const std::vector<FaceId>& part : connected_parts(model, all_faces(model))) {
         bool open = false;
         settled[part.front().index()] = true;
         std::vector<FaceId> front{part.front()};
         for (std::size_t i = 0; i < front.size(); ++i) {
             const FaceId face = front[i];
-            for (const EdgeUse& use : uses_of(model[face])) {
-                const auto& both = uses[use.edge.index()];
-                open = open || both.size() < 2;
-                if (both.size() < 2) continue;
-                // The uses were listed before any flip; `use` includes the flips.
-                const FaceUse& their = both[0].face == face ? both[1] : both[0];
-                const FaceId other = their.face;
-                if (other == face) continue;
-                const bool agrees = (their.reversed != flipped[other.index()]) != use.reversed;
-                if (settled[other.index()] && !agrees) {
-                    throw InvalidInput(Message("topology.not_orientable",
-                                               "{} and {} cannot be oriented consistently across {}: the "
-                                               "faces form a one-sided band",
-                                               entity_of(model, face), entity_of(model, other),
-                                               entity_of(model, use.edge))
-                                           .remedy("leave one of them out"));
+            for (const Loop& loop : model[face].loops) {
+                // A flipped face walks its loops backwards.
+                std::vector<EdgeUse> walk = loop.uses;
+                if (flipped[face.index()]) std::ranges::reverse(walk);
+                for (const EdgeUse& use : walk) {
+                    const std::span<const FaceUse> both = model.uses_of_edge(use.edge);
+                    open = open || both.size() < 2;
+                    if (both.size() < 2) continue;
+                    const FaceUse& their = both[0].face == face ? both[1] : both[0];
+                    const FaceId other = their.face;
+                    if (other == face) continue;
+                    const bool agrees = (their.reversed != flipped[other.index()]) !=
+                                        (use.reversed != flipped[face.index()]);
+                    if (settled[other.index()] && !agrees) {
+                        throw InvalidInput(Message("topology.not_orientable",
+                                                   "{} and {} cannot be oriented consistently across {}: the "
+                                                   "faces form a one-sided band",
+                                                   entity_of(model, face), entity_of(model, other),
+                                                   entity_of(model, use.edge))
+                                               .remedy("leave one of them out"));
+                    }
+                    if (settled[other.index()]) continue;
+                    if (!agrees) against.push_back(other);
+                    flipped[other.index()] = !agrees;
+                    settled[other.index()] = true;
+                    front.push_back(other);
                 }
-                if (settled[other.index()]) continue;
-                if (!agrees) flip(model[other]);
-                flipped[other.index()] = !agrees;
-                settled[other.index()] = true;
-                front.push_back(other);
             }
         }
-        if (!open && volume_integral(model, part) < 0) flip_faces(model, part);
+        if (!open) closed.push_back(part);
     }
+    flip_faces(model, against);
+    std::vector<FaceId> inward;
+    for (const std::vector<FaceId>& part : closed)
+        if (volume_integral(model, part) < 0) inward.insert(inward.end(), part.begin(), part.end());
+    flip_faces(model, inward);
 }
 
 } // namespace lacuna::topology

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,12 +75,17 @@ struct Face {
     bool keeps_nodes = false;      ///< the face was given as a mesh: its quads and the nodes of its rim are
                                    ///< kept
 
-    std::vector<Loop> loops; ///< derived from the triangles by build_loops(); the longest first
+    std::vector<Loop> loops; ///< derived from the triangles, see `with_loops()`; the longest first
 };
 
-/// Faces, edges and vertices over one array of points. Value semantics: copies are independent, exact
-/// geometry is shared.
-struct Model {
+/// A face that uses an edge, and the direction.
+struct FaceUse {
+    FaceId face;
+    bool reversed = false;
+};
+
+/// Faces, edges and vertices over one array of points.
+struct ModelParts {
     std::vector<Vec3> points;
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
@@ -89,13 +95,87 @@ struct Model {
     std::string source;             ///< the file(s) it was read from, for messages
     std::vector<std::string> notes; ///< what loading dropped or left unconnected, one sentence each
 
+private:
+    friend class Model;
+    friend class ModelBuilder;
+    std::vector<FaceUse> uses_;          ///< of all edges, in their order
+    std::vector<std::size_t> first_use_; ///< of each edge, and the end; empty before `finish()`
+};
+
+/// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can
+/// be assigned another model; copies share their data.
+class Model {
+public:
+    Model(); ///< nothing
+    Model(const Model&) = default;
+    Model(Model&& other) noexcept;
+    Model& operator=(Model other) noexcept;
+    ~Model() = default;
+
     [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
     [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
     [[nodiscard]] const Face& operator[](FaceId id) const { return faces[id.index()]; }
+    [[nodiscard]] const Vec3& at(Index point) const { return points[static_cast<std::size_t>(point)]; }
+    /// Uses of an edge by the faces' loops, in the order of the faces; a seam is listed twice.
+    /// @throw std::out_of_range  the model is not finished.
+    [[nodiscard]] std::span<const FaceUse> uses_of_edge(EdgeId edge) const
+    {
+        const std::size_t first = parts_->first_use_.at(edge.index());
+        return std::span(parts_->uses_).subspan(first, parts_->first_use_.at(edge.index() + 1) - first);
+    }
+
+private:
+    friend class ModelBuilder;
+    explicit Model(std::shared_ptr<const ModelParts> parts);
+    std::shared_ptr<const ModelParts> parts_;
+
+public:
+    const std::vector<Vec3>& points;
+    const std::vector<Vertex>& vertices;
+    const std::vector<Edge>& edges;
+    const std::vector<Face>& faces;
+    const double &diagonal, &tolerance;
+    const std::string& source;
+    const std::vector<std::string>& notes;
+};
+
+/// Makes a model, from nothing or from the parts of another one. Functions read the parts made so far as a
+/// `const Model&`, which has no uses of edges yet.
+class ModelBuilder : public ModelParts {
+public:
+    ModelBuilder() = default;
+    /// Move the model in to save a copy of parts that no other model shares.
+    explicit ModelBuilder(Model from);
+    ModelBuilder(const ModelBuilder&) = delete;
+    ModelBuilder& operator=(const ModelBuilder&) = delete;
+
+    operator const Model&() const { return made_; }
+    operator Model() const = delete; // a copy would change with the builder
     [[nodiscard]] Vertex& operator[](VertexId id) { return vertices[id.index()]; }
     [[nodiscard]] Edge& operator[](EdgeId id) { return edges[id.index()]; }
     [[nodiscard]] Face& operator[](FaceId id) { return faces[id.index()]; }
-    [[nodiscard]] const Vec3& at(Index point) const { return points[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] const Vertex& operator[](VertexId id) const { return vertices[id.index()]; }
+    [[nodiscard]] const Edge& operator[](EdgeId id) const { return edges[id.index()]; }
+    [[nodiscard]] const Face& operator[](FaceId id) const { return faces[id.index()]; }
+    [[nodiscard]] const Vec3& at(Index point) const { return made_.at(point); }
+
+    /// Add void entities, numbered after the existing ones. The caller sets the loops.
+    VertexId add_void_vertex(Index point);
+    EdgeId add_void_edge(VertexId from, VertexId to, std::vector<Index> chain);
+    /// A face without facets yet.
+    FaceId add_void_face(Geometry geometry);
+    /// Set every face's loops from its triangles and the model's edges.
+    /// @pre  every boundary side of a face's triangles, and every seam, lies on an edge.
+    /// @throw InvalidInput  a boundary side lies on no edge, or the facets are not a manifold; names the
+    ///        face. Cancelled
+    void build_loops(const RunContext& context = {});
+    /// Reverse the orientation of a face.
+    void flip(FaceId face);
+    /// The model, with the uses of its edges. The builder must not be used after it.
+    [[nodiscard]] Model finish() &&;
+
+private:
+    Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< of the parts here
 };
 
 // --- derived facts --------------------------------------------------------------------------------
@@ -122,19 +202,10 @@ std::vector<FaceId> all_faces(const Model& model);
 /// Area-weighted centre of the facets.
 Vec3 face_centroid(const Model& model, FaceId face);
 
-// --- building -------------------------------------------------------------------------------------
+// --- making another model -------------------------------------------------------------------------
 
-/// Set every face's loops from its triangles and the model's edges.
-/// @pre  every boundary side of a face's triangles, and every seam, lies on an edge.
-/// @throw InvalidInput  a boundary side lies on no edge, or the facets are not a manifold; names the face.
-///        Cancelled
-void build_loops(Model& model, const RunContext& context = {});
-
-/// Add void entities, numbered after the existing ones. The caller sets the loops.
-VertexId add_void_vertex(Model& model, Index point);
-EdgeId add_void_edge(Model& model, VertexId from, VertexId to, std::vector<Index> points);
-/// A face without facets yet.
-FaceId add_void_face(Model& model, Geometry geometry);
+/// The model with loops as `ModelBuilder::build_loops()` sets them.
+Model with_loops(Model model, const RunContext& context = {});
 
 /// Flip faces until neighbours agree along shared edges, starting at the first face of each connected part. A
 /// part that encloses a volume is oriented outward.

@@ -45,8 +45,7 @@ std::string count(std::size_t n, std::string_view one)
 std::optional<Gap> gap_beside(const Model& model, const std::vector<FaceId>& part)
 {
     const std::set<FaceId> own(part.begin(), part.end());
-    const auto uses = edge_uses(model);
-    const auto is_own = [&](EdgeId edge) { return own.contains(uses[edge.index()].front().face); };
+    const auto is_own = [&](EdgeId edge) { return own.contains(model.uses_of_edge(edge).front().face); };
     const std::vector<Gap> all = gaps(model);
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const Gap& gap) { return is_own(gap.own) != is_own(gap.other); });
@@ -209,7 +208,7 @@ std::string_view to_string(VolumeClass value) { return kClassNames[static_cast<s
 
 Model extract(const Model& model, const std::vector<FaceId>& faces)
 {
-    Model part;
+    ModelBuilder part;
     part.diagonal = model.diagonal;
     part.tolerance = model.tolerance;
     part.source = model.source;
@@ -253,7 +252,7 @@ Model extract(const Model& model, const std::vector<FaceId>& faces)
         for (Triangle& t : copy.triangles) std::ranges::for_each(t, keep_point);
         for (Quad& q : copy.given_quads) std::ranges::for_each(q, keep_point);
     }
-    return part;
+    return std::move(part).finish();
 }
 
 std::vector<FaceId> OpenVolume::faces(Role wanted) const

@@ -47,15 +47,6 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
 /// A model of the named faces only, in that order, with the edges, vertices and points they use.
 Model extract(const Model& model, const std::vector<FaceId>& faces);
 
-/// A face that uses an edge, and the direction.
-struct FaceUse {
-    FaceId face;
-    bool reversed = false;
-};
-
-/// Uses of every edge by the faces' loops; a seam is listed twice.
-std::vector<std::vector<FaceUse>> edge_uses(const Model& model);
-
 /// The connected parts of the named faces, by shared edges; in the order of their first faces.
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces);
 

@@ -45,14 +45,14 @@ public:
 
     /// Mean angle between two faces along a shared edge, negative if concave [degrees]; 0 if they meet
     /// smoothly.
-    [[nodiscard]] double fold_across(EdgeId edge, const std::vector<FaceUse>& uses) const
+    [[nodiscard]] double fold_across(EdgeId edge) const
     {
         const std::vector<Index>& points = model_[edge].points;
         double sum = 0, above = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const std::vector<Beside>& facets = beside_.at(edge_key(points[i], points[i + 1]));
             std::vector<Vec3> normals, middles;
-            for (const FaceUse& use : uses) {
+            for (const FaceUse& use : model_.uses_of_edge(edge)) {
                 const auto found = std::find_if(facets.begin(), facets.end(),
                                                 [&](const Beside& b) { return b.face == use.face; });
                 if (found == facets.end()) continue;
@@ -143,34 +143,34 @@ void measure_facets(const Model& model, const std::vector<bool>& is_vertex, Smoo
 
 } // namespace
 
-std::vector<double> folds_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                 const RunContext& context)
+std::vector<double> folds_across(const Model& model, const RunContext& context)
 {
     const FacetsAtEdges facets(model, context);
-    std::vector<double> angle(uses.size(), 0);
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
+    std::vector<double> angle(model.edges.size(), 0);
+    for (std::size_t e = 0; e < angle.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
         check_cancelled(context);
-        angle[e] = facets.fold_across(EdgeId(e), uses[e]);
+        angle[e] = facets.fold_across(EdgeId(e));
     }
     return angle;
 }
 
-std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                  const RunContext& context)
+std::vector<double> angles_across(const Model& model, const RunContext& context)
 {
-    std::vector<double> angles = folds_across(model, uses, context);
+    std::vector<double> angles = folds_across(model, context);
     for (double& angle : angles) angle = std::abs(angle);
     return angles;
 }
 
-std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                        const std::vector<double>& angle, const RunContext& context)
+std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<double>& angle,
+                                        const RunContext& context)
 {
     geometry::UnionFind smooth(model.faces.size());
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
-        if (angle[e] < kSmooth) smooth.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
+        if (angle[e] < kSmooth) smooth.unite_least(uses[0].face.index(), uses[1].face.index());
     }
     std::map<std::size_t, SmoothPatch> by_root;
     for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[smooth.find(f)].faces.emplace_back(f);
@@ -185,7 +185,7 @@ std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<st
         double sum = 0, length = 0;
         for (const Rim& rim : patch.rims) {
             for (const EdgeUse& use : rim.uses) {
-                if (uses[use.edge.index()].size() != 2) continue;
+                if (model.uses_of_edge(use.edge).size() != 2) continue;
                 const double l = edge_length(model, use.edge);
                 sum += l * std::abs(angle[use.edge.index()] - 90) / 90;
                 length += l;

@@ -60,10 +60,9 @@ long euler_number(const Model& model, const std::vector<FaceId>& faces)
 
 std::vector<EdgeId> free_edges(const OpenVolume& volume)
 {
-    const auto uses = edge_uses(volume.model);
     std::vector<EdgeId> result;
-    for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 1) result.emplace_back(e);
+    for (std::size_t e = 0; e < volume.model.edges.size(); ++e) {
+        if (volume.model.uses_of_edge(EdgeId(e)).size() == 1) result.emplace_back(e);
     }
     return result;
 }

@@ -219,7 +219,7 @@ private:
 
 class Imprinter {
 public:
-    Imprinter(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
+    Imprinter(ModelBuilder& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
               double tolerance, const RunContext& context)
         : model_(model), walks_(walks), plane_(plane), tolerance_(tolerance), context_(context)
     {
@@ -237,7 +237,7 @@ public:
         WalkImprint result;
         result.lines = lines();
         split_faces(result.parent);
-        build_loops(model_);
+        model_.build_loops();
         return result;
     }
 
@@ -381,7 +381,7 @@ private:
             if (!any) vertex_points_.insert(points.front());
         }
         for (const Vertex& vertex : model_.vertices) vertex_points_.erase(vertex.point);
-        for (const Index p : vertex_points_) vertex_at_.emplace(p, add_void_vertex(model_, p));
+        for (const Index p : vertex_points_) vertex_at_.emplace(p, model_.add_void_vertex(p));
         for (std::size_t v = 0; v < model_.vertices.size(); ++v)
             vertex_at_.emplace(model_.vertices[v].point, VertexId(v));
     }
@@ -437,8 +437,8 @@ private:
                 if (chain.empty()) chain.push_back(a);
                 chain.push_back(b);
                 if (!vertex_at_.contains(b)) continue;
-                const EdgeId edge = add_void_edge(model_, vertex_at_.at(chain.front()), vertex_at_.at(b),
-                                                  chain);
+                const EdgeId edge = model_.add_void_edge(vertex_at_.at(chain.front()), vertex_at_.at(b),
+                                                         chain);
                 set_curve(edge, facet);
                 chain.clear();
             }
@@ -556,7 +556,7 @@ private:
         return part;
     }
 
-    Model& model_;
+    ModelBuilder& model_;
     std::span<const SectionWalk> walks_;
     const geometry::Plane& plane_;
     double tolerance_;
@@ -585,8 +585,8 @@ std::vector<SectionWalk> section_walks(const Model& model, const std::vector<Fac
     return WalkFinder(model, faces, plane, tolerance).walks();
 }
 
-WalkImprint imprint_walks(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
-                          double tolerance, const RunContext& context)
+WalkImprint imprint_walks(ModelBuilder& model, std::span<const SectionWalk> walks,
+                          const geometry::Plane& plane, double tolerance, const RunContext& context)
 {
     return Imprinter(model, walks, plane, tolerance, context).run();
 }

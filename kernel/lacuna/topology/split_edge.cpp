@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lacuna::topology {
 
@@ -17,9 +18,9 @@ namespace {
 /// The faces whose loops use an edge.
 std::vector<FaceId> users_of(const Model& model, EdgeId edge)
 {
-    const auto is_of_edge = [&](const EdgeUse& use) { return use.edge == edge; };
-    std::vector<FaceId> users = all_faces(model);
-    std::erase_if(users, [&](FaceId face) { return std::ranges::none_of(uses_of(model[face]), is_of_edge); });
+    std::vector<FaceId> users;
+    for (const FaceUse& use : model.uses_of_edge(edge))
+        if (users.empty() || users.back() != use.face) users.push_back(use.face);
     return users;
 }
 
@@ -33,21 +34,23 @@ std::size_t nearest_inner(const std::vector<double>& arc, double at)
     return best;
 }
 
-/// Insert a point into side `segment` of an edge and into the adjacent facets.
-void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t segment,
-                  double fraction)
+/// Where an edge is split: at its point `at`, or at a new point after that one.
+struct SplitPlace {
+    std::size_t at = 0;
+    std::optional<Vec3> made{}; ///< the new point
+    double param = 0;           ///< its parameter on the curve
+};
+
+/// Insert a point into a side of an edge and into the adjacent facets.
+void insert_point(ModelBuilder& model, EdgeId id, const std::vector<FaceId>& users, const SplitPlace& split)
 {
     Edge& edge = model[id];
-    const Index a = edge.points[segment], b = edge.points[segment + 1];
-    Vec3 place = (1 - fraction) * model.at(a) + fraction * model.at(b);
-    if (!edge.params.empty()) {
-        const double param = (1 - fraction) * edge.params[segment] + fraction * edge.params[segment + 1];
-        if (edge.curve) edge.curve->evaluate({&param, 1}, {&place, 1});
-        edge.params.insert(edge.params.begin() + static_cast<std::ptrdiff_t>(segment) + 1, param);
-    }
+    const Index a = edge.points[split.at], b = edge.points[split.at + 1];
+    const auto behind = static_cast<std::ptrdiff_t>(split.at) + 1;
+    if (!edge.params.empty()) edge.params.insert(edge.params.begin() + behind, split.param);
     const auto point = static_cast<Index>(model.points.size());
-    model.points.push_back(place);
-    edge.points.insert(edge.points.begin() + static_cast<std::ptrdiff_t>(segment) + 1, point);
+    model.points.push_back(*split.made);
+    edge.points.insert(edge.points.begin() + behind, point);
 
     SidePoints sides;
     sides.add(a, b, {point});
@@ -55,9 +58,9 @@ void insert_point(Model& model, EdgeId id, const std::vector<FaceId>& users, std
 }
 
 /// Make inner point `at` a vertex and split the edge there.
-EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std::size_t at)
+EdgeSplit divide(ModelBuilder& model, EdgeId id, const std::vector<FaceId>& users, std::size_t at)
 {
-    const EdgeSplit made{add_void_vertex(model, model[id].points[at]), EdgeId(model.edges.size())};
+    const EdgeSplit made{model.add_void_vertex(model[id].points[at]), EdgeId(model.edges.size())};
     Edge behind = part_of(model[id], at, model[id].points.size() - 1);
     behind.tag = next_tag(model.edges, behind.origin);
     behind.from = made.vertex;
@@ -79,6 +82,46 @@ EdgeSplit divide(Model& model, EdgeId id, const std::vector<FaceId>& users, std:
     return made;
 }
 
+/// @throw InvalidInput  as `split_edge()`.
+SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceId>& users, double fraction)
+{
+    if (!(fraction > 0 && fraction < 1)) {
+        throw InvalidInput(Message("topology.split_at_end", "{} cannot be split at {:.6g} of its length",
+                                   entity_of(model, id), found(fraction))
+                               .remedy("give a fraction between 0 and 1"));
+    }
+    const std::vector<double> arc = geometry::arc_lengths(places_at(model, model[id].points));
+    const double wanted = fraction * arc.back();
+    const bool has_inner = arc.size() > 2;
+
+    const auto with_mesh = std::find_if(users.begin(), users.end(),
+                                        [&](FaceId f) { return !model[f].given_quads.empty(); });
+    if (with_mesh != users.end() && !has_inner) {
+        throw InvalidInput(Message("topology.split_kept_mesh",
+                                   "{} cannot be split without changing the given mesh of {}, which has no "
+                                   "node inside the edge",
+                                   entity_of(model, id), entity_of(model, *with_mesh))
+                               .remedy("load with keep_mesh = false, or pair the edge's own vertices"));
+    }
+    const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
+    if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
+        return {.at = nearest};
+    if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
+        throw InvalidInput("topology.split_at_end",
+                           "{} cannot be split at {:.6g} of its length, which is within the tolerance of its "
+                           "end",
+                           entity_of(model, id), found(fraction));
+    }
+    const geometry::PolylinePlace on = geometry::place_at(arc, wanted);
+    const Edge& edge = model[id];
+    const std::size_t i = on.segment;
+    Vec3 made = (1 - on.fraction) * model.at(edge.points[i]) + on.fraction * model.at(edge.points[i + 1]);
+    if (edge.params.empty()) return {i, made};
+    const double param = (1 - on.fraction) * edge.params[i] + on.fraction * edge.params[i + 1];
+    if (edge.curve) edge.curve->evaluate({&param, 1}, {&made, 1});
+    return {i, made, param};
+}
+
 } // namespace
 
 Edge part_of(const Edge& whole, std::size_t first, std::size_t last)
@@ -95,37 +138,13 @@ Edge part_of(const Edge& whole, std::size_t first, std::size_t last)
 
 EdgeSplit split_edge(Model& model, EdgeId id, double fraction)
 {
-    if (!(fraction > 0 && fraction < 1)) {
-        throw InvalidInput(Message("topology.split_at_end", "{} cannot be split at {:.6g} of its length",
-                                   entity_of(model, id), found(fraction))
-                               .remedy("give a fraction between 0 and 1"));
-    }
     const std::vector<FaceId> users = users_of(model, id);
-    const std::vector<double> arc = geometry::arc_lengths(places_at(model, model[id].points));
-    const double wanted = fraction * arc.back();
-    const bool has_inner = arc.size() > 2;
-
-    const auto with_mesh = std::find_if(users.begin(), users.end(),
-                                        [&](FaceId f) { return !model[f].given_quads.empty(); });
-    if (with_mesh != users.end() && !has_inner) {
-        throw InvalidInput(Message("topology.split_kept_mesh",
-                                   "{} cannot be split without changing the given mesh of {}, which has no "
-                                   "node inside the edge",
-                                   entity_of(model, id), entity_of(model, *with_mesh))
-                               .remedy("load with keep_mesh = false, or pair the edge's own vertices"));
-    }
-    const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
-    if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
-        return divide(model, id, users, nearest);
-    if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
-        throw InvalidInput("topology.split_at_end",
-                           "{} cannot be split at {:.6g} of its length, which is within the tolerance of its "
-                           "end",
-                           entity_of(model, id), found(fraction));
-    }
-    const geometry::PolylinePlace place = geometry::place_at(arc, wanted);
-    insert_point(model, id, users, place.segment, place.fraction);
-    return divide(model, id, users, place.segment + 1);
+    const SplitPlace split = place_of_split(model, id, users, fraction);
+    ModelBuilder builder(std::move(model));
+    if (split.made) insert_point(builder, id, users, split);
+    const EdgeSplit made = divide(builder, id, users, split.made ? split.at + 1 : split.at);
+    model = std::move(builder).finish();
+    return made;
 }
 
 } // namespace lacuna::topology

@@ -267,12 +267,13 @@ Colour role_colour(topology::Role role)
 }
 
 Legend legend_of(const topology::Model& model, const std::vector<topology::Role>* roles,
-                 const std::vector<std::vector<topology::FaceUse>>& uses, const PictureOptions& options)
+                 const PictureOptions& options)
 {
     std::size_t given = 0, closed = 0, free = 0;
     for (const topology::Face& face : model.faces)
         (face.origin == topology::Origin::made_void ? closed : given) += 1;
-    for (const auto& own : uses) free += own.size() == 1 ? 1 : 0;
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        free += model.uses_of_edge(EdgeId(e)).size() == 1 ? 1 : 0;
     Legend legend;
     legend.title = options.title;
     if (legend.title.empty())
@@ -321,10 +322,9 @@ Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* 
             scene.sides.push_back(side);
         }
     }
-    const auto uses = topology::edge_uses(model);
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const topology::Edge& edge = model.edges[e];
-        const bool free = uses[e].size() == 1;
+        const bool free = model.uses_of_edge(EdgeId(e)).size() == 1;
         DrawnLine line;
         line.colour = free ? kFreeEdge : edge.origin == topology::Origin::made_void ? kVoidEdge : kEdge;
         line.width = free ? 4 : 2;
@@ -334,7 +334,7 @@ Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* 
             scene.lines.push_back(line);
         }
     }
-    scene.legend = legend_of(model, roles, uses, options);
+    scene.legend = legend_of(model, roles, options);
     return scene;
 }
 

@@ -30,7 +30,7 @@ struct PartedVolume {
 };
 
 /// The pieces separated by the partitions, with roles as described at `cut_by_plane()`. Loops as by
-/// `build_loops()`.
+/// `with_loops()`.
 /// @param tool  the cutting plane or face, for messages: "the plane".
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
@@ -44,10 +44,10 @@ std::vector<StepPiece> cut_each(
 /// Sort planar loops, given by their points, into regions: an outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops);
 
-/// Add a flat partition bounded by loops of edges (the outer first), named `cut_1` or with the next number.
+/// Add a flat partition bounded by loops of edges (the outer first).
 FaceId add_partition(topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& loops,
-                     const geometry::Plane& plane, const RunContext& context);
-/// The next free name of a partition.
+                     const geometry::Plane& plane, const std::string& name, const RunContext& context);
+/// The next free name of a partition: `cut_1` or with the next number.
 std::string partition_name(const topology::Model& model);
 
 } // namespace lacuna::closure

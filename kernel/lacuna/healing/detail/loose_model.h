@@ -15,7 +15,7 @@ namespace lacuna::healing {
 class LooseModel {
 public:
     /// @pre the model's loops are set.
-    explicit LooseModel(topology::Model model);
+    explicit LooseModel(const topology::Model& model);
 
     [[nodiscard]] const topology::Model& model() const { return model_; }
     [[nodiscard]] topology::Edge& edge(EdgeId e) { return model_[e]; }
@@ -72,7 +72,7 @@ private:
     void renew_parameters(const RunContext& context);
     void compact();
 
-    topology::Model model_;
+    topology::ModelBuilder model_;
     std::vector<bool> edge_gone_, face_gone_;
     std::vector<std::vector<FaceId>> users_;
     std::vector<VertexId> vertex_joined_; ///< the vertex that each one merges into

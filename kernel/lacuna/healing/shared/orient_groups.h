@@ -13,6 +13,6 @@ namespace lacuna::healing {
 /// unchanged.
 /// @param groups  face numbers; a face is in one group at most.
 /// @note  O(n log n) in facets.
-void orient_groups(topology::Model& model, const std::vector<std::vector<std::size_t>>& groups);
+void orient_groups(topology::ModelBuilder& model, const std::vector<std::vector<std::size_t>>& groups);
 
 } // namespace lacuna::healing

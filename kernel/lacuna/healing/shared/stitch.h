@@ -53,8 +53,8 @@ inline constexpr double kSewnShare = 0.01;
 ///
 /// @param tolerance  [model length], > 0.
 /// @param share      [-], >= 0.
-/// @pre   build_loops() has run, or would succeed.
-/// @post  loops are those of build_loops(); if gaps are well below the tolerance, a second call changes
+/// @pre   the loops are set, or `with_loops()` would succeed.
+/// @post  loops are those of `with_loops()`; if gaps are well below the tolerance, a second call changes
 ///         nothing.
 /// @throw Cancelled  the model is then unchanged.
 /// @note  O(n log n) in points; deterministic.

@@ -23,9 +23,7 @@ std::vector<FaceId> faces_named(const topology::OpenVolume& volume, const FaceNa
                                 const std::string& option);
 
 /// The wall beside an edge; invalid if there is none.
-/// @param uses  of the volume's edges, from `edge_uses()`.
-FaceId wall_on(const topology::OpenVolume& volume, std::span<const std::vector<topology::FaceUse>> uses,
-               EdgeId edge);
+FaceId wall_on(const topology::OpenVolume& volume, EdgeId edge);
 
 /// Whether a face of the volume has a tag, or one of the names of `FaceNames`.
 bool has_face(const topology::OpenVolume& volume, int tag);

@@ -27,8 +27,7 @@ std::set<EdgeId> edges_of(const Model& model, const std::vector<FaceId>& faces);
 std::set<VertexId> vertices_of(const Model& model, const std::vector<FaceId>& faces);
 
 /// The other faces that share an edge with a face.
-/// @param uses  edge_uses() of the model
-std::set<FaceId> faces_beside(const Model& model, const std::vector<std::vector<FaceUse>>& uses, FaceId face);
+std::set<FaceId> faces_beside(const Model& model, FaceId face);
 
 /// The faces of all roles: source, target, walls.
 std::vector<FaceId> all_faces(const Roles& roles);

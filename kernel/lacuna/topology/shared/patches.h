@@ -32,19 +32,17 @@ inline constexpr double kSmooth = 30;
 /// they meet smoothly or are not two. Near linear in the number of facets.
 /// @pre  the model is oriented.
 /// @throw Cancelled
-std::vector<double> folds_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                 const RunContext& context);
+std::vector<double> folds_across(const Model& model, const RunContext& context);
 
 /// The absolute values of folds_across().
-std::vector<double> angles_across(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                  const RunContext& context);
+std::vector<double> angles_across(const Model& model, const RunContext& context);
 
 /// The patches of all faces of a model, in the order of their first faces. Near linear in the number of
 /// facets.
 /// @param angle  of each edge, by angles_across()
 /// @pre  the model is oriented.
 /// @throw Cancelled
-std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<std::vector<FaceUse>>& uses,
-                                        const std::vector<double>& angle, const RunContext& context);
+std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<double>& angle,
+                                        const RunContext& context);
 
 } // namespace lacuna::topology

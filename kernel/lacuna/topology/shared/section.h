@@ -51,7 +51,7 @@ struct WalkImprint {
 /// surface or curve, if there is one; new edges then have an exact curve. Given quads stay with their part.
 /// @throw InvalidInput "topology.splits_mesh"  a walk crosses the given quads of a face; names the face.
 /// @note  O(facets).
-WalkImprint imprint_walks(Model& model, std::span<const SectionWalk> walks, const geometry::Plane& plane,
-                          double tolerance, const RunContext& context = {});
+WalkImprint imprint_walks(ModelBuilder& model, std::span<const SectionWalk> walks,
+                          const geometry::Plane& plane, double tolerance, const RunContext& context = {});
 
 } // namespace lacuna::topology
