@@ -7,6 +7,7 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -21,7 +22,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 namespace lacuna::closure {
@@ -108,7 +108,7 @@ private:
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * std::numbers::pi / 180) continue;
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * kDegree) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);

@@ -13,6 +13,7 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -102,9 +103,9 @@ double lean_of(const OpenVolume& volume)
 
 /// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
 /// angles. A lower value bends more closings that were meant to be straight.
-constexpr double kBend = 100 * std::numbers::pi / 180;
+constexpr double kBend = 100 * kDegree;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
-constexpr double kLean = 20 * std::numbers::pi / 180;
+constexpr double kLean = 20 * kDegree;
 
 /// Alternatives that differ by more than this share of the volume are noted: half of what makes an
 /// assumption, see `kMatters`. The sag of facets alone may cause differences of half a percent.

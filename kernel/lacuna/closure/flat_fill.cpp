@@ -9,6 +9,7 @@
 #include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::closure {
 
@@ -147,7 +147,7 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
     };
     double most = -1;
     for (const FaceId face : filling.closure.void_faces) most = std::max(most, facing(face));
-    const double enough = std::min(most - kAsSteep, std::cos(kSlope * std::numbers::pi / 180));
+    const double enough = std::min(most - kAsSteep, std::cos(kSlope * kDegree));
     for (const FaceId face : filling.closure.void_faces)
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }

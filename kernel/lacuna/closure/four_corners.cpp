@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace lacuna::closure {
 
@@ -47,7 +47,7 @@ bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
     std::reverse(back.begin(), back.end());
     const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
                leaves = -geometry::end_tangent(back);
-    return geometry::angle_between(arrives, leaves) > kCorner * std::numbers::pi / 180;
+    return geometry::angle_between(arrives, leaves) > kCorner * kDegree;
 }
 
 std::vector<std::size_t> sharp_corners(const Model& model, const Loop& loop)

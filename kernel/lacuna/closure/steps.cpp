@@ -8,6 +8,7 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -18,7 +19,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -62,7 +62,7 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
+                if (turns[use.edge.index()] < kStep * kDegree) {
                     if (uses[use.edge.index()].size() > 1) ++onward;
                     continue;
                 }

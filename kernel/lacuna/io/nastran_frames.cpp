@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/nastran.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::io {
 namespace {
@@ -12,7 +13,6 @@ constexpr int kDeepest = 200; // nested frames; each level needs a recursive cal
 /// Components of a point along the axes of a frame of this kind.
 Vec3 along_axes(char kind, const Vec3& p)
 {
-    constexpr double kDegree = std::numbers::pi / 180;
     if (kind == 'C') return {p.x() * std::cos(p.y() * kDegree), p.x() * std::sin(p.y() * kDegree), p.z()};
     if (kind == 'S') {
         const double across = p.x() * std::sin(p.y() * kDegree);

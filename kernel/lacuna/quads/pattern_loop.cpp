@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pattern_loop.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -133,7 +134,6 @@ public:
     static constexpr int kWidth = 3;
 
 private:
-    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     using Costs = std::array<double, kWidth>;
     static std::size_t index(int slot) { return static_cast<std::size_t>(slot); }
     [[nodiscard]] std::size_t slot(std::size_t i, int h) const { return index(h - heading(i, 0)); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/coincident.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/parallel.h>
 
@@ -257,11 +258,10 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
 /// @return  whether all are finite.
 bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
 {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     constexpr std::size_t kNumbers = 12;
     alignas(64) double low[kNumbers], high[kNumbers], zero[kNumbers] = {};
-    std::fill_n(low, kNumbers, kNone);
-    std::fill_n(high, kNumbers, -kNone);
+    std::fill_n(low, kNumbers, kInfinity);
+    std::fill_n(high, kNumbers, -kInfinity);
     const double* number = points.empty() ? nullptr : points.front().data();
     const std::size_t fours = points.size() / 4;
     for (std::size_t f = 0; f < fours; ++f, number += kNumbers) {

@@ -2,6 +2,7 @@
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
@@ -13,11 +14,10 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr Range kAny{};
 constexpr Range kUnit{0, 1};
-constexpr Range kFromZero{0, kEndless};
-constexpr Range kFromOne{1, kEndless};
+constexpr Range kFromZero{0, kInfinity};
+constexpr Range kFromOne{1, kInfinity};
 constexpr std::optional<Range> kNone{};
 
 constexpr std::array<MetricInfo, kMetricCount> kInfos{{
@@ -48,9 +48,9 @@ constexpr std::array<MetricInfo, kMetricCount> kInfos{{
 /// Statistics of some cells; those of several parts are merged in order.
 struct Tally {
     std::size_t count = 0, outside = 0, worst = 0;
-    double min = kEndless, max = -kEndless, mean = 0;
+    double min = kInfinity, max = -kInfinity, mean = 0;
     double squares = 0; ///< sum of squared distances from the mean
-    double badness = -kEndless;
+    double badness = -kInfinity;
 
     void add(double value, std::size_t cell, const MetricInfo& info)
     {

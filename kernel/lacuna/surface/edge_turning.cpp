@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/edge_turning.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <numbers>
 
 namespace lacuna::surface {
 
@@ -17,7 +17,7 @@ namespace {
 
 /// A sharper bend inside an edge is a corner: a hexagon still approximates a circle, a square does not.
 /// Heuristic.
-constexpr double kCorner = 75 * std::numbers::pi / 180;
+constexpr double kCorner = 75 * kDegree;
 /// Samples of an exact curve, enough to locate its bends. Heuristic.
 constexpr std::size_t kCurveSides = 64;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_region.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::sweep {
@@ -288,10 +288,9 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
 double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 {
     put(x);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     return parallel_min(
-        context_, region_.cells.size(), kChunk, kNone, [&](std::size_t begin, std::size_t end) {
-            double least = kNone;
+        context_, region_.cells.size(), kChunk, kInfinity, [&](std::size_t begin, std::size_t end) {
+            double least = kInfinity;
             for (std::size_t c = begin; c < end; ++c) {
                 const Hex& cell = region_.cells[c];
                 least = std::min(least, sweep::least_determinant(corners_of(places_, cell), region_.box[c],

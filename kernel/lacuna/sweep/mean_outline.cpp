@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/surface/shared/projector.h>
@@ -18,7 +19,6 @@ using namespace topology;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// Maximum corner angle of a quad on either end. A higher value accepts flatter corners, a lower one moves
 /// more nodes inward. Not measured.
 constexpr double kWidest = 150 * kDegree;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace lacuna {
+
+// Criteria that several parts of the kernel share. A limit that decides one thing in one place stays there.
+
+// Rounding, accuracy, same place
+
+/// Relative rounding error of computed lengths, areas and parameters: a few hundred operations lose four of
+/// the sixteen digits.
+inline constexpr double kRoundoff = 1e-12;
+
+/// Points closer than this share of the length at hand (a side, an edge, a rim, the diagonal) are the same
+/// place, and bends below it are straight. Projections converge to ten digits, and no side of a mesh is as
+/// short.
+inline constexpr double kSamePlace = 1e-9;
+
+/// Relative accuracy of coordinates in files, which have six to seven digits in single precision. Points this
+/// close to a line or a plane are on it, vectors with a smaller sine between them are parallel, and angles
+/// differ by more [radian].
+inline constexpr double kFileAccuracy = 1e-6;
+
+/// A number of sides that exceeds a whole number by less is rounded down: far above the rounding of sizes and
+/// lengths, far below a side.
+inline constexpr double kCountSlack = 1e-6;
+
+} // namespace lacuna
