@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -319,7 +320,7 @@ std::vector<double> share_out(const FineCurve& fine, double refinement, std::siz
 {
     const double total = std::accumulate(fine.weight.begin(), fine.weight.end(), 0.0);
     // Rounding must not add a segment to a whole circle.
-    const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - 1e-6)));
+    const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - kCountSlack)));
     const std::size_t sides = std::max(least, wanted);
     if (!(total > 0)) return evenly(fine.params.front(), fine.params.back(), sides);
     std::vector<double> params{fine.params.front()};

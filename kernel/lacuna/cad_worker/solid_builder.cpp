@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/solid_file.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,7 +242,7 @@ int SolidBuilder::plane(const SolidFace& face)
     std::vector<gmsh::vectorpair> map;
     gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
     const double area = cut.size() == 1 ? mass_of(2, cut.front().second) : 0;
-    if (!(std::abs(area - wanted) <= 1e-6 * wanted))
+    if (!(std::abs(area - wanted) <= kFileAccuracy * wanted))
         throw BackendError(Message("cad.plane_failed", "the inner loops could not be cut out of a plane")
                                .remedy("write the facets with write_facets"));
     forget_removed();

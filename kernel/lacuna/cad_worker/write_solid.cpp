@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/solid_file.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <cmath>
 #include <map>
@@ -17,11 +18,8 @@ namespace {
 /// Allowed relative change of the volume by writing: readers of STEP recompute edges on fitted surfaces.
 constexpr double kSameVolume = 1e-4;
 
-/// Curves shorter than this part of the diagonal are points: rounding, far below any tolerance.
-constexpr double kPole = 1e-9;
-
 /// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
-bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kPole * diagonal; }
+bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kSamePlace * diagonal; }
 
 /// Describes how the current model differs from one closed solid; empty if it does not.
 std::string faults_of_model(double diagonal)

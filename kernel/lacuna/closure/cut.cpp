@@ -7,6 +7,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -32,9 +33,6 @@ namespace {
 
 /// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-/// Loops with less area than this share of their squared length enclose nothing: they return on their own
-/// line, up to rounding. A higher value rejects slender sections.
-constexpr double kSlit = 1e-6;
 
 double signed_area(std::span<const Vec2> loop)
 {
@@ -193,7 +191,8 @@ private:
             double length = 0;
             for (std::size_t k = 0; k < loop.size(); ++k)
                 length += (loop[(k + 1) % loop.size()] - loop[k]).norm();
-            if (loop.size() < 3 || std::abs(signed_area(loop)) < kSlit * length * length) return false;
+            if (loop.size() < 3 || std::abs(signed_area(loop)) < kFileAccuracy * length * length)
+                return false;
             outline.add_loop(loop);
         }
         return !geometry::find_crossing(outline.flat, outline.loops);

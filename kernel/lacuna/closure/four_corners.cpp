@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/four_corners.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
@@ -37,7 +38,8 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
     const Vec3 chord = points.back() - points.front();
     const Vec3 along = chord.stableNormalized();
     return std::ranges::all_of(points, [&](const Vec3& p) {
-        return (p - points.front()).cross(along).norm() <= std::max(model.tolerance, 1e-6 * chord.norm());
+        return (p - points.front()).cross(along).norm() <=
+               std::max(model.tolerance, kFileAccuracy * chord.norm());
     });
 }
 

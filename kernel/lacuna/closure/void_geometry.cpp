@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -135,7 +136,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
         spread += s.weight / length * off * off.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    if (axes.eigenvalues()(0) <= 1e-12 * axes.eigenvalues()(1)) return std::nullopt; // collinear
+    if (axes.eigenvalues()(0) <= kRoundoff * axes.eigenvalues()(1)) return std::nullopt; // collinear
     result.stretch = axes.operatorInverseSqrt();
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Quadratic right = Quadratic::Zero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/edge_track.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
@@ -90,7 +91,7 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
             places[active[k]].distance = (at[3 * k] - p).norm();
             if (!(tangent.squaredNorm() > 0)) continue;
             const double next = t[k] + (p - at[3 * k]).dot(tangent) / tangent.squaredNorm();
-            still = still && std::abs(next - t[k]) <= 1e-12 * (high - low);
+            still = still && std::abs(next - t[k]) <= kRoundoff * (high - low);
             t[k] = std::clamp(next, low, high);
         }
         if (still) break;

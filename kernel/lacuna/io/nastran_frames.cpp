@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/nastran.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <cmath>
 
@@ -57,8 +58,7 @@ void Frames::resolve(Index tag, Frame& frame)
     --depth_;
     const Vec3 z = (at[1] - at[0]).stableNormalized();
     const Vec3 y = z.cross((at[2] - at[0]).stableNormalized());
-    constexpr double kLeastSine = 1e-9; // between the z axis and the third point: less is rounding
-    if (!(y.norm() > kLeastSine))
+    if (!(y.norm() > kSamePlace))
         given.place.fail("the three points of {} are in line", numbered("coordinate system", tag));
     frame.axes.col(2) = z;
     frame.axes.col(1) = y.normalized();

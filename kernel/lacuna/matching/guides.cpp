@@ -2,6 +2,7 @@
 #include <lacuna/matching/shared/guides.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
@@ -30,8 +31,6 @@ namespace {
 /// points; more average out the facets and cost time.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
-/// Offset of the first and last level from the rims, so that no level passes through a facet corner there.
-constexpr double kRim = 1e-12;
 
 using FacetSide = std::pair<Index, Index>;
 
@@ -387,8 +386,9 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
                          const RunContext& context)
 {
     std::vector<double> levels;
+    // The outermost levels avoid the facet corners on the rims.
     for (int k = 0; k <= count; ++k)
-        levels.push_back(std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim));
+        levels.push_back(std::clamp(static_cast<double>(k) / count, kRoundoff, 1 - kRoundoff));
     const auto facets = facets_at_levels(volume, part, heights, levels);
     if (!facets) return {};
     std::vector<LevelLine> lines;

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/face_pattern.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -132,12 +133,9 @@ private:
     int shift_ = 0;
 };
 
-/// Far above interpolation errors and far below a grid edge [edges of the grid].
-constexpr double kRounding = 1e-6;
-
 /// The nearest integer. Half-way values are rounded down, even with rounding errors, so that holes that are
 /// images of each other all move in the same direction.
-int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kRounding)); }
+int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
 
 void move(GridLoop& loop, int along, int across, int period)
 {
@@ -285,7 +283,7 @@ private:
         if (by.allFinite() && trade_column_for_row(traded)) {
             GridLoop other = positions_of(traded);
             const Vec2 now = way_to(goal, other);
-            if (off(now) < off(by) - kRounding) {
+            if (off(now) < off(by) - kCountSlack) {
                 grid_[l] = std::move(other);
                 by = now;
             }

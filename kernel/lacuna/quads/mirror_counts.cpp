@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/mirror_counts.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/ring_counts.h>
@@ -88,7 +89,6 @@ struct PartSegments {
 
 PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
 {
-    constexpr double kTiny = 1e-6; // far above rounding, far below a side
     PartSegments made;
     made.own.resize(part.region.points.size());
     for (const auto& loop : part.region.loops) {
@@ -120,7 +120,8 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
         BoundarySegment& own = made.all[t];
         const auto s = index(halved.segment_at(made.starts[t]));
         const BoundarySegment& whole = task.segments[s];
-        own.least = std::max(1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kTiny)));
+        own.least = std::max(
+            1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kCountSlack)));
     }
     return made;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/outline_symmetry.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
@@ -12,10 +13,6 @@
 
 namespace lacuna::quads {
 namespace {
-
-/// Two nodes coincide if they are nearer than this share of the region's extent: the accuracy of nodes on CAD
-/// edges. A smaller value misses symmetries, a larger one accepts regions that are not symmetric.
-constexpr double kAlike = 1e-6;
 
 Vec2 middle_of(const PlanarRegion& region)
 {
@@ -34,7 +31,7 @@ double extent_of(const PlanarRegion& region, const Vec2& centre)
 class OutlineFinder {
 public:
     explicit OutlineFinder(const PlanarRegion& region)
-        : region_(region), centre_(middle_of(region)), alike_(kAlike * extent_of(region, centre_))
+        : region_(region), centre_(middle_of(region)), alike_(kFileAccuracy * extent_of(region, centre_))
     {
     }
 
@@ -172,7 +169,7 @@ public:
     PartCutter(const PlanarRegion& region, const Vec2& centre, double from, double to, bool has_centre)
         : region_(region),
           centre_(centre),
-          alike_(kAlike * extent_of(region, centre)),
+          alike_(kFileAccuracy * extent_of(region, centre)),
           ray_{Vec2(std::cos(from), std::sin(from)), Vec2(std::cos(to), std::sin(to))},
           is_half_(to - from > std::numbers::pi - 1e-9),
           has_centre_(has_centre)
@@ -410,7 +407,7 @@ std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, 
     std::vector<Pair> pairs;
     for (const Axis& axis : axes) {
         for (const Axis& other : axes) {
-            if (std::abs(other.angle - axis.angle - kPi / 2) <= 1e-6)
+            if (std::abs(other.angle - axis.angle - kPi / 2) <= kFileAccuracy)
                 pairs.push_back({axis.worth + other.worth, axis.angle});
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/square_rows.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -341,9 +342,8 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
     constexpr double kLess = 0.01;
     constexpr int kRounds = 12, kIdle = 3; // idle rounds: without gain
     constexpr double kStill = 0.03;        // of a side: smaller moves gain nothing more
-    constexpr double kAlike = 1e-6;        // difference between images of one quad
     const PlaneQuality before = quality;
-    const double rounding = symmetries.empty() ? 0 : kAlike;
+    const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region, symmetries, sizes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/shared/second_order.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/lanes.h>
 
@@ -16,9 +17,6 @@ constexpr std::size_t kSide = 6;                    ///< coefficients in each di
 constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Coefficients below this part of the largest count as zero: the conversion from values amplifies rounding
-/// by less than 1e4.
-constexpr double kRounding = 1e-12;
 /// Distance below which a middle node counts as straight, relative to the size of
 /// the cell: rounding with a margin.
 constexpr double kStraight = 1e-13;
@@ -279,7 +277,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     cell.volume = sum / static_cast<double>(kAll);
     cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
     cell.scaled_jacobian = scaled;
-    const double floor = kRounding * largest;
+    const double floor = kRoundoff * largest;
     cell.positive = cell.scaled_jacobian > 0 &&
                     (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
     return cell;

@@ -3,6 +3,7 @@
 #include <lacuna/quality/shared/second_order.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
@@ -62,9 +63,8 @@ struct Tally {
         min = std::min(min, value);
         max = std::max(max, value);
         // Rounding may put a cube's metrics slightly outside their range.
-        constexpr double kRounding = 1e-12;
         if (info.acceptable &&
-            !(value >= info.acceptable->low - kRounding && value <= info.acceptable->high + kRounding))
+            !(value >= info.acceptable->low - kRoundoff && value <= info.acceptable->high + kRoundoff))
             ++outside;
         const double bad = info.larger_is_better ? -value : value;
         if (bad > badness || (bad == badness && cell < worst)) {

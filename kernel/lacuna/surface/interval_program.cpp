@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/interval_program.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -30,8 +31,6 @@ constexpr double kOutOfSize = 2;
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 /// Larger sets are not solved: these take 0.1 s. Heuristic.
 constexpr double kMostWork = 1e8;
-/// A gain below this share of the cost is rounding.
-constexpr double kRounding = 1e-12;
 
 double wish_cost(double n, double wanted, double weight)
 {
@@ -370,7 +369,7 @@ private:
     bool step()
     {
         constexpr int kMostStep = 1 << 16;
-        double best = -kRounding * (1 + std::abs(cost_));
+        double best = -kRoundoff * (1 + std::abs(cost_));
         const std::vector<std::pair<std::size_t, std::int64_t>>* along = nullptr;
         std::int64_t times = 0;
         for (const auto& vector : vectors_) {

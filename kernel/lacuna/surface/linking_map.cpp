@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
@@ -136,8 +137,8 @@ double target_coordinate(const LinkingSurface& link, double target_at)
     const double length = link.target.length();
     const double first = link.segments.front().target_from;
     double at = target_at;
-    while (at < first - 1e-12 * length) at += length;
-    while (at > first + length * (1 + 1e-12)) at -= length;
+    while (at < first - kRoundoff * length) at += length;
+    while (at > first + length * (1 + kRoundoff)) at -= length;
     for (const RimSegment& segment : link.segments) {
         if (at > segment.target_to && &segment != &link.segments.back()) continue;
         const double f = (at - segment.target_from) / (segment.target_to - segment.target_from);
@@ -176,7 +177,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         fixed[p.point] = Vec2(p.at / link.source.length(), 0);
     for (const ChainNode& p : high) {
         const double s = target_coordinate(link, p.at);
-        const double turned = s - std::floor(s - end_branch + 1e-12);
+        const double turned = s - std::floor(s - end_branch + kRoundoff);
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
     }
     for (const Crease& line : upright) {
@@ -352,7 +353,7 @@ Vec2 LinkingMap::upright(const Vec2& place) const
 {
     if (columns_.empty()) return place;
     double low = place.x() - 2, high = place.x() + 2; // a column deviates by less from its harmonic s
-    while (high - low > 1e-12) {
+    while (high - low > kRoundoff) {
         const double middle = (low + high) / 2;
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
     }
@@ -470,13 +471,13 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
     // A column through the end of a piece still crosses it.
-    constexpr double kSlack = 1e-9; ///< of a turn: rounding
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;
         const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
-        for (double at = s + std::ceil(low - kSlack - s); at <= high + kSlack; at += 1) {
-            const double f = high - low > kSlack ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0) : 0.5;
+        for (double at = s + std::ceil(low - kSamePlace - s); at <= high + kSamePlace; at += 1) {
+            const double f = high - low > kSamePlace ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0)
+                                                     : 0.5;
             result.push_back(
                 {a.y() + f * (b.y() - a.y()), piece.edge, piece.from + f * (piece.to - piece.from)});
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/rim_breaks.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -24,8 +25,6 @@ namespace {
 /// Vertices of both rims closer than this share of the local facets use one column, as for edges of the
 /// walls: no quad fits between them.
 constexpr double kOneColumn = 0.4;
-/// Facets at smaller angles are coplanar [radian].
-constexpr double kFlat = 1e-6;
 /// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
 /// sharpest and straightest is taken.
 constexpr double kGoesOn = 0.25;
@@ -202,7 +201,7 @@ void RimFacets::find_sides()
                 const auto [other, fresh] = first.try_emplace(edge_key(a, b), own);
                 if (fresh) continue;
                 const double turn = geometry::angle_between(other->second, own);
-                if (turn < kFlat) continue;
+                if (turn < kFileAccuracy) continue;
                 sides_[a].push_back({b, turn});
                 sides_[b].push_back({a, turn});
             }
@@ -282,7 +281,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
         const std::vector<Vec3> line = edge_line(model, use.edge);
         const std::vector<double> arc = geometry::arc_lengths(line);
         const double turn = EdgeTurning(model, use.edge).between(0, arc.back());
-        if (turn < kFlat) continue;
+        if (turn < kFileAccuracy) continue;
         const double angle = 2 * std::numbers::pi / per_turn, sag = arc.back() * angle * angle / (8 * turn);
         const std::vector<std::size_t> points = kept_points(line, sag);
         const double most = std::max(turn / angle, arc.back() / size(line[line.size() / 2]));

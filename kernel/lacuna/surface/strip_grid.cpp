@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
@@ -225,10 +226,9 @@ private:
     /// The position in the strip of a fraction of an edge.
     static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
     {
-        constexpr double kSlack = 1e-9; ///< of the edge: rounding
         for (const LinkingMap::Piece& piece : pieces) {
             const double low = std::min(piece.from, piece.to), high = std::max(piece.from, piece.to);
-            if (piece.edge != edge || share < low - kSlack || share > high + kSlack) continue;
+            if (piece.edge != edge || share < low - kSamePlace || share > high + kSamePlace) continue;
             const double f = high > low ? (share - piece.from) / (piece.to - piece.from) : 0;
             return piece.a + f * (piece.b - piece.a);
         }
@@ -249,14 +249,14 @@ private:
         std::vector<Anchor> anchors;
         for (const std::size_t stop : level.stops) {
             const double s = net_.stops[stop].place.x();
-            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
+            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + kSamePlace)});
         }
         std::ranges::sort(anchors, {}, &Anchor::node);
         for (std::size_t a = 0; a < anchors.size(); ++a) {
             const Anchor& from = anchors[a];
             Anchor to = anchors[(a + 1) % anchors.size()];
             if (a + 1 == anchors.size()) to.node += count_;
-            while (to.s <= from.s + 1e-9) to.s += 1;
+            while (to.s <= from.s + kSamePlace) to.s += 1;
             const double start = at_node(from.node), whole = at_node(to.node) - start;
             for (std::size_t i = from.node + 1; i < to.node; ++i) {
                 const double s = from.s + (at_node(i) - start) / whole * (to.s - from.s);

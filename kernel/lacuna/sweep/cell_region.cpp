@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/cell_region.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>
 
@@ -149,9 +150,6 @@ mesh::Incidence uses_of(const CellRegion& region)
     });
 }
 
-/// Two sides at an angle below this sine are collinear, up to rounding.
-constexpr double kInLine = 1e-6;
-
 /// Two sides of a cell that are collinear and fixed.
 std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
                                         const std::vector<char>& locked)
@@ -159,7 +157,7 @@ std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8
     std::optional<StuckCorner> stuck;
     for_locked_angles(hex, locked, [&](std::size_t c, std::size_t a, std::size_t b) {
         const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
-        if (!stuck && u.cross(v).norm() <= kInLine * u.norm() * v.norm())
+        if (!stuck && u.cross(v).norm() <= kFileAccuracy * u.norm() * v.norm())
             stuck = StuckCorner{hex[c], {hex[a], hex[b]}};
     });
     return stuck;

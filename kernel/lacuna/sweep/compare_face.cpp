@@ -7,6 +7,7 @@
 // searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/tips.h>
@@ -32,8 +33,6 @@ constexpr double kFlat = 1e-3;
 /// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
 /// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// Relative tolerance for points in a plane, to the face's extent: rounding is a thousand times smaller.
-constexpr double kInPlane = 1e-12;
 /// Distances above this, in sides of the quad, are not taken from the walk, because another part of the face
 /// may be nearer. A lower value searches the tree more often. Not measured.
 constexpr double kFar = 0.25;
@@ -171,7 +170,7 @@ private:
         for (const Vec3& p : shape_.points) box.extend(p);
         origin_ = (box.min() + box.max()) / 2;
         normal_ = area.stableNormalized();
-        const double slack = kInPlane * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
+        const double slack = kRoundoff * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
         const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
         origin_ = shape_.points[index(shape_.triangles.front()[0])];
         const auto bends = [&](const Vec3& bulge) { return std::abs(normal_.dot(bulge)) > slack; };

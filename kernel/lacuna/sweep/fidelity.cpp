@@ -2,6 +2,7 @@
 #include <lacuna/sweep/fidelity.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/shared/face_shape.h>
@@ -222,7 +223,7 @@ std::string in_words(const Fidelity& fidelity)
         fidelity.volume, fidelity.sealed_volume, more < 0 ? "" : "+", more, fidelity.max_distance,
         fidelity.mean_distance);
     const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
-    const double rounding = 1e-9 * std::cbrt(std::abs(fidelity.sealed_volume));
+    const double rounding = kSamePlace * std::cbrt(std::abs(fidelity.sealed_volume));
     if (worst != fidelity.faces.end() && worst->max_distance > rounding)
         line += formatted("; most on {} at {}", worst->entity, at_place(worst->place));
     return line;

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/wall_columns.h>
 
@@ -91,9 +92,8 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
 /// Layers required by the bends of the columns, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
-    constexpr double kRounding = 1e-6;
     return static_cast<int>(
-        std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kRounding));
+        std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kCountSlack));
 }
 
 /// Layers about as high as the quads are wide, at least `least`. @throw InvalidInput  more layers than node

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/rim.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <Eigen/LU>
 
@@ -43,11 +44,10 @@ void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes
     const std::span<const Vec3> row = columns.row(layer);
     double reach = 0;
     for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
-    constexpr double kProjection = 1e-6; // the tolerance for given faces, relative to their size
     for (std::size_t k = 0; k < row.size(); ++k) {
         const Vec3& node = nodes[index(columns.rim[k])];
         const double gap = (row[k] - node).norm();
-        if (gap <= kProjection * reach) continue;
+        if (gap <= kFileAccuracy * reach) continue;
         throw InvalidInput(kColumns,
                            "the column over {} ends {:.6f} away from its node on the {}: columns must start "
                            "and end on the rims",

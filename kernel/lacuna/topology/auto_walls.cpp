@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/auto_walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -21,8 +22,6 @@ namespace {
 
 /// Steps of the search for choices; a hundred sheets that meet in threes take about as many.
 constexpr std::size_t kMostSteps = 100000;
-/// Free lengths that differ by less than this share of the diagonal are equal.
-constexpr double kSameLength = 1e-6;
 /// Volumes that differ by less than this share of the larger are equal. Rule of thumb.
 constexpr double kSameVolume = 0.01;
 /// Normals within a degree count as equal, as for the ends of role_candidates().
@@ -290,7 +289,7 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     if (choices && (source.empty() || target.empty()))
         std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
     if (!choices || choices->empty()) return {reached, {}, {}, false, {}};
-    const double same = kSameLength * model.diagonal;
+    const double same = kFileAccuracy * model.diagonal;
     const double least = std::ranges::min_element(*choices, {}, &Choice::free_length)->free_length;
     std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });
     std::ranges::stable_sort(*choices, {}, &Choice::volume);

@@ -3,6 +3,7 @@
 
 /// The quads around each point of a mesh with fixed connections; for connections that change see `QuadNet`.
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/types.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
@@ -112,8 +113,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
         // Without a square root or a division: clearly below.
-        constexpr double kClearly = 1 - 1e-12;
-        const double squared = kClearly * floor * floor;
+        const double squared = (1 - kRoundoff) * floor * floor;
         const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
                                           ac * ac < squared * aa * cc || db * db < squared * dd * bb);
         if (!below) {
