@@ -17,10 +17,6 @@ using namespace topology;
 
 namespace {
 
-/// A rim turns by more than this at a corner [degrees]; the same limit separates patches. A lower value takes
-/// facets of a coarse curve for corners; a higher one joins sides that meet at an obtuse angle.
-constexpr double kCorner = 30;
-
 /// Mismatch of the first and third side if the first is moved along the others.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
@@ -49,7 +45,7 @@ bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
     std::reverse(back.begin(), back.end());
     const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
                leaves = -geometry::end_tangent(back);
-    return geometry::angle_between(arrives, leaves) > kCorner * kDegree;
+    return geometry::angle_between(arrives, leaves) > kCreaseAngle * kDegree;
 }
 
 std::vector<std::size_t> sharp_corners(const Model& model, const Loop& loop)

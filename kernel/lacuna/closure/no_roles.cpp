@@ -10,6 +10,7 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace lacuna::closure {
@@ -31,8 +31,6 @@ namespace {
 constexpr double kTip = 0.01;
 /// Cosine of 5°, within which axes are parallel.
 constexpr double kParallel = 0.996;
-/// Edges where the skin turns inward by more than 30° are concave: the limit between patches.
-constexpr double kConcaveEdge = std::numbers::pi / 6;
 /// Number of planes tried for a message. Limits run time, as each is a cut.
 constexpr std::size_t kMostPlanes = 8;
 /// Number of faces that a message lists for a recipe.
@@ -63,7 +61,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
     const std::vector<std::vector<FaceUse>> uses = edge_uses(model);
     std::vector<FaceId> tried;
     for (std::size_t e = 0; e < turns.size(); ++e) {
-        if (!(turns[e] > kConcaveEdge)) continue;
+        if (!(turns[e] > kCreaseAngle * kDegree)) continue;
         for (const FaceUse& use : uses[e]) {
             const auto plane = plane_of(model, use.face);
             if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/smooth_ends.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/patches.h>
 
@@ -42,7 +43,7 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end,
     for (std::size_t i = 0; i < extended.size(); ++i) {
         if (!is_free_of_meshes(model[extended[i]])) return {};
         for (const EdgeUse& use : uses_of(model[extended[i]])) {
-            if (angle[use.edge.index()] >= kSmooth) continue;
+            if (angle[use.edge.index()] >= kCreaseAngle) continue;
             for (const FaceUse& user : uses[use.edge.index()]) {
                 if (std::ranges::find(extended, user.face) != extended.end()) continue;
                 if (volume.role[user.face.index()] != Role::wall) return {};

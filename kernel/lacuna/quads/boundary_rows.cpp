@@ -2,6 +2,8 @@
 #include <lacuna/quads/shared/boundary_rows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
 #include <algorithm>
@@ -116,7 +118,8 @@ private:
     {
         const Index node = front.nodes[i];
         if (partial_.is_fixed(node) && !is_cut_[index(node)]) return turn_[index(node)];
-        return corner_angle(partial_.points, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
+        return corner_angle(partial_.points, front.nodes, i) > kReversalAbove * kDegree ? RowTurn::outer
+                                                                                        : RowTurn::smooth;
     }
 
     /// Whether rows continue past a place of the front.

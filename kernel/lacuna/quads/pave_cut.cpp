@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_cut.h>
 
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
@@ -81,7 +83,7 @@ public:
             arc_[i + 1] = arc_[i] + side.norm();
             heading_[i] = std::atan2(side.y(), side.x());
             pace_[i] = 1 / partial.size(at(i));
-            if (angles[i] < kCornerBelow) corners_.push_back(i);
+            if (angles[i] < kCornerBelow * kDegree) corners_.push_back(i);
         }
     }
 
@@ -150,7 +152,7 @@ private:
     /// Reduction of a line's cost if it ends at a node.
     [[nodiscard]] double gain(std::size_t i) const
     {
-        return angles_[i] > kBentAbove ? partial_.weights.bent : 0.0;
+        return angles_[i] > kReversalAbove * kDegree ? partial_.weights.bent : 0.0;
     }
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
@@ -175,7 +177,7 @@ private:
         constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward; more cost time
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
-            if (angles_[i] > kBentAbove) bent.push_back(i);
+            if (angles_[i] > kReversalAbove * kDegree) bent.push_back(i);
         }
         stride_ = n_ <= kSpread ? 1 : std::max<std::size_t>(2, n_ / kSpread);
         std::vector<std::size_t> places;
@@ -258,7 +260,7 @@ private:
             if (count < corner.size()) corner[count] = place;
             ++count;
         };
-        if (angle_from < kCornerBelow) add(0);
+        if (angle_from < kCornerBelow * kDegree) add(0);
         auto next = std::upper_bound(corners_.begin(), corners_.end(), from);
         for (std::size_t k = 0; k < corners_.size() && count <= corner.size(); ++k, ++next) {
             if (next == corners_.end()) next = corners_.begin();
@@ -266,7 +268,7 @@ private:
             if (place == 0 || place >= span) break;
             add(place);
         }
-        if (angle_to < kCornerBelow) add(span);
+        if (angle_to < kCornerBelow * kDegree) add(span);
         if (count < 3 || count > 5) return 0.3;
         SideCounts sides{{}, count};
         for (std::size_t k = 0; k < count; ++k)

@@ -20,8 +20,6 @@ namespace {
 /// Tangent of 30°: an edge that deviates more from the direction of its column or level is slanted or round.
 /// Heuristic.
 constexpr double kSlanted = 0.577;
-/// Cosine of 20°; facets' edges with a larger bend are corners. Heuristic.
-constexpr double kSmooth = 0.94;
 
 double wrapped(double s) { return s - std::floor(s + kSamePlace); }
 
@@ -166,7 +164,7 @@ private:
             if (edge.from == vertex) leave(edge.points[0], edge.points[1]);
             if (edge.to == vertex) leave(edge.points.back(), edge.points[edge.points.size() - 2]);
         }
-        return away.size() == 2 && away[0].dot(away[1]) < -kSmooth ? EdgeId() : any;
+        return away.size() == 2 && away[0].dot(away[1]) < -kOneCurve ? EdgeId() : any;
     }
 
     /// Edges of one ring follow each other around the walls; those around a round patch turn back.

@@ -6,6 +6,7 @@
 #include <lacuna/topology/auto_roles.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/marks.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -100,7 +101,7 @@ std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<s
     }
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() == 2 && flat[uses[e][0].face.index()] != flat[uses[e][1].face.index()])
-            angle[e] = std::max(angle[e], kSmooth);
+            angle[e] = std::max(angle[e], kCreaseAngle);
     }
     return angle;
 }
@@ -130,7 +131,7 @@ public:
                 free_.push_back({EdgeId(u / 2), u % 2 == 1});
         }
         for (std::size_t e = 0; e < angle_.size(); ++e) {
-            if (angle_[e] >= kSmooth) sharp_.emplace_back(e);
+            if (angle_[e] >= kCreaseAngle) sharp_.emplace_back(e);
         }
         if (!used_twice_) tally_.emplace(map_, free_loops());
     }

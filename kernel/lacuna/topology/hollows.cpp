@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/hollows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -158,7 +159,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
     for (const std::vector<FaceId>& shell : inner)
         for (const FaceId face : shell) hang.unite_least(shell.front().index(), face.index());
     for (std::size_t e = 0; e < uses.size(); ++e) {
-        if (uses[e].size() == 2 && fold[e] < kSmooth)
+        if (uses[e].size() == 2 && fold[e] < kCreaseAngle)
             hang.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
     }
     std::map<std::size_t, std::vector<FaceId>> by_root;

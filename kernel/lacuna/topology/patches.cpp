@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/patches.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -170,7 +171,7 @@ std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<st
     geometry::UnionFind smooth(model.faces.size());
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
-        if (angle[e] < kSmooth) smooth.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
+        if (angle[e] < kCreaseAngle) smooth.unite_least(uses[e][0].face.index(), uses[e][1].face.index());
     }
     std::map<std::size_t, SmoothPatch> by_root;
     for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[smooth.find(f)].faces.emplace_back(f);

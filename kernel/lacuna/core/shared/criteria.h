@@ -25,4 +25,22 @@ inline constexpr double kFileAccuracy = 1e-6;
 /// lengths, far below a side.
 inline constexpr double kCountSlack = 1e-6;
 
+// Corner
+
+/// Faces whose normals differ by less across an edge are one patch, and a rim that turns by less has no corner
+/// [degrees]: a chamfer of 45° has edges, a cylinder of more than twelve sides does not.
+inline constexpr double kCreaseAngle = 30;
+
+/// Inner angles of a face [degrees]. A vertex below the first is a corner, where a mapped grid and the rows
+/// along a side end; a vertex above the second is a reversal. Half way between one, two and three quads.
+inline constexpr double kCornerBelow = 135, kReversalAbove = 225;
+
+/// Cosine of the turn (20°) below which two edges are parts of one curve: imprints split circles into edges of
+/// single chords, and coarse circles have some twenty.
+inline constexpr double kOneCurve = 0.94;
+
+/// Cosine of the turn (45°) below which an edge continues a line beyond a vertex: half way between straight on
+/// and a right angle.
+inline constexpr double kContinues = 0.7;
+
 } // namespace lacuna
