@@ -38,9 +38,6 @@ constexpr double kLoose = 0.3;
 /// straight sweep, a quarter or less for a bend by 90°. Tuned on 277 voids of prisms, tubes, bends and
 /// pockets.
 constexpr double kAcross = 2.0;
-/// Tolerance (1 − cosine) for normals that point in one direction, and for the mean normal of a flat patch:
-/// about a degree. Rule of thumb.
-constexpr double kOneWay = 2e-4;
 /// Mean inclination of walls below which a volume with steps can be cut straight along the sweep. Rule of
 /// thumb.
 constexpr double kStraight = 0.02;
@@ -97,7 +94,7 @@ std::vector<double> parted_at_flat_faces(const Model& model, const std::vector<s
     std::vector<bool> flat(model.faces.size());
     for (std::size_t f = 0; f < flat.size(); ++f) {
         const FaceId id(f);
-        flat[f] = face_area_vector(model, id).norm() > (1 - kOneWay) * face_area(model, id);
+        flat[f] = face_area_vector(model, id).norm() > (1 - kFlatShare) * face_area(model, id);
     }
     for (std::size_t e = 0; e < uses.size(); ++e) {
         if (uses[e].size() == 2 && flat[uses[e][0].face.index()] != flat[uses[e][1].face.index()])
@@ -330,7 +327,7 @@ private:
     {
         std::vector<std::size_t> flat;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            if (map_.patches[p].flatness > 1 - kOneWay && !map_.patches[p].rims.empty()) flat.push_back(p);
+            if (map_.patches[p].flatness > 1 - kFlatShare && !map_.patches[p].rims.empty()) flat.push_back(p);
         }
         Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
         double area = 0;
@@ -343,9 +340,9 @@ private:
             double ends = 0;
             for (const std::size_t p : flat) {
                 const double facing = map_.patches[p].normal.dot(way);
-                if (facing > 1 - kOneWay) ahead.push_back(p);
-                if (facing < kOneWay - 1) same.push_back(p);
-                if (std::abs(facing) > 1 - kOneWay) ends += map_.patches[p].area;
+                if (facing > 1 - kFlatShare) ahead.push_back(p);
+                if (facing < kFlatShare - 1) same.push_back(p);
+                if (std::abs(facing) > 1 - kFlatShare) ends += map_.patches[p].area;
                 if (!same.empty() && same.front() < source) break;
             }
             if (ahead.empty() || same.size() + ahead.size() < 3) continue;

@@ -24,8 +24,6 @@ namespace {
 constexpr std::size_t kMostSteps = 100000;
 /// Volumes that differ by less than this share of the larger are equal. Rule of thumb.
 constexpr double kSameVolume = 0.01;
-/// Normals within a degree count as equal, as for the ends of role_candidates().
-constexpr double kFacesAsEnd = 2e-4;
 
 /// Every face connected to some faces over shared edges without crossing the excluded ones.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
@@ -256,7 +254,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     orient_consistently(oriented);
     const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
     const auto faces_as_end = [&](FaceId face) { // and is flat
-        return face_area_vector(oriented, face).dot(way) > (1 - kFacesAsEnd) * face_area(oriented, face);
+        return face_area_vector(oriented, face).dot(way) > (1 - kFlatShare) * face_area(oriented, face);
     };
     if (!std::ranges::all_of(end, faces_as_end)) return result;
     std::vector<FaceId> across = result.walls;

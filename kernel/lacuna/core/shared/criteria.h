@@ -43,4 +43,15 @@ inline constexpr double kOneCurve = 0.94;
 /// and a right angle.
 inline constexpr double kContinues = 0.7;
 
+/// Sides of a polyline that turn by less are parts of a bend, by more they form a corner [degrees]: a hexagon
+/// still approximates a circle, a square does not.
+inline constexpr double kBendBelow = 75;
+
+// Flat, straight
+
+/// A face is flat if its summed area vector falls short of its area by less than this share, and two
+/// directions agree if their cosine falls short of 1 by less: normals within about a degree. Facets of flat
+/// faces in files are that exact; walls that bend for the eye are not.
+inline constexpr double kFlatShare = 2e-4;
+
 } // namespace lacuna
