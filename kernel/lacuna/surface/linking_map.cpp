@@ -69,9 +69,6 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangl
     return geometry::solve_harmonic(problem, context);
 }
 
-/// Columns that differ less are straight up to rounding; unchanged, their rows stay affine images of the
-/// rims.
-constexpr double kEvenAlready = 1e-3;
 /// Columns at which sections are sampled: one per degree.
 constexpr std::size_t kColumnsRound = 360;
 
@@ -253,7 +250,7 @@ void LinkingMap::measure_heights(const Model& model)
     double off = 0;
     for (std::size_t k = 0; k <= kSteps; ++k)
         off = std::max(off, std::abs(even_[k] - static_cast<double>(k) / kSteps));
-    if (off < kEvenAlready) even_.clear();
+    if (off < kVisible) even_.clear();
 }
 
 double LinkingMap::from_even(double height) const
@@ -336,8 +333,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
             worst = std::max(worst, std::abs(columns_[k].back() - s));
         }
     }
-    if (worst < kEvenAlready) columns_.clear();
-    if (std::abs(turn_) < kEvenAlready) turn_ = 0;
+    if (worst < kVisible) columns_.clear();
+    if (std::abs(turn_) < kVisible) turn_ = 0;
 }
 
 double LinkingMap::harmonic(double s, double t) const

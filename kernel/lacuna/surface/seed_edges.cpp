@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/seed_edges.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -28,10 +29,6 @@ constexpr double kPartOfSide = 0.05;
 
 /// Points per piece at which the size is sampled. Heuristic.
 constexpr int kSizeSamples = 32;
-
-/// Sizes along an edge that differ by a smaller share count as uniform, and the nodes are spaced evenly: the
-/// difference is invisible.
-constexpr double kSameSize = 1e-3;
 
 /// Turn of the target's rim over even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
@@ -169,7 +166,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         least = std::min(least, here);
         most = std::max(most, here);
     }
-    if (most < least * (1 + kSameSize)) piece.wanted.clear();
+    if (most < least * (1 + kVisible)) piece.wanted.clear();
     if (sides > std::numeric_limits<Index>::max() / 8) {
 
         throw NotSweepable(Message("surface.too_many_sides",

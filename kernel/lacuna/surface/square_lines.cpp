@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/detail/section_line.h>
@@ -459,11 +460,10 @@ private:
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
-        constexpr double kStill = 1e-3; // invisible change [sides]
         double weight = 1;
         std::vector<Line> uneven; // uneven lines, with their previous weight
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
-            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
+            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {
                 if (!uneven.empty()) go_towards(lines, rungs, uneven);
                 return true;

@@ -26,10 +26,6 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A quad is treated as flat, as two triangles instead of four, if the gap between its diagonals is below
-/// this share of its longest side. A lower value makes more quads cost four triangles; a higher one hides
-/// real twist. Not measured.
-constexpr double kFlat = 1e-3;
 /// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
 /// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
@@ -107,7 +103,7 @@ QuadFacets facets_of(const std::array<Vec3, 4>& c)
 {
     if (c[2] == c[3]) return {{{{c[0], c[1], c[2]}}}, 1}; // a triangle
     const Vec3 one = (c[0] + c[2]) / 2, other = (c[1] + c[3]) / 2;
-    if ((one - other).squaredNorm() < kFlat * kFlat * (c[2] - c[0]).squaredNorm())
+    if ((one - other).squaredNorm() < kVisible * kVisible * (c[2] - c[0]).squaredNorm())
         return {{{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}}, 2};
     QuadFacets facets;
     for (std::size_t k = 0; k < 4; ++k) facets.corners[k] = {c[k], c[(k + 1) % 4], (one + other) / 2};

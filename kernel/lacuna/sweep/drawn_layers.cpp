@@ -3,6 +3,7 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>
@@ -174,8 +175,7 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
 {
     if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
     const Way way = way_of(volume, links.of(volume, context), context);
-    constexpr double kStraight = 1e-3; // [radian]
-    if (!(way.turned.back() > kStraight)) return std::nullopt;
+    if (!(way.turned.back() > kVisible)) return std::nullopt;
     const int layers = options.layers.count;
     const double whole = length_between(way, layer_heights({.count = kSteps}));
     const auto loss_of = [&](const std::vector<double>& heights) {

@@ -10,10 +10,6 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// The bends of walls beyond the columns' cubics are spread over the layers if they exceed this share of a
-/// side. A lower value costs time without effect on the cells. Not measured.
-constexpr double kSpread = 1e-3;
-
 bool any(const std::vector<Vec3>& vectors)
 {
     return std::ranges::any_of(vectors, [](const Vec3& v) { return !v.isZero(0); });
@@ -139,7 +135,7 @@ void MiddlePlacer::bend_columns(const RunContext& context)
         }
     }
     columns_bend_ = most >= kSamePlace;
-    if (!columns_bend_ || left < kSpread) {
+    if (!columns_bend_ || left < kVisible) {
         beyond_ = {};
         return;
     }

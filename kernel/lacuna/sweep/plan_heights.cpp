@@ -22,9 +22,6 @@ namespace {
 /// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
 /// measured.
 constexpr int kSamples = 32;
-/// Sizes along the sweep that differ by a smaller share are equal, and layers are uniform: the difference is
-/// invisible.
-constexpr double kSameSize = 1e-3;
 /// Heights given by walls agree with an end's rows if each differs by less than this share of its thickness:
 /// the tolerance of rows.
 constexpr double kSameRow = 0.02;
@@ -85,7 +82,7 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
         least = std::min(least, mean.wanted[i] - mean.wanted[i - 1]);
         most = std::max(most, mean.wanted[i] - mean.wanted[i - 1]);
     }
-    if (!(most > least * (1 + kSameSize))) mean.wanted.clear();
+    if (!(most > least * (1 + kVisible))) mean.wanted.clear();
     return mean;
 }
 

@@ -54,4 +54,8 @@ inline constexpr double kBendBelow = 75;
 /// faces in files are that exact; walls that bend for the eye are not.
 inline constexpr double kFlatShare = 2e-4;
 
+/// Relative changes of sizes, bends of sides, gaps of quads [radian for angles] below this are not visible in
+/// a mesh, and are not worth the work.
+inline constexpr double kVisible = 1e-3;
+
 } // namespace lacuna
