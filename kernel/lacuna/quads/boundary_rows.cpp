@@ -17,8 +17,6 @@ namespace {
 
 using namespace paving;
 
-/// A row quad with a flatter corner (6°) counts as folded, as in the paver's own rows.
-constexpr double kLeastSine = 0.1;
 /// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves
 /// but heights are measured square to the side, so zero would reject valid input; a larger share accepts more
 /// uneven rows.
@@ -296,7 +294,7 @@ private:
             for (std::size_t k = 0; k < run.sides; ++k) {
                 const std::size_t next = (k + 1) % count;
                 const Quad quad{level[r][k], level[r][next], level[r + 1][next], level[r + 1][k]};
-                if (!(least_sine(partial_, quad) > kLeastSine))
+                if (!(least_sine(partial_, quad) > kFoldedQuad))
                     return refuse(RowsFinding::Why::sharp_bend, base.nodes[k], table, heights[r],
                                   r > 0 ? heights[r - 1] : 0);
                 partial_.quads.push_back(quad);

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/both_ways.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/shared/imprint.h>
 
 #include <algorithm>
@@ -14,11 +15,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// Below this minimum scaled Jacobian the opposite direction is tried too, which doubles the time. Every mesh
-/// should reach 0.2; a square swept to a circle with 0.2 has 0.7 if swept from the circle. Not measured: a
-/// higher value tries both directions more often.
-constexpr double kPoor = 0.3;
 
 /// Whether the source keeps its given quads.
 bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
@@ -39,7 +35,7 @@ struct Outcome {
     std::optional<Message> refusal;
 
     [[nodiscard]] bool usable() const { return result && !result->proof.finding; }
-    [[nodiscard]] bool good() const { return usable() && result->swept.min_scaled_jacobian >= kPoor; }
+    [[nodiscard]] bool good() const { return usable() && result->swept.min_scaled_jacobian >= kPoorCell; }
     [[nodiscard]] Message why() const { return refusal ? *refusal : result->proof.finding->message; }
 };
 

@@ -58,4 +58,18 @@ inline constexpr double kFlatShare = 2e-4;
 /// a mesh, and are not worth the work.
 inline constexpr double kVisible = 1e-3;
 
+// Poor: scaled Jacobian, of a quad with straight sides the least sine of its corners
+
+/// A quad below this is folded for all purposes (6°): rows are not kept with it, and corners not opened by it.
+inline constexpr double kFoldedQuad = 0.1;
+
+/// Smoothing does not improve a quad below this if its nodes are on a boundary (9°).
+inline constexpr double kFlatQuad = 0.15;
+
+/// A quad below this is poor (30°), and more is tried for it; above the next one it is good, and nothing is.
+inline constexpr double kPoorQuad = 0.5, kGoodQuad = 0.8;
+
+/// A hexahedron below this is poor. Meshes of other directions and other sides are tried for it.
+inline constexpr double kPoorCell = 0.3;
+
 } // namespace lacuna
