@@ -16,7 +16,7 @@ using cad_protocol::MakeSolidRequest;
 namespace {
 
 /// Allowed relative change of the volume by writing: readers of STEP recompute edges on fitted surfaces.
-constexpr double kSameVolume = 1e-4;
+constexpr double kVolumeChange = 1e-4;
 
 /// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
 bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kSamePlace * diagonal; }
@@ -157,7 +157,7 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
                 Message("cad.reads_back", "the file reads back with {} instead of one closed solid", faults)
                     .remedy("write the facets with write_facets"));
         const double volume = mass_of(3, tags_of(3).front());
-        if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
+        if (!(std::abs(volume - expected) <= kVolumeChange * expected)) {
             session.refuse(Message("cad.reads_back",
                                    "the file reads back with a volume of {:.6g} instead of {:.6g}",
                                    found(volume), needed(expected))

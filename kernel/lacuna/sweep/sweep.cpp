@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -284,9 +285,8 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     throw NotSweepable(*why);
 }
 
-/// Relative volume difference above which a note is added.
-constexpr double kNoted = 0.02;
-/// Target for the sizes in that note, to reach 1 %: bends and barrels lost up to 1.6 times the estimate.
+/// Target for the sizes in the note about the volume, to reach 1 %: bends and barrels lost up to 1.6 times the
+/// estimate.
 constexpr double kWanted = 0.006;
 
 /// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square
@@ -326,7 +326,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
         swept.report.push_back(swept.defaults.back());
     }
-    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
+    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) {
         swept.notes.push_back(volume_in_words(swept));
         swept.report.push_back("note: " + swept.notes.back());
     }

@@ -22,8 +22,6 @@ namespace {
 
 /// Steps of the search for choices; a hundred sheets that meet in threes take about as many.
 constexpr std::size_t kMostSteps = 100000;
-/// Volumes that differ by less than this share of the larger are equal. Rule of thumb.
-constexpr double kSameVolume = 0.01;
 
 /// Every face connected to some faces over shared edges without crossing the excluded ones.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,

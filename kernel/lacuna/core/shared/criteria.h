@@ -72,4 +72,14 @@ inline constexpr double kPoorQuad = 0.5, kGoodQuad = 0.8;
 /// A hexahedron below this is poor. Meshes of other directions and other sides are tried for it.
 inline constexpr double kPoorCell = 0.3;
 
+// Same volume
+
+/// Two volumes are the same if they differ by less than this share of the larger: the sag of facets alone
+/// makes half a percent.
+inline constexpr double kSameVolume = 0.01;
+
+/// A difference of volume above this share is reported, whether an assumption or the mesh causes it: a mesh
+/// may lose as much.
+inline constexpr double kVolumeNoted = 0.02;
+
 } // namespace lacuna
