@@ -400,9 +400,9 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
 /// asked. Higher bounds continue the search more often, for a better mesh in more time.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
-    constexpr double kMean = 0.92, kSizes = 0.95;
+    constexpr double kMean = 0.92;
     return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kSizes && quality.row_share() >= rows;
+           quality.size_share() > kPromisedShare && quality.row_share() >= rows;
 }
 
 /// The corners of a region's only loop, if each of them suits one quad and no other node bends.
@@ -509,16 +509,15 @@ private:
     void keep(PlanarQuads mesh)
     {
         // Bounds at which the search ends: above kSquare no other ends of 135° or changing rows are tried;
-        // above kFine with the share kRows of good rows nothing else is. Discs get no better than kFine, and
-        // kRows is the promised share.
-        constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
+        // above kFine with the promised share of good rows nothing else is. Discs get no better than kFine.
+        constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
         fits_.push_back(!decides || paving::has_quads_asked(made_.back(), sizes_.usual) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
         is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
-        is_fine_ = is_fine_ || quads::is_fine(quality, kFine, kRows);
+        is_fine_ = is_fine_ || quads::is_fine(quality, kFine, kPromisedShare);
     }
 
     PatternFiller fill(const FacePattern& pattern)

@@ -65,12 +65,12 @@ constexpr double kGoodEnough = 3.3;
 /// A mesh is kept without further trials if its worst quad and its shares of right sizes and right rows reach
 /// these bounds, and its irregular nodes hardly exceed the topological minimum. Looser bounds save time and
 /// may miss a better mesh.
-constexpr double kFineWorst = 0.82, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
+constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
 {
     const auto irregular = static_cast<double>(quality.irregular + quality.boundary_irregular);
-    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kFineSizes &&
+    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kPromisedShare &&
            quality.row_share() > kFineRows;
 }
 

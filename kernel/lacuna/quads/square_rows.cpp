@@ -318,16 +318,13 @@ private:
     double floor_ = kGood;
 };
 
-/// The promised share of good rows and of good sizes.
-constexpr double kPromised = 0.95;
-
 /// Value of a mesh: shares above the promised one count a quarter, so that they are not bought with poor
 /// quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;
     const auto share = [](double x) {
-        return std::min(x, kPromised) + kBeyond * std::max(0.0, x - kPromised);
+        return std::min(x, kPromisedShare) + kBeyond * std::max(0.0, x - kPromisedShare);
     };
     return quality.mean_scaled_jacobian + share(quality.row_share()) / 2 + share(quality.size_share()) / 2;
 }
@@ -344,7 +341,7 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
     constexpr double kStill = 0.03;        // of a side: smaller moves gain nothing more
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
-    const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };
+    const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region, symmetries, sizes);
     for (int round = 0, idle = 0; round < kRounds && idle < kIdle; ++round, ++idle) {
@@ -368,7 +365,7 @@ void square_rows(PlanarQuads& mesh, const PlanarRegion& region, std::span<const 
 {
     PlaneQuality quality = measure_plane(mesh, region);
     if (quality.good_rows < quality.possible_rows) improve(mesh, region, symmetries, false, quality);
-    if (quality.size_share() < kPromised) improve(mesh, region, symmetries, true, quality);
+    if (quality.size_share() < kPromisedShare) improve(mesh, region, symmetries, true, quality);
 }
 
 } // namespace lacuna::quads::paving

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/straight_counts.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/count_trial.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_ring.h>
@@ -202,7 +203,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     constexpr double kQuads = 0.25, kRows = 1;
     constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
     // As many quads as asked, a quarter more or less, is what is promised. Choices.
-    constexpr double kMostOff = 0.25, kOff = 2, kNearAsked = 0.1, kMany = 2000;
+    constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
     constexpr std::size_t kNear = 4; // of those, for the range that is promised
     const double asked = quads_asked(task);
@@ -239,7 +240,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             const double quads = has_grids ? closed->quads : asked; // not known
             counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
-            if (std::abs(quads - asked) > kMostOff * asked) counts.cost += kOff;
+            if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
             // Few lines leave holes no place, and for many looking takes long.
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));

@@ -7,6 +7,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/edge_turning.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 #include <lacuna/topology/shared/facet_area.h>
 
@@ -22,9 +23,6 @@ using namespace topology;
 
 namespace {
 
-/// Vertices of both rims closer than this share of the local facets use one column, as for edges of the
-/// walls: no quad fits between them.
-constexpr double kOneColumn = 0.4;
 /// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
 /// sharpest and straightest is taken.
 constexpr double kGoesOn = 0.25;
@@ -78,7 +76,7 @@ template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)
 {
-    const double length = chain.length(), reach = kOneColumn * length / static_cast<double>(vertices.size());
+    const double length = chain.length(), reach = kOneEdge * length / static_cast<double>(vertices.size());
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         double& at = ends[i].*side;
         if (starts_at(chain, chain.wrapped(at))) continue;
@@ -158,7 +156,7 @@ BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Ve
         const std::vector<double> own = shares_between(s0, s1, link.source, low);
         const std::vector<double> other = shares_between(t0, t1, link.target, high);
         const auto facets = static_cast<double>(std::max(own.size(), other.size()) + 1);
-        BreakPairs inside = paired_breaks(own, other, kOneColumn / facets);
+        BreakPairs inside = paired_breaks(own, other, kOneEdge / facets);
         complete(inside);
         pairs.emplace_back(s0, t0);
         for (const auto& [s, t] : inside) pairs.emplace_back(s0 + s * (s1 - s0), t0 + t * (t1 - t0));

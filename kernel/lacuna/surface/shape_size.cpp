@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/shape_size.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -30,8 +31,6 @@ using namespace topology;
 
 namespace {
 
-/// Growth of the size per distance from a place with short sides: the paver's grading from its boundary [-].
-constexpr double kGrading = 0.3;
 /// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
 /// Rim points per side of the requested size: more resolve size changes better and cost time. Not measured.

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/wall_net.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -17,10 +18,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A break of the rim closer to a column than this share of the size is used for the column: no quad fits
-/// between them. Heuristic.
-constexpr double kOneColumn = 0.4;
 
 /// Whether an edge inside a linking surface ends off its side lines and rims.
 bool has_net(const Model& model, const LinkingSurface& link)
@@ -105,7 +102,7 @@ private:
             return;
         }
         const std::array here{std::min(at, link_.source.length())};
-        const double reach = kOneColumn * size_(link_.source.points(here).front());
+        const double reach = kOneEdge * size_(link_.source.points(here).front());
         double least = std::max(reach, kSamePlace * link_.source.length());
         std::optional<std::size_t> near;
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,6 @@ namespace {
 /// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
 /// measured.
 constexpr int kSamples = 32;
-/// Heights given by walls agree with an end's rows if each differs by less than this share of its thickness:
-/// the tolerance of rows.
-constexpr double kSameRow = 0.02;
 
 /// Chords that represent a column when its turning is measured. More chords would count local dents as bends
 /// of the sweep, fewer would miss bends. Not measured.
@@ -150,7 +148,7 @@ bool has_rows(const std::vector<double>& heights, const std::vector<double>& low
     const auto has = [&](const std::vector<double>& rows, const auto& at) {
         for (std::size_t j = 0; j < rows.size(); ++j) {
             const double thick = rows[j] - (j > 0 ? rows[j - 1] : 0);
-            if (std::abs(at(j + 1) * length - rows[j]) > kSameRow * thick) return false;
+            if (std::abs(at(j + 1) * length - rows[j]) > kThicknessOff * thick) return false;
         }
         return true;
     };

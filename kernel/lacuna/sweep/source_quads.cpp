@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/shared/odd_region.h>
 #include <lacuna/quads/shared/pave.h>
 #include <lacuna/quads/shared/submap.h>
@@ -67,7 +68,6 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
-    constexpr double kGrading = 0.3;
     double more = 0;
     for (const surface::LinkingSurface& link : links) {
         const std::vector<double> turning = surface::turning_of_segments(model, link);

@@ -82,4 +82,19 @@ inline constexpr double kSameVolume = 0.01;
 /// may lose as much.
 inline constexpr double kVolumeNoted = 0.02;
 
+// Sizes and numbers of cells
+
+/// Lengths, sizes and numbers of sides that differ by less than this share are alike, as drawn: they get the
+/// same number of sides.
+inline constexpr double kAlikeSizes = 0.01;
+
+/// Growth of a size over the distance from a place with short sides, in paving and where quads are estimated.
+inline constexpr double kGrading = 0.3;
+
+/// A mesh has the number of quads asked if it is off by no more than this share: the promise of every paving.
+inline constexpr double kQuadsOff = 0.25;
+
+/// The promised share of sides with the size asked, and of good rows along the boundary.
+inline constexpr double kPromisedShare = 0.95;
+
 } // namespace lacuna
