@@ -27,8 +27,6 @@ using namespace topology;
 
 namespace {
 
-/// A cone includes its apex within this share of its radius; the tolerance of the shape fits.
-constexpr double kTip = 0.01;
 /// Cosine of 5°, within which axes are parallel.
 constexpr double kParallel = 0.996;
 /// Number of planes tried for a message. Limits run time, as each is a cut.
@@ -83,7 +81,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
 bool is_cone_to_its_tip(const Model& model, FaceId face)
 {
     const auto cone = cone_shape(model, face);
-    return cone && cone->least_radius <= kTip * cone->largest_radius;
+    return cone && cone->least_radius <= kOffShape * cone->largest_radius;
 }
 
 /// An edge between two cylinders with non-parallel axes, each covering half a turn or more; fillets cover

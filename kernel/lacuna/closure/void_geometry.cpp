@@ -2,6 +2,7 @@
 #include <lacuna/closure/shared/void_geometry.h>
 
 #include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
@@ -102,9 +103,6 @@ struct QuadraticHeight {
 /// conic do not determine the height inside.
 std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
 {
-    // Tolerance as a share of the bulge. Mouths of slots in shafts and spheres of 1.6 to six times their
-    // radius are below 0.025; missing walls next to partial walls of a bent prism are above 0.045.
-    constexpr double kOnIt = 0.03;
     // Least over largest eigenvalue. Ellipses are below 1e-4, slots 1.5 times as long as wide at 9e-4, longer
     // ones up to 5e-3.
     constexpr double kManyConics = 7e-4;
@@ -149,7 +147,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
     if (fit.eigenvalues()(0) < kManyConics * fit.eigenvalues()(5)) return std::nullopt;
     result.coefficient = normal.ldlt().solve(right);
     const bool on_it = std::ranges::all_of(samples, [&](const Sample& s) {
-        return std::abs(result.at(s.place) - s.height) <= kOnIt * newell.bulge;
+        return std::abs(result.at(s.place) - s.height) <= kOnQuadratic * newell.bulge;
     });
     return on_it ? std::optional(result) : std::nullopt;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/healing/shared/grow_face.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -71,7 +72,7 @@ public:
         std::vector<Index> front{nearest(near, may)};
         grown[index(front[0])] = true;
         for (std::size_t i = 0; i < front.size(); ++i) {
-            if (i % 4096 == 0) check_cancelled(context); // cancels without noticeable delay
+            if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index from = front[i];
             for (std::size_t k = 0; k < cells_[index(from)].count(); ++k) {
                 const std::vector<Index>& here = users_.at(key(cells_[index(from)], k));

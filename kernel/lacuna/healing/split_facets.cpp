@@ -6,6 +6,7 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/shared/number_text.h>
@@ -21,9 +22,6 @@
 
 namespace lacuna::healing {
 namespace {
-
-/// Facets between two cancellation checks. Rule of thumb.
-constexpr std::size_t kFacetsBetweenPolls = 4096;
 
 /// Do two facets, or the quads they belong to, have the same corners?
 bool on_each_other(const Facets& facets, Index f, Index g)
@@ -120,7 +118,7 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
         front.assign(1, static_cast<Index>(seed));
         double as_given = 0; // area that keeps its given orientation, minus the area that is reversed
         for (std::size_t i = 0; i < front.size(); ++i) {
-            if (i % kFacetsBetweenPolls == 0) check_cancelled(context);
+            if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];
             as_given += (flood.flipped[index(f)] ? -1 : 1) *
                         area_vector(facets.points, facets.corner[index(f)]).norm();

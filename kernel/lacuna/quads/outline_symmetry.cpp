@@ -447,10 +447,8 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
         const bool mirrors = j % 2 != 0;
         const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
         const auto found = std::ranges::find_if(symmetries, [&](const Symmetry& s) {
-            // Far above the accuracy of nodes, far below the angle between two symmetries.
-            constexpr double kSame = 1e-5;
-            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSame &&
-                   std::abs(s.map.sine - std::sin(turn)) < kSame;
+            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSameAngle &&
+                   std::abs(s.map.sine - std::sin(turn)) < kSameAngle;
         });
         if (found == symmetries.end()) return std::nullopt;
         part->images.push_back({{centre, std::cos(turn), std::sin(turn), mirrors}, found->to});

@@ -233,9 +233,8 @@ private:
     /// Map an angle from -2π…4π to 0…2π.
     static double whole_turn(double angle)
     {
-        constexpr double kTurn = 2 * std::numbers::pi;
-        if (angle < 0) return angle + kTurn;
-        return angle < kTurn ? angle : angle - kTurn;
+        if (angle < 0) return angle + kFullTurn;
+        return angle < kFullTurn ? angle : angle - kFullTurn;
     }
 
     /// Weight of the angles at an end: lower for an inner node, because it moves later.

@@ -202,7 +202,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     // held family (benchmarks/pave/).
     constexpr double kQuads = 0.25, kRows = 1;
     constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
-    // As many quads as asked, a quarter more or less, is what is promised. Choices.
+    // kOff is the cost of a number of quads that breaks the promise. Choices.
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
     constexpr std::size_t kNear = 4; // of those, for the range that is promised

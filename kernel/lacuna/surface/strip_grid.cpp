@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/surface/detail/chain_nodes.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lacuna::surface {
 
@@ -349,11 +349,10 @@ private:
     void move_grid()
     {
         // Solve on a cylinder, because the grid is periodic like the strip.
-        constexpr double kTurn = 2 * std::numbers::pi;
         std::vector<Vec3> points;
         for (std::size_t k = 0; k <= layers_; ++k) {
             for (std::size_t i = 0; i < count_; ++i) {
-                const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
+                const double angle = kFullTurn * at_node(i), radius = map_->width() / kFullTurn;
                 points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
                                     heights[k] * map_->height());
             }

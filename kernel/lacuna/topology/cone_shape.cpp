@@ -14,8 +14,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Share of the largest radius, as in `round_shape()` for cylinders and spheres.
-constexpr double kMostOff = 0.01;
 /// Sines of half angles beyond which a cone is a cylinder or a plane: 1° and 89°. Rule of thumb.
 constexpr double kLeastLean = 0.0175, kMostLean = 0.99985;
 /// Normals that spread less than this (squared) about their mean define no axis: a turn of some degrees. Rule
@@ -52,7 +50,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
-    if (spread.square[0] > kMostOff || spread.square[1] < kLeastSpread) return {};
+    if (spread.square[0] > kOffShape || spread.square[1] < kLeastSpread) return {};
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
@@ -82,7 +80,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     if (!(std::abs(fit[0]) > kLeastLean)) return {};
     cone.least_radius = radius.minCoeff();
     cone.largest_radius = radius.maxCoeff();
-    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kMostOff * cone.largest_radius)) return {};
+    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kOffShape * cone.largest_radius)) return {};
     cone.half_angle = std::atan(std::abs(fit[0])) * 180 / std::numbers::pi;
     cone.apex = origin + across * centre - fit[1] / fit[0] * cone.axis;
     if (fit[0] < 0) cone.axis = -cone.axis;
