@@ -13,7 +13,6 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>

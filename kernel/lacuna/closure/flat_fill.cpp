@@ -9,7 +9,6 @@
 #include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>

@@ -2,7 +2,6 @@
 #include <lacuna/healing/shared/grow_face.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>

@@ -6,7 +6,6 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/shared/number_text.h>

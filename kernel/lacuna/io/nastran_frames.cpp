@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/nastran.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 
 #include <cmath>

@@ -2,7 +2,6 @@
 #include <lacuna/quads/shared/boundary_rows.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_cut.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/cut_bounds.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_fit.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/quads/detail/patch_template.h>

@@ -2,7 +2,6 @@
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>

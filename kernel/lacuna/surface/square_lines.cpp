@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/square_lines.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/geometry/shared/union_find.h>

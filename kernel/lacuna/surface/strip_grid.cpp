@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/surface/detail/chain_nodes.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_region.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>

@@ -2,7 +2,6 @@
 #include <lacuna/sweep/detail/drawn_layers.h>
 
 #include <lacuna/core/message.h>
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>

@@ -5,7 +5,6 @@
 // adds them up.
 #include <lacuna/topology/auto_roles.h>
 
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/marks.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
+
 /// What counts as a corner, flat, poor, the same place or the same volume. A limit that decides the same in
 /// several files is defined here once; one that decides a single thing stays beside it.
 
