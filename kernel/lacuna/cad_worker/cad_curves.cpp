@@ -135,7 +135,7 @@ struct OnCurve {
 /// The point of a curve closest to `p`, between two parameters.
 OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, double high)
 {
-    double best = std::numeric_limits<double>::infinity();
+    double best = kInfinity;
     double t = low;
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
         if (curve.params[i + 1] < low || curve.params[i] > high) continue;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 namespace lacuna::cad_worker {
@@ -318,7 +317,7 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
 
         FacetOptions facets;
         facets.tolerance = tolerance > 0 ? tolerance / scale : kFileAccuracy * source.diagonal;
-        facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source.diagonal};
+        facets.fineness = {kFullTurn / kSidesPerTurn, kLongestSide * source.diagonal};
         CadWire wire = read_wire(facets.tolerance);
         LeftOut gone;
         Cut cut = cut_all(wire, facets, source.path, progress, gone);

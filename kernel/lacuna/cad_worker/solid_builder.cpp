@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <ranges>
 #include <set>
@@ -269,7 +268,7 @@ int SolidBuilder::filling(const SolidFace& face)
     session_.set("Geometry.ToleranceBoolean", 0.0);
     forget_removed();
     int best = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const auto& [dim, tag] : parts) {
         if (dim != 2) continue;
         const double off = std::abs(std::abs(mass_of(2, tag)) - face.area);

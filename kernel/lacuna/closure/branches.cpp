@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -193,7 +192,7 @@ private:
 
 /// Extent of a mouth along a direction.
 struct Reach {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = kInfinity, high = -low;
 };
 
 class BranchCutter {

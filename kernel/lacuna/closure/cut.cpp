@@ -96,7 +96,7 @@ private:
 
     [[noreturn]] void refuse_miss() const
     {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
+        double least = kInfinity, most = -least;
         std::vector<FaceId> touched;
         for (const FaceId face : all_faces(model_)) {
             bool touches = false;
@@ -161,7 +161,7 @@ private:
         std::vector<std::size_t> order(lines.size()), best;
         std::iota(order.begin(), order.end(), std::size_t{0});
         if (lines.size() > kAllOrders) return best;
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         do {
             double length = 0;
             for (std::size_t i = 0; i < lines.size(); ++i)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::closure {
@@ -22,7 +21,7 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 {
     const Vec3 area = area_vector_of(model, faces);
     const Vec3 normal = area.normalized();
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = kInfinity, high = -low;
     for (const FaceId face : faces) {
         for (const Index p : corners_of(model[face])) {
             low = std::min(low, model.at(p).dot(normal));

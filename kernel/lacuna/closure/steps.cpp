@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -314,7 +313,7 @@ private:
     /// A height along the sweep below the whole volume.
     [[nodiscard]] double lowest() const
     {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (const Vec3& p : volume_.model.points) least = std::min(least, p.dot(across_.normal));
         return least - volume_.model.diagonal;
     }
@@ -516,7 +515,7 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     double tolerance = 0;
     for (const StepPiece& piece : pieces) {
         const Model& model = piece.volume.model;
-        double low = std::numeric_limits<double>::infinity(), high = -low;
+        double low = kInfinity, high = -low;
         for (const Face& face : model.faces) {
             for (const Index p : corners_of(face)) {
                 low = std::min(low, model.at(p).dot(way));

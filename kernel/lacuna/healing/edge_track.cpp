@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::healing {
 
@@ -115,7 +114,7 @@ std::vector<EdgeTrack::EdgePosition> EdgeTrack::locate(std::span<const Vec3> poi
     std::vector<EdgePosition> places(points.size());
     for (std::size_t q = 0; q < points.size(); ++q) {
         check_cancelled(context);
-        places[q].distance = std::numeric_limits<double>::infinity();
+        places[q].distance = kInfinity;
         for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
             const EdgePosition place = on_segment(points[q], i);
             if (place.distance < places[q].distance) places[q] = place;
@@ -138,7 +137,7 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
         // A curve longer than four times its chord would leave the other edge by more than the tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
-        places[q].distance = std::numeric_limits<double>::infinity();
+        places[q].distance = kInfinity;
         std::size_t best = from;
         for (std::size_t i = from; i + 1 < points_.size() && window >= 0; ++i) {
             EdgePosition place = on_segment(points[q], i);

@@ -288,7 +288,7 @@ std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
         return Vec3((section[(i + k) % n] - to) - onward * (below[i] - from));
     };
     std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < n; ++k) {
         double sum = 0;
         for (std::size_t i = 0; i < n && sum < least; ++i) sum += off(i, k).squaredNorm();
@@ -328,7 +328,7 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
     const Vec3 open = section.back() - section.front();
     const Vec3 up = (line.rise - line.rise.dot(open) / open.squaredNorm() * open).stableNormalized();
     const Vec3 middle = geometry::mean_point(section);
-    const Vec3 off = up.cross(open) / (2 * std::numbers::pi);
+    const Vec3 off = up.cross(open) / kFullTurn;
     section.push_back(middle + off);
     section.push_back(middle - off);
     return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;

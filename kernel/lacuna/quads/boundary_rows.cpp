@@ -73,7 +73,7 @@ public:
     [[nodiscard]] RowsFinding least_room() const
     {
         const GapFinder gaps(partial_, given_);
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         RowsFinding finding;
         for (const Cycle& loop : given_) {
             for (std::size_t i = 0, n = loop.size(); i < n; ++i) {

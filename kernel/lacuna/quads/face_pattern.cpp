@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -108,7 +107,7 @@ private:
         // For large loops, only some sides are evaluated for a place of the inner loop; for a small loop, all
         // of them.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         std::size_t best = 0;
         for (std::size_t by = 0; by < n; ++by) {
             double sum = 0;

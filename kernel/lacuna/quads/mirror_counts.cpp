@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace lacuna::quads {
@@ -158,7 +157,7 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
             for (const Symmetry& image : part.images) sum[image_of(halved, part, image, p)] += sides[t];
         }
     }
-    return {std::move(sum), counts ? counts->cost : std::numeric_limits<double>::infinity()};
+    return {std::move(sum), counts ? counts->cost : kInfinity};
 }
 
 } // namespace
@@ -211,7 +210,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     // A mesh of quads only needs an even number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
-    return counts ? counts->cost : std::numeric_limits<double>::infinity();
+    return counts ? counts->cost : kInfinity;
 }
 
 } // namespace lacuna::quads

@@ -158,7 +158,7 @@ private:
         offer(mean);
         for (const double step : kSteps) {
             for (int d = 0; d < kDirections; ++d) {
-                const double angle = 2 * std::numbers::pi * d / kDirections;
+                const double angle = kFullTurn * d / kDirections;
                 offer(old + step * side * Vec2(std::cos(angle), std::sin(angle)));
             }
         }

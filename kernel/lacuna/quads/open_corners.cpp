@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -23,7 +22,7 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
 {
     // All corners are visible from the diagonal through the reflex corner.
     std::size_t inward = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2 out = outer[(k + 1) % 4] - outer[k], back = outer[(k + 3) % 4] - outer[k];
         const double sine = corner_sine(cross(out, back), out.norm() * back.norm());
@@ -33,7 +32,7 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         }
     }
     const Vec2 centre = (outer[inward] + outer[(inward + 2) % 4]) / 2;
-    double room = std::numeric_limits<double>::infinity();
+    double room = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2 side = outer[(k + 1) % 4] - outer[k];
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));

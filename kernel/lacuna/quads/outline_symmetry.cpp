@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -52,7 +51,7 @@ public:
             found, [&](const Symmetry& s) { return s.map.mirrors && s.to[index(first)] == first; });
         const bool has_axis = through != found.end();
         const double axis = has_axis ? through->map.angle() : 0;
-        const double step = 2 * std::numbers::pi * static_cast<double>(every) / static_cast<double>(turns);
+        const double step = kFullTurn * static_cast<double>(every) / static_cast<double>(turns);
         std::erase_if(found, [&](const Symmetry& s) {
             if (s.map.mirrors && !has_axis) return true;
             const double off = std::remainder(s.map.angle() - (s.map.mirrors ? axis : 0), step);
@@ -289,7 +288,7 @@ private:
     [[nodiscard]] std::optional<Index> next_start(char ray, double beyond, Index start) const
     {
         std::optional<Index> best;
-        double nearest = std::numeric_limits<double>::infinity();
+        double nearest = kInfinity;
         const auto look = [&](Index p) {
             if (ray_of(arm(p)) != ray) return;
             const double at = ray == 1 ? arm(p).norm() : -arm(p).norm();
@@ -439,7 +438,7 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     if (!part) return std::nullopt;
     // The images: rotated by a multiple of twice the part's angle, or reflected and then rotated.
     const double angle = to - from;
-    const auto count = static_cast<int>(std::lround(2 * std::numbers::pi / angle));
+    const auto count = static_cast<int>(std::lround(kFullTurn / angle));
     part->images.push_back({{centre, 1, 0, false}, {}});
     part->images.back().to.resize(region.points.size());
     std::iota(part->images.back().to.begin(), part->images.back().to.end(), 0);

@@ -9,8 +9,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
 namespace lacuna::quads {
 namespace {
@@ -37,7 +35,7 @@ double frame_angle(const LoopFrame& frame, const Vec2& p)
 }
 
 /// An angle in right angles, from -2 to 2.
-double in_quarters(double angle) { return std::remainder(angle, 2 * std::numbers::pi) / kRightAngle; }
+double in_quarters(double angle) { return std::remainder(angle, kFullTurn) / kRightAngle; }
 
 LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame)
 {
@@ -217,7 +215,7 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
         std::vector<int> headings;
         const double cost = search.run(search.heading(0, s), headings);

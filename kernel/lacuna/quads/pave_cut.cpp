@@ -6,8 +6,6 @@
 #include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
 
-#include <limits>
-
 namespace lacuna::quads::paving {
 namespace {
 
@@ -94,7 +92,7 @@ public:
         // is no other. A lower bound saves time and may miss the best line.
         constexpr double kShort = 0.85;
         auto cut = find_among(kShort);
-        return cut ? cut : find_among(std::numeric_limits<double>::infinity());
+        return cut ? cut : find_among(kInfinity);
     }
 
 private:
@@ -115,7 +113,7 @@ private:
             const CutBound& next = *--end;
             if (best && next.cost >= best->cost) break;
             const std::size_t i = places_[next.from], j = places_[next.to];
-            const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
+            const auto choice = judge(i, j, best ? best->cost : kInfinity);
             if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
             if (keeps_away(*choice, kAway))
                 best = choice;
@@ -387,7 +385,7 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
 LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
     LoopBridge best;
-    best.cost = std::numeric_limits<double>::infinity();
+    best.cost = kInfinity;
     for (std::size_t b = 1; b < loops.size(); ++b) {
         for (const std::size_t i : spread(loops[0].size())) {
             for (const std::size_t j : spread(loops[b].size())) {

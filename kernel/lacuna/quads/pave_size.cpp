@@ -48,7 +48,7 @@ public:
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);
-        most_.assign(static_cast<std::size_t>(nx_ * ny_), std::numeric_limits<double>::infinity());
+        most_.assign(static_cast<std::size_t>(nx_ * ny_), kInfinity);
         least_.assign(most_.size(), 0);
         for (const BoundarySide& side : sides) {
             const std::size_t cell = cell_of(side.middle);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -96,7 +95,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
                                                   std::span<const int> more, const CountRange& range)
 {
     std::optional<std::vector<CountedLoop>> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
     // Weight of the number of quads for rows that do not change; rows that change make up for it. Chosen on
     // gears of 400 and 3,000 quads.

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -287,8 +286,7 @@ private:
             return cost < -least && least_sine(mesh_.points, star, at(p)) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, -cost_above(p, std::numeric_limits<double>::infinity()),
-                                 {side, kFirst, kLast, 0}, value, ways_);
+        geometry::pattern_search(x, -cost_above(p, kInfinity), {side, kFirst, kLast, 0}, value, ways_);
         place(p, x);
         if (x == start) {
             for (std::size_t i = 0; i < near_.size(); ++i)

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -211,7 +210,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
-    double least = std::numeric_limits<double>::infinity(); // cost of those
+    double least = kInfinity; // cost of those
     // What is no part has no axes that take up the difference of more rows, and without turns these change
     // nothing.
     const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
@@ -275,7 +274,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
     all.erase(std::unique(all.begin(), all.end(), alike), all.end());
     if (all.size() < 2) return std::nullopt;
     std::optional<Counts> best;
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
         const auto score = score_of_counts(task.region, task.segment, all[i].sides, quads_asked(task));
         if (!score || *score <= most) continue;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -219,7 +218,7 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
     std::vector<std::array<double, 2>> range(levels);
     parallel_for(context, levels, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = begin; l < end; ++l) {
-            double low = std::numeric_limits<double>::infinity(), high = -low;
+            double low = kInfinity, high = -low;
             for (const Vec3& point : points.subspan(l * level, level)) {
                 const double at = way.dot(point);
                 low = std::min(low, at);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quality {
 namespace {
@@ -188,7 +187,7 @@ bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_
     }
     if (*std::min_element(bezier.begin(), bezier.end()) > floor) return true;
     std::array<double, 3> inner;
-    inner.fill(std::numeric_limits<double>::infinity());
+    inner.fill(kInfinity);
     for (std::size_t at = 0; at < kAll; ++at)
         for (std::size_t d = 0; d < 3; ++d) {
             const std::size_t i = at / kStrides[d] % kSide;
@@ -267,7 +266,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     Bezier bezier;
     const double scaled = coefficients(nodes, bezier);
     CurvedCell cell;
-    double sum = 0, largest = 0, least = std::numeric_limits<double>::infinity();
+    double sum = 0, largest = 0, least = kInfinity;
     for (const double value : bezier) {
         sum += value;
         largest = std::max(largest, std::abs(value));

@@ -8,7 +8,6 @@
 #include <lacuna/quality/detail/lanes.h>
 
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quality {
 namespace {
@@ -180,7 +179,7 @@ template <int kAlong, int kRow, int kNextRow>
 LACUNA_INLINE void cut_four(const Values& values, int first, FourCut& cut)
 {
     cut.least = four_of(values.bezier[0], first);
-    cut.middle = Row{} + std::numeric_limits<double>::infinity();
+    cut.middle = Row{} + kInfinity;
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
             const int at = i * kRow + j * kNextRow;

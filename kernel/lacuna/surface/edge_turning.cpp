@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/edge_turning.h>
 
-#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -85,7 +84,7 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
             const double at = target_coordinate(link, link.target.start(i)) * link.source.length();
             const double exact = std::max(kSamePlace * link.source.length(), before.tolerance);
             std::optional<std::size_t> near;
-            double least = std::numeric_limits<double>::infinity();
+            double least = kInfinity;
             for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
                 double off = std::abs(link.source.start(u) - at);
                 off = std::min(off, std::abs(off - link.source.length()));

@@ -20,9 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <unordered_map>
 
@@ -122,10 +120,10 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
-        const double off = 2 * std::numbers::pi * (p.at / length - s(p.point, 0));
+        const double off = kFullTurn * (p.at / length - s(p.point, 0));
         sum += Vec2(std::cos(off), std::sin(off));
     }
-    const double start = std::atan2(sum.y(), sum.x()) / (2 * std::numbers::pi);
+    const double start = std::atan2(sum.y(), sum.x()) / kFullTurn;
     return {(start - std::floor(start)) * length, s(cut.back(), 0)};
 }
 
@@ -208,7 +206,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     std::vector<Vec3> flat;
     std::vector<Triangle> flat_triangles;
     for (std::size_t t = 0; t < facets.size(); ++t) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
+        double least = kInfinity, most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index p = facets[t][i];
             corners[t][i] = Vec2(strip_(p, 0) + problem.corner_turns[t][i], strip_(p, 1));
@@ -283,7 +281,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
-        widths.push_back(geometry::length(ring) / (2 * std::numbers::pi));
+        widths.push_back(geometry::length(ring) / kFullTurn);
     }
     // Nested sections, as of a flat ring, define no direction; their planes define the rotation instead.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);

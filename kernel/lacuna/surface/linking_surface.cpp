@@ -2,7 +2,6 @@
 #include <lacuna/surface/shared/linking_surface.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>

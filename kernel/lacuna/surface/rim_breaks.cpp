@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -280,7 +279,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
         const std::vector<double> arc = geometry::arc_lengths(line);
         const double turn = EdgeTurning(model, use.edge).between(0, arc.back());
         if (turn < kFileAccuracy) continue;
-        const double angle = 2 * std::numbers::pi / per_turn, sag = arc.back() * angle * angle / (8 * turn);
+        const double angle = kFullTurn / per_turn, sag = arc.back() * angle * angle / (8 * turn);
         const std::vector<std::size_t> points = kept_points(line, sag);
         const double most = std::max(turn / angle, arc.back() / size(line[line.size() / 2]));
         if (static_cast<double>(points.size() - 1) > std::ceil(most)) continue;

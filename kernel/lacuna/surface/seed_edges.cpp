@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace lacuna::surface {
@@ -149,7 +148,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
     const double more = opposite > own ? (opposite - own) / opposite : 0;
     double by_turn = 0, by_size = 0, sides = 0;
-    double least = std::numeric_limits<double>::infinity(), most = 0;
+    double least = kInfinity, most = 0;
     piece.wanted = {0};
     const std::vector<Vec3> points = edge_points(task.model, edge, at);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -157,7 +156,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         double turn = turn_between(from, from + step);
         if (more > 0) turn += more * piece.opposite[i];
         const double size = piece.length / kSizeSamples / task.size(points[i]);
-        const double bend = turn * per_turn / (2 * std::numbers::pi);
+        const double bend = turn * per_turn / kFullTurn;
         const double here = std::max(size, bend);
         by_turn += bend;
         by_size += size;

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,7 @@ constexpr double kLineWeight = 1;
 
 /// A face with a round side of at least this turn is filled by two three-sided patterns side by side: 120°.
 /// Heuristic.
-constexpr double kHalves = 2 * std::numbers::pi / 3;
+constexpr double kHalves = kFullTurn / 3;
 
 /// Weight of a square core relative to an edge. With a quarter of it, sectors around a common point alternate
 /// between 15 and 13 sides.

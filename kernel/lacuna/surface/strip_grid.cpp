@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::surface {
 
@@ -161,7 +160,7 @@ private:
         std::vector<std::size_t> node;
         for (const WallNet::Column& column : net_.columns) {
             std::size_t nearest = 0;
-            double least = std::numeric_limits<double>::infinity();
+            double least = kInfinity;
             for (std::size_t i = 0; i < count_; ++i) {
                 const double to = column.target_at
                                       ? link.target.wrapped(nodes.target_at[i]) - *column.target_at

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -311,7 +310,7 @@ private:
             const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
             sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
         } else {
-            const double reach = foot ? std::abs(foot->height) : std::numeric_limits<double>::infinity();
+            const double reach = foot ? std::abs(foot->height) : kInfinity;
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
         // If the point is far off, as on a long quad in a bend, the nearest facet may be on the opposite part
@@ -327,7 +326,7 @@ private:
     /// Distance of a point from the face; `facet` becomes the nearest facet.
     /// @param reach  a facet is known to be within this distance.
     [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
-                                          double reach = std::numeric_limits<double>::infinity()) const
+                                          double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
         if (hit.triangle < 0)
@@ -431,7 +430,7 @@ private:
     {
         constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
-        double best = std::numeric_limits<double>::infinity();
+        double best = kInfinity;
         Index nearest = quads.front();
         for (std::size_t i = 0; i < quads.size(); i += step) {
             const double found = (node(quads_[index(quads[i])][0]) - point).squaredNorm();

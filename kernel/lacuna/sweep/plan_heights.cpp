@@ -11,7 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string>
 
 namespace lacuna::sweep {
@@ -87,8 +86,7 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
 /// Layers required by the bends of the columns, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
-    return static_cast<int>(
-        std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kCountSlack));
+    return static_cast<int>(std::ceil(columns.turning * options.curvature / kFullTurn - kCountSlack));
 }
 
 /// Layers about as high as the quads are wide, at least `least`. @throw InvalidInput  more layers than node

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace lacuna::sweep {
@@ -118,7 +117,7 @@ Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides)
 
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes)
 {
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = kInfinity;
     for (const Quad& quad : quads) {
         for (std::size_t i = 0; i < 4; ++i) {
             if (!mesh::is_side(quad, i)) continue;

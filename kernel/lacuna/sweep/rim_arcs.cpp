@@ -5,7 +5,6 @@
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 namespace lacuna::sweep {
@@ -87,7 +86,7 @@ std::vector<RimChord> rim_chords(const Model& model, FaceId face)
 
 double off_arcs(const Vec3& p, std::span<const RimChord> rim)
 {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (const RimChord& chord : rim) {
         const double f = fraction_along(p, chord.from, chord.to), height = 4 * f * (1 - f);
         const Vec3 place = (1 - f) * chord.from + f * chord.to + height * chord.bulge;

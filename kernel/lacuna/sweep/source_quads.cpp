@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 
@@ -76,7 +75,7 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
             const double middle[] = {(segment.source_from + segment.source_to) / 2};
             const double by_size = (segment.source_to - segment.source_from) /
                                    size(link.source.points(middle).front());
-            more += std::max(0., turning[i] * per_turn / (2 * std::numbers::pi) - by_size);
+            more += std::max(0., turning[i] * per_turn / kFullTurn - by_size);
         }
     }
     return more / kGrading;

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -685,7 +684,7 @@ std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, con
 {
     Readings readings(part, flat_alone, context);
     std::vector<Reading> held;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     // The cost of the ends is a lower bound: the walls only add to it.
     std::optional<Reading> last;
     for (bool more = true; more;) {

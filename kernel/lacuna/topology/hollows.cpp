@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -98,7 +97,7 @@ std::set<EdgeId> edges_of(const std::vector<Rim>& rims)
 /// Extent of faces along a direction.
 double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
 {
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     for (const FaceId face : faces)
         for (const Triangle& t : model[face].triangles)
             for (const Index p : t) most = std::max(most, way.dot(model.at(p)));
@@ -132,7 +131,7 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
         const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
-        double brim = std::numeric_limits<double>::infinity();
+        double brim = kInfinity;
         for (const Vec3& p : mouth) brim = std::min(brim, out.dot(p));
         std::erase_if(parts,
                       [&](const auto& part) { return !(reach(model, part, out) < brim - model.tolerance); });

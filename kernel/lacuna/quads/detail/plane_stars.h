@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -73,7 +72,7 @@ inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> st
 /// The shortest side at a point if it were at `x`.
 inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
-    double squared = std::numeric_limits<double>::infinity();
+    double squared = kInfinity;
     for (const Spoke& spoke : star) {
         squared = std::min({squared, (points[index(spoke.next)] - x).squaredNorm(),
                             (points[index(spoke.before)] - x).squaredNorm()});
@@ -131,7 +130,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
 inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     std::size_t first = 0;
-    return least_sine_above(points, star, x, -std::numeric_limits<double>::infinity(), first);
+    return least_sine_above(points, star, x, -kInfinity, first);
 }
 
 } // namespace lacuna::quads
