@@ -22,10 +22,6 @@ using namespace topology;
 
 namespace {
 
-/// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
-/// sharpest and straightest is taken.
-constexpr double kGoesOn = 0.25;
-
 /// The points that the Douglas-Peucker rule keeps, both ends included: the others lie within `sag` of the
 /// chords.
 std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
@@ -251,7 +247,7 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
                 const Vec3 back = here - model.at(crease[crease.size() - 2]);
                 const Vec3 on = model.at(side.to) - here;
                 const double cosine = back.dot(on) / (back.norm() * on.norm());
-                if (cosine < kGoesOn) continue;
+                if (cosine < std::cos(kBendBelow * kDegree)) continue;
                 turn *= cosine * cosine;
             }
             if (turn <= most) continue;

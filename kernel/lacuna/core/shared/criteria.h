@@ -45,6 +45,10 @@ inline constexpr double kOneCurve = 0.94;
 /// and a right angle.
 inline constexpr double kContinues = 0.7;
 
+/// Sides of a polyline that turn by less form a bend, others a corner [degrees]: a hexagon still approximates
+/// a circle, a square does not.
+inline constexpr double kBendBelow = 75;
+
 // Flat
 
 /// A face is flat if its summed area vector falls short of its area by less than this share, and normals
