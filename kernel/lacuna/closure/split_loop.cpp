@@ -22,9 +22,6 @@ using namespace topology;
 
 namespace {
 
-/// Sine of the largest angle between parallel sides of a groove. Facets of a prism are parallel up to
-/// rounding, those of a bent groove's side are not; a higher value takes slightly bent grooves for straight.
-constexpr double kParallel = 0.02;
 /// Ends are congruent if one moved onto the other is off by less than this share of its length, more than the
 /// sag of round sides. A higher value takes the ends of a channel with slight taper for congruent.
 constexpr double kAlike = 0.005;

@@ -266,8 +266,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     // Sections lie a quarter of the radius apart: frames transported over bends in several planes are within
     // 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
-    constexpr double kLeads = 0.2;                    // least length of the axis, in section radii; heuristic
-    constexpr double kBends = std::numbers::pi / 180; // smaller bends count as straight; heuristic
+    constexpr double kLeads = 0.2; // least length of the axis, in section radii; heuristic
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
@@ -305,7 +304,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         turn_ += off - std::round(off);
         turned.push_back(turn_);
         most_turned_ = std::max(most_turned_, std::abs(turn_));
-        bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kBends;
+        bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kParallel;
     }
     std::vector<double> knots{0}; // side lines stay upright; columns between two side lines keep their share
     for (const LinkingLine& line : link.lines)

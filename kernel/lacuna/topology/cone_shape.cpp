@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/cone_shape.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Dense>
@@ -14,8 +15,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Sines of half angles beyond which a cone is a cylinder or a plane: 1° and 89°. Rule of thumb.
-constexpr double kLeastLean = 0.0175, kMostLean = 0.99985;
 /// Normals that spread less than this (squared) about their mean define no axis: a turn of some degrees. Rule
 /// of thumb.
 constexpr double kLeastSpread = 1e-3;
@@ -54,7 +53,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
-    if (lean < kLeastLean || lean > kMostLean) return {};
+    if (lean < kParallel || lean > 1 - kFlatShare) return {}; // a cylinder or a plane
     // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the other
     // unknowns for the slope s of the normals. Facets are chords, so the slope is fitted again about that
     // axis.
@@ -77,7 +76,7 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const Vec2 centre = found.head<2>();
     const Eigen::VectorXd radius = ((left.leftCols<2>() / 2).rowwise() - centre.transpose()).rowwise().norm();
     const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(radius);
-    if (!(std::abs(fit[0]) > kLeastLean)) return {};
+    if (!(std::abs(fit[0]) > kParallel)) return {};
     cone.least_radius = radius.minCoeff();
     cone.largest_radius = radius.maxCoeff();
     if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kOffShape * cone.largest_radius)) return {};

@@ -51,10 +51,13 @@ inline constexpr double kBendBelow = 75;
 
 // Flat
 
+/// Sine of the largest angle between directions that count as parallel, and of the largest turn of a line
+/// that counts as straight: a degree. Facets in files are off by tenths of that.
+inline constexpr double kParallel = 0.02;
+
 /// A face is flat if its summed area vector falls short of its area by less than this share, and normals
-/// agree if their cosine falls short of 1 by less: within about a degree, as for flat faces with inexact
-/// points.
-inline constexpr double kFlatShare = 2e-4;
+/// agree if their cosine falls short of 1 by less: they are parallel.
+inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
 // Poor: least scaled Jacobian, of a plane quad the least sine of its corners
 
