@@ -34,9 +34,6 @@ namespace {
 constexpr double kConcave = 15;
 /// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
-/// Two directions are parallel if the sine between them is below this (6°), such as a branch and the main
-/// body's axis. A lower value accepts branches that leave almost along the axis, whose cuts are ill-defined.
-constexpr double kAlong = 0.1;
 /// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
 /// above this (30°); an edge this close to the axis runs along it. A higher value adds planes at small angles
 /// to each other; a lower one lets branches to different sides share a plane.
@@ -307,7 +304,7 @@ private:
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
         if (ends.size() != 2)
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
-        if (square.norm() < kAlong * way.norm()) refuse(mouth, "it leaves the main body along its axis");
+        if (square.norm() < kAlongAxis * way.norm()) refuse(mouth, "it leaves the main body along its axis");
     }
 
     /// Planes along the main body through the centre of each mouth and of each line across its ends, if these
@@ -330,7 +327,7 @@ private:
         std::vector<geometry::Plane> planes;
         const auto add = [&](Vec3 place, const Vec3& normal) {
             const Vec3 square = normal - normal.dot(axis_) * axis_;
-            if (!(square.norm() > kAlong * normal.norm())) return;
+            if (!(square.norm() > kAlongAxis * normal.norm())) return;
             Vec3 n = square.normalized();
             const bool known = std::ranges::any_of(planes, [&](const geometry::Plane& plane) {
                 return std::abs(plane.normal.dot(n)) > kSameSide;
@@ -342,7 +339,7 @@ private:
                     return std::abs((p - place).dot(n)) <= kBeside * width();
                 };
                 const Vec3 turned = axis_.cross(b - a);
-                if (is_near(a) && is_near(b) && turned.norm() > kAlong * (b - a).norm())
+                if (is_near(a) && is_near(b) && turned.norm() > kAlongAxis * (b - a).norm())
                     n = turned.normalized();
                 if (is_near(a) || is_near(b)) place = is_near(a) ? a : b;
             }

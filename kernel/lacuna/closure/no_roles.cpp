@@ -27,8 +27,6 @@ using namespace topology;
 
 namespace {
 
-/// Cosine of 5°, within which axes are parallel.
-constexpr double kParallel = 0.996;
 /// Number of planes tried for a message. Limits run time, as each is a cut.
 constexpr std::size_t kMostPlanes = 8;
 /// Number of faces that a message lists for a recipe.
@@ -97,7 +95,7 @@ EdgeId crossing_of_bores(const Model& model)
         if (uses[e].size() != 2 || uses[e][0].face == uses[e][1].face) continue;
         if (!is_bore(uses[e][0].face) || !is_bore(uses[e][1].face)) continue;
         const auto a = round_shape(model, uses[e][0].face), b = round_shape(model, uses[e][1].face);
-        if (a && b && a->axis && b->axis && std::abs(a->axis->dot(*b->axis)) < kParallel) return EdgeId(e);
+        if (a && b && a->axis && b->axis && a->axis->cross(*b->axis).norm() > kAlongAxis) return EdgeId(e);
     }
     return {};
 }
