@@ -152,13 +152,8 @@ Swept sweep_compared(const OpenVolume& volume, const SweepOptions& options, Know
     return std::move(swept);
 }
 
-/// Cells with a lower minimum scaled Jacobian are poor. At order 2 they justify another sweep with more sides
-/// per turn: a quad with two sides on a round rim opens by nearly 180° between them. Such a quad had 0.002;
-/// with a few more sides the rim had none. All other cells tried were above 0.5. A higher value repeats more
-/// sweeps. Not measured.
-constexpr double kPoor = 0.1;
-/// Maximum number of sides per turn in these repeated sweeps: a higher value costs time and cells. Not
-/// measured.
+/// Maximum number of sides per turn in sweeps repeated at order 2, where a quad with two sides on a round rim
+/// opens by nearly 180° between them: a higher value costs time and cells. Not measured.
 constexpr int kMostForCurved = 32;
 
 /// Sweep with the given options. At order 2, use more sides per turn while cells are poor or invalid.
@@ -178,7 +173,7 @@ Swept sweep_as_asked(const OpenVolume& volume, const SweepOptions& options, Know
                     "order 2: {} sides for a full turn instead of {}, by which cells were poor or not valid",
                     rest.curvature, options.curvature));
             if (!best || next.min_scaled_jacobian > best->min_scaled_jacobian) best = std::move(next);
-            if (best->min_scaled_jacobian >= kPoor) break;
+            if (best->min_scaled_jacobian >= kPoorCell) break;
         } catch (const NotSweepable& error) {
             if (!refused) refused = error;
             if (!best && refused->code() != "sweep.second_order") throw;
@@ -322,7 +317,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     share_deadline(options.improving);
     Swept swept = sweep_or_with_wedges(volume, options, context);
-    if (!asked.size && swept.min_scaled_jacobian < kPoor) {
+    if (!asked.size && swept.min_scaled_jacobian < kPoorCell) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
         swept.report.push_back(swept.defaults.back());
     }
