@@ -302,10 +302,9 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell)
 
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    constexpr std::size_t kGrain = 256; // a curved cell takes a few microseconds
     const std::size_t count = mesh.hex_count();
     std::vector<std::uint8_t> invalid(count, 0);
-    parallel_for(context, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(context, count, kCurvedGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
             const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())
