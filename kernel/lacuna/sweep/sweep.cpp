@@ -280,8 +280,8 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     throw NotSweepable(*why);
 }
 
-/// Target for the sizes in the note about the volume, to reach 1 %: bends and barrels lost up to 1.6 times the
-/// estimate.
+/// Target for the sizes in the note about the volume, to reach 1 %: bends and barrels lost up to 1.6 times
+/// the estimate.
 constexpr double kWanted = 0.006;
 
 /// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square

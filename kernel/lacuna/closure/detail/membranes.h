@@ -7,9 +7,9 @@
 
 namespace lacuna::closure {
 
-/// Points are on a quadratic height if they are off it by less than this share of its bulge. Mouths of slots in
-/// shafts and spheres of 1.6 to six times their radius are below 0.025; missing walls next to partial walls of
-/// a bent prism are above 0.045.
+/// Points are on a quadratic height if they are off it by less than this share of its bulge. Mouths of slots
+/// in shafts and spheres of 1.6 to six times their radius are below 0.025; missing walls next to partial
+/// walls of a bent prism are above 0.045.
 inline constexpr double kOnQuadratic = 0.03;
 
 /// The membranes among some void faces: faces over a non-planar rim that does not determine their inside.
