@@ -2,6 +2,7 @@
 #include <lacuna/cad/detail/import_cad.h>
 
 #include <lacuna/cad/detail/exact_geometry.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/healing/shared/orient_groups.h>
 
 #include <utility>
@@ -119,7 +120,7 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
     topology::ModelBuilder model(build_model(std::move(reply), options.scale, source));
     warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
-    model.tolerance = options.tolerance > 0 ? options.tolerance : 1e-6 * model.diagonal;
+    model.tolerance = options.tolerance > 0 ? options.tolerance : kFileAccuracy * model.diagonal;
     healing::orient_groups(model, solids);
     return {.model = std::move(model).finish(), .scale = options.scale, .warnings = std::move(warnings)};
 }

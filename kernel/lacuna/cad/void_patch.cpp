@@ -2,6 +2,7 @@
 #include <lacuna/cad/detail/void_patch.h>
 
 #include <lacuna/cad/detail/edge_shape.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/union_find.h>
 
@@ -59,9 +60,8 @@ std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const st
     } else {
         std::vector<double> all;
         std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-        constexpr double kApart = 1e-9; // relative to the side: breaks closer than this are merged
         for (const double x : all) {
-            if (x - on_a.patch.back() < kApart) continue;
+            if (x - on_a.patch.back() < kSamePlace) continue;
             for (BreakMap* map : {&on_a, &on_b}) {
                 map->patch.push_back(x);
                 map->side.push_back(x);

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/exact_geometry.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -134,7 +135,7 @@ struct OnCurve {
 /// The point of a curve closest to `p`, between two parameters.
 OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, double high)
 {
-    double best = std::numeric_limits<double>::infinity();
+    double best = kInfinity;
     double t = low;
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
         if (curve.params[i + 1] < low || curve.params[i] > high) continue;
@@ -319,7 +320,7 @@ std::vector<double> share_out(const FineCurve& fine, double refinement, std::siz
 {
     const double total = std::accumulate(fine.weight.begin(), fine.weight.end(), 0.0);
     // Rounding must not add a segment to a whole circle.
-    const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - 1e-6)));
+    const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - kCountSlack)));
     const std::size_t sides = std::max(least, wanted);
     if (!(total > 0)) return evenly(fine.params.front(), fine.params.back(), sides);
     std::vector<double> params{fine.params.front()};

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/face_grid.h>
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/delaunay.h>
 #include <lacuna/geometry/shared/segment.h>
 
@@ -82,7 +83,7 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
     std::vector<double> low, high;
     gmsh::model::getParametrizationBounds(2, face, low, high);
     const Eigen::AlignedBox2d bounds(Vec2(low.at(0), low.at(1)), Vec2(high.at(0), high.at(1)));
-    const double near = 1e-6 * bounds.diagonal().norm();
+    const double near = kFileAccuracy * bounds.diagonal().norm();
     const auto gap = [&](const std::vector<Vec2>& uv, std::size_t own) {
         double sum = 0;
         for (const Vec2& end : {uv.front(), uv.back()}) {
@@ -137,8 +138,9 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
         if (chain.uv.size() != params.size()) continue;
         std::vector<Vec2> other = chain.pole ? std::vector<Vec2>{}
                                              : parameters_on_face(curve, params, face.tag, 1);
-        const bool two_sided = other.size() == chain.uv.size() && (other.front() - chain.uv.front()).norm() >
-                                                                      1e-9 * (1 + chain.uv.front().norm());
+        const bool two_sided = other.size() == chain.uv.size() &&
+                               (other.front() - chain.uv.front()).norm() >
+                                   kSamePlace * (1 + chain.uv.front().norm());
         if (!two_sided) other.clear();
         chain.slit = side.uses > 1 && !two_sided && !chain.pole;
         if (side.uses > 1 && two_sided) {

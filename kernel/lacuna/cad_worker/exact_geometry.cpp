@@ -2,6 +2,7 @@
 #include <lacuna/cad_worker/exact_geometry.h>
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/plain_curve.h>
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace lacuna::cad_worker {
@@ -227,11 +227,10 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
     if (!line && kind != "Circle" && kind != "Ellipse") return {};
     // Gmsh's first derivatives are exact, its second derivatives are finite differences.
     const Vec3 start = curve_points(tag, {0.0}).front();
-    constexpr double kQuarter = std::numbers::pi / 2; // its computed cosine is 6e-17, not zero
-    const std::vector<Vec3> along = curve_tangents(tag, {0.0, kQuarter});
+    const std::vector<Vec3> along = curve_tangents(tag, {0.0, kRightAngle});
     geometry::PlainCurve plain{{start, along[0]}};
     if (!line) {
-        const Vec3 out = std::cos(kQuarter) * along[0] - along[1];
+        const Vec3 out = std::cos(kRightAngle) * along[0] - along[1];
         plain.form = {start - out, out, along[0]};
     }
     std::vector<double> params;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/face_grid.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 
 #include <algorithm>
@@ -52,8 +53,8 @@ double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
 {
     const Vec3 na = a.du.cross(a.dv);
     const Vec3 nb = b.du.cross(b.dv);
-    const double floor_a = 1e-9 * a.du.norm() * a.dv.norm();
-    const double floor_b = 1e-9 * b.du.norm() * b.dv.norm();
+    const double floor_a = kSamePlace * a.du.norm() * a.dv.norm();
+    const double floor_b = kSamePlace * b.du.norm() * b.dv.norm();
     if (!(na.norm() > floor_a) || !(nb.norm() > floor_b)) return 0;
     return geometry::angle_between(na, nb);
 }
@@ -92,7 +93,7 @@ GridAxis::GridAxis(std::vector<double> knots, const std::vector<double>& density
     // A minimum density keeps the map strictly increasing.
     const double least = total > 0 ? 1e-3 * total / static_cast<double>(density.size()) : 1;
     for (const double d : density) grid_.push_back(grid_.back() + std::max(d, least));
-    cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - 1e-6)));
+    cells_ = std::max(least_cells, static_cast<int>(std::ceil(total - kCountSlack)));
     const double scale = cells_ / grid_.back();
     for (double& g : grid_) g *= scale;
     grid_.back() = cells_;

@@ -5,11 +5,11 @@
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 #include <lacuna/cad_worker/detail/solid_file.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/default_labels.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 namespace lacuna::cad_worker {
@@ -316,8 +316,8 @@ Imported import_cad(const std::vector<OpenedFile>& files, double tolerance, doub
         source.diagonal = diagonal_of_model();
 
         FacetOptions facets;
-        facets.tolerance = tolerance > 0 ? tolerance / scale : 1e-6 * source.diagonal;
-        facets.fineness = {2 * std::numbers::pi / kSidesPerTurn, kLongestSide * source.diagonal};
+        facets.tolerance = tolerance > 0 ? tolerance / scale : kFileAccuracy * source.diagonal;
+        facets.fineness = {kFullTurn / kSidesPerTurn, kLongestSide * source.diagonal};
         CadWire wire = read_wire(facets.tolerance);
         LeftOut gone;
         Cut cut = cut_all(wire, facets, source.path, progress, gone);

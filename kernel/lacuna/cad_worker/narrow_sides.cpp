@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/narrow_sides.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/geometry/shared/spread.h>
@@ -18,8 +19,6 @@ namespace {
 constexpr double kSag = 0.01;
 /// Largest refinement factor: a whole circle then has 384 segments.
 constexpr double kMost = 8;
-/// A face is planar if its points are off a plane by less than this part of their extent: rounding in files.
-constexpr double kFlat = 1e-6;
 
 /// A segment of the polyline of an edge.
 struct Side {
@@ -56,7 +55,7 @@ bool is_flat(const std::vector<Side>& sides)
     std::vector<Vec3> ends;
     for (const Side& side : sides) ends.push_back(side.from);
     const Vec3 squares = geometry::spread_of(ends).square;
-    return squares[0] <= kFlat * kFlat * squares[2];
+    return squares[0] <= kFileAccuracy * kFileAccuracy * squares[2];
 }
 
 bool share_a_point(const CadEdge& a, const CadEdge& b)

@@ -3,10 +3,10 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/solid_file.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <ranges>
 #include <set>
@@ -241,7 +241,7 @@ int SolidBuilder::plane(const SolidFace& face)
     std::vector<gmsh::vectorpair> map;
     gmsh::model::occ::cut({{2, parts.front()}}, holes, cut, map);
     const double area = cut.size() == 1 ? mass_of(2, cut.front().second) : 0;
-    if (!(std::abs(area - wanted) <= 1e-6 * wanted))
+    if (!(std::abs(area - wanted) <= kFileAccuracy * wanted))
         throw BackendError(Message("cad.plane_failed", "the inner loops could not be cut out of a plane")
                                .remedy("write the facets with write_facets"));
     forget_removed();
@@ -268,7 +268,7 @@ int SolidBuilder::filling(const SolidFace& face)
     session_.set("Geometry.ToleranceBoolean", 0.0);
     forget_removed();
     int best = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const auto& [dim, tag] : parts) {
         if (dim != 2) continue;
         const double off = std::abs(std::abs(mass_of(2, tag)) - face.area);

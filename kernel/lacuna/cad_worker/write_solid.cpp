@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/detail/solid_file.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <cmath>
 #include <map>
@@ -15,13 +16,10 @@ using cad_protocol::MakeSolidRequest;
 namespace {
 
 /// Allowed relative change of the volume by writing: readers of STEP recompute edges on fitted surfaces.
-constexpr double kSameVolume = 1e-4;
-
-/// Curves shorter than this part of the diagonal are points: rounding, far below any tolerance.
-constexpr double kPole = 1e-9;
+constexpr double kVolumeChange = 1e-4;
 
 /// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
-bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kPole * diagonal; }
+bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kSamePlace * diagonal; }
 
 /// Describes how the current model differs from one closed solid; empty if it does not.
 std::string faults_of_model(double diagonal)
@@ -159,7 +157,7 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
                 Message("cad.reads_back", "the file reads back with {} instead of one closed solid", faults)
                     .remedy("write the facets with write_facets"));
         const double volume = mass_of(3, tags_of(3).front());
-        if (!(std::abs(volume - expected) <= kSameVolume * expected)) {
+        if (!(std::abs(volume - expected) <= kVolumeChange * expected)) {
             session.refuse(Message("cad.reads_back",
                                    "the file reads back with a volume of {:.6g} instead of {:.6g}",
                                    found(volume), needed(expected))

@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/bowl.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/section.h>
@@ -19,10 +20,6 @@ namespace {
 /// Number of faces tried as the mouth, the largest first. Each costs a pass over the facets and possibly a
 /// cut. A hollow has one such face, a box six; a lower number may miss a small mouth.
 constexpr std::size_t kMostMouths = 4;
-/// A face is flat if its summed area vector falls short of its area by less than this share, as for normals
-/// that differ by a degree from their mean. A higher value takes curved faces for mouths; a lower one rejects
-/// flat faces with inexact points.
-constexpr double kFlat = 2e-4;
 /// Number of heights at which the inclination is sampled, and where the skin may be cut. A rim rounded by a
 /// thirtieth of the depth covers two; fewer would miss it, more cost time.
 constexpr std::size_t kBins = 64;
@@ -44,10 +41,10 @@ std::vector<Mouth> mouths(const Model& model)
     for (const FaceId id : all_faces(model)) {
         const Vec3 sum = face_area_vector(model, id);
         const double area = face_area(model, id);
-        if (model[id].triangles.empty() || !(sum.norm() > (1 - kFlat) * area)) continue;
+        if (model[id].triangles.empty() || !(sum.norm() > (1 - kFlatShare) * area)) continue;
         const Vec3& at = model.at(model[id].triangles.front()[0]);
         const auto same = std::ranges::find_if(found, [&](const Mouth& mouth) {
-            return mouth.plane.normal.dot(sum) > (1 - kFlat) * area &&
+            return mouth.plane.normal.dot(sum) > (1 - kFlatShare) * area &&
                    std::abs(geometry::height(mouth.plane, at)) <= model.tolerance;
         });
         if (same != found.end()) {

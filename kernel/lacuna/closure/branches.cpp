@@ -7,6 +7,7 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -19,9 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 namespace lacuna::closure {
@@ -35,9 +34,6 @@ namespace {
 constexpr double kConcave = 15;
 /// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
-/// Two directions are parallel if the sine between them is below this (6°), such as a branch and the main
-/// body's axis. A lower value accepts branches that leave almost along the axis, whose cuts are ill-defined.
-constexpr double kAlong = 0.1;
 /// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
 /// above this (30°); an edge this close to the axis runs along it. A higher value adds planes at small angles
 /// to each other; a lower one lets branches to different sides share a plane.
@@ -104,7 +100,7 @@ private:
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * std::numbers::pi / 180) continue;
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * kDegree) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
@@ -188,7 +184,7 @@ private:
 
 /// Extent of a mouth along a direction.
 struct Reach {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = kInfinity, high = -low;
 };
 
 class BranchCutter {
@@ -303,7 +299,7 @@ private:
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
         if (ends.size() != 2)
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
-        if (square.norm() < kAlong * way.norm()) refuse(mouth, "it leaves the main body along its axis");
+        if (square.norm() < kAlongAxis * way.norm()) refuse(mouth, "it leaves the main body along its axis");
     }
 
     /// Planes along the main body through the centre of each mouth and of each line across its ends, if these
@@ -326,7 +322,7 @@ private:
         std::vector<geometry::Plane> planes;
         const auto add = [&](Vec3 place, const Vec3& normal) {
             const Vec3 square = normal - normal.dot(axis_) * axis_;
-            if (!(square.norm() > kAlong * normal.norm())) return;
+            if (!(square.norm() > kAlongAxis * normal.norm())) return;
             Vec3 n = square.normalized();
             const bool known = std::ranges::any_of(planes, [&](const geometry::Plane& plane) {
                 return std::abs(plane.normal.dot(n)) > kSameSide;
@@ -338,7 +334,7 @@ private:
                     return std::abs((p - place).dot(n)) <= kBeside * width();
                 };
                 const Vec3 turned = axis_.cross(b - a);
-                if (is_near(a) && is_near(b) && turned.norm() > kAlong * (b - a).norm())
+                if (is_near(a) && is_near(b) && turned.norm() > kAlongAxis * (b - a).norm())
                     n = turned.normalized();
                 if (is_near(a) || is_near(b)) place = is_near(a) ? a : b;
             }

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/predicates.h>
@@ -75,7 +76,7 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
                               distance(tube.points[0], first.points[1]);
         const double apart =
             (geometry::mean_point(first.points[0]) - geometry::mean_point(first.points[1])).norm();
-        if (std::abs(as_is - turned) <= 1e-6 * apart) {
+        if (std::abs(as_is - turned) <= kFileAccuracy * apart) {
             throw NotClosed(Message("closure.ambiguous_loops",
                                     "the two free loops of {} are equally close to both ends of the walls at "
                                     "{}, so source and target are ambiguous",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/climber.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -12,10 +13,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-/// Cosine of the largest turn (45°) at which an edge continues a side line: halfway between a straight line
-/// and the turn at the top of a wall, about 90°.
-constexpr double kOnward = 0.7071;
 
 } // namespace
 
@@ -39,7 +36,7 @@ std::vector<EdgeUse> Climber::climb(VertexId start) const
     std::set<VertexId> passed{start};
     Vec3 onward = off_rim(start);
     for (VertexId at = start; way.empty() || !on_end_.contains(at);) {
-        const std::optional<EdgeUse> next = straightest(at, onward, way.empty() ? -1 : kOnward);
+        const std::optional<EdgeUse> next = straightest(at, onward, way.empty() ? -1 : kContinues);
         if (!next || !passed.insert(use_to(model_, *next)).second) break;
         way.push_back(*next);
         at = use_to(model_, *next);

@@ -13,6 +13,7 @@
 #include <lacuna/closure/detail/stubs.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -102,13 +103,10 @@ double lean_of(const OpenVolume& volume)
 
 /// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
 /// angles. A lower value bends more closings that were meant to be straight.
-constexpr double kBend = 100 * std::numbers::pi / 180;
+constexpr double kBend = 100 * kDegree;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
-constexpr double kLean = 20 * std::numbers::pi / 180;
+constexpr double kLean = 20 * kDegree;
 
-/// Alternatives that differ by more than this share of the volume are noted: half of what makes an
-/// assumption, see `kMatters`. The sag of facets alone may cause differences of half a percent.
-constexpr double kToBeSaid = 0.01;
 /// Relative difference of an alternative volume; 0 if the alternative is impossible.
 double share_between(double taken, const std::optional<double>& other)
 {
@@ -238,7 +236,7 @@ private:
         const bool straight = way.edges == EdgeShape::straight, follows = way.edges == EdgeShape::follow;
         const double lean = leads() || closure.void_edges.empty() ? 0 : lean_of(volume_);
         const auto is_bare = [](double share) { return share == 1; };
-        if (leads() ? !(straight && follower_->bow() > kMatters / 2) &&
+        if (leads() ? !(straight && follower_->bow() > kVolumeNoted / 2) &&
                           !(follows && std::ranges::any_of(shares_without_walls(volume_), is_bare))
                     : !(lean > kLean))
             return;
@@ -253,7 +251,7 @@ private:
             sealed_ = std::move(kept);
         }
         const double share = share_between(taken, instead);
-        if (leads() && !(share > kToBeSaid))
+        if (leads() && !(share > kSameVolume))
             return; // inclined ends are reported whatever the volume is, walls that bend
                     // only if it differs
         const std::string text =

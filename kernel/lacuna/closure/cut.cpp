@@ -7,6 +7,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -32,9 +33,6 @@ namespace {
 
 /// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-/// Loops with less area than this share of their squared length enclose nothing: they return on their own
-/// line, up to rounding. A higher value rejects slender sections.
-constexpr double kSlit = 1e-6;
 
 double signed_area(std::span<const Vec2> loop)
 {
@@ -100,7 +98,7 @@ private:
 
     [[noreturn]] void refuse_miss() const
     {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
+        double least = kInfinity, most = -least;
         std::vector<FaceId> touched;
         for (const FaceId face : all_faces(model_)) {
             bool touches = false;
@@ -165,7 +163,7 @@ private:
         std::vector<std::size_t> order(lines.size()), best;
         std::iota(order.begin(), order.end(), std::size_t{0});
         if (lines.size() > kAllOrders) return best;
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         do {
             double length = 0;
             for (std::size_t i = 0; i < lines.size(); ++i)
@@ -195,7 +193,8 @@ private:
             double length = 0;
             for (std::size_t k = 0; k < loop.size(); ++k)
                 length += (loop[(k + 1) % loop.size()] - loop[k]).norm();
-            if (loop.size() < 3 || std::abs(signed_area(loop)) < kSlit * length * length) return false;
+            if (loop.size() < 3 || std::abs(signed_area(loop)) < kFileAccuracy * length * length)
+                return false;
             outline.add_loop(loop);
         }
         return !geometry::find_crossing(outline.flat, outline.loops);

@@ -9,6 +9,7 @@
 #include <lacuna/closure/detail/split_loop.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -16,16 +17,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::closure {
 
 using namespace topology;
 
 namespace {
-
-/// A loop is planar if all its points are within this share of its length of a plane.
-constexpr double kFlatLoop = 1e-6;
 
 /// Coplanar loops.
 struct Coplanar {
@@ -138,7 +135,6 @@ constexpr double kSlope = 60;
 /// Assign roles to the new faces.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
-    constexpr double kAsSteep = 1e-6; ///< cosines closer than this are equal, as for the two slopes of a roof
     const Model& model = filling.volume.model;
     const Vec3 way = -area_vector_of(model, source).stableNormalized();
     const auto facing = [&](FaceId face) {
@@ -146,7 +142,7 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
     };
     double most = -1;
     for (const FaceId face : filling.closure.void_faces) most = std::max(most, facing(face));
-    const double enough = std::min(most - kAsSteep, std::cos(kSlope * std::numbers::pi / 180));
+    const double enough = std::min(most - kFileAccuracy, std::cos(kSlope * kDegree));
     for (const FaceId face : filling.closure.void_faces)
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }
@@ -180,7 +176,7 @@ bool is_flat(const Model& model, const Rim& rim)
         area += (points[i] - mean).cross(points[(i + 1) % points.size()] - mean);
     const Vec3 normal = area.stableNormalized();
     return std::ranges::all_of(
-        points, [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFlatLoop * length; });
+        points, [&](const Vec3& p) { return std::abs((p - mean).dot(normal)) <= kFileAccuracy * length; });
 }
 
 bool has_flat_loops(const Model& model, FaceId face)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/four_corners.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
@@ -8,17 +9,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace lacuna::closure {
 
 using namespace topology;
 
 namespace {
-
-/// A rim turns by more than this at a corner [degrees]; the same limit separates patches. A lower value takes
-/// facets of a coarse curve for corners; a higher one joins sides that meet at an obtuse angle.
-constexpr double kCorner = 30;
 
 /// Mismatch of the first and third side if the first is moved along the others.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
@@ -37,7 +33,8 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
     const Vec3 chord = points.back() - points.front();
     const Vec3 along = chord.stableNormalized();
     return std::ranges::all_of(points, [&](const Vec3& p) {
-        return (p - points.front()).cross(along).norm() <= std::max(model.tolerance, 1e-6 * chord.norm());
+        return (p - points.front()).cross(along).norm() <=
+               std::max(model.tolerance, kFileAccuracy * chord.norm());
     });
 }
 
@@ -47,7 +44,7 @@ bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)
     std::reverse(back.begin(), back.end());
     const Vec3 arrives = geometry::end_tangent(use_places(model, before)),
                leaves = -geometry::end_tangent(back);
-    return geometry::angle_between(arrives, leaves) > kCorner * std::numbers::pi / 180;
+    return geometry::angle_between(arrives, leaves) > kCreaseAngle * kDegree;
 }
 
 std::vector<std::size_t> sharp_corners(const Model& model, const Loop& loop)

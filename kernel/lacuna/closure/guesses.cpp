@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
@@ -231,7 +232,7 @@ bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
         for (const Vec3& p : places) radius = std::max(radius, (p - middle).norm());
         return off_one_plane(places) <= kRough * 2 * radius;
     });
-    return about_flat && std::abs(beside_thin_plate(model, face).above) <= kMatters * enclosed;
+    return about_flat && std::abs(beside_thin_plate(model, face).above) <= kVolumeNoted * enclosed;
 }
 
 bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
@@ -366,7 +367,7 @@ Message guess_of_hole(const Model& model, FaceId face)
 
 void assume(Closure& closure, const char* code, std::string text, double share)
 {
-    if (share > kMatters) closure.assumptions.push_back({code, text});
+    if (share > kVolumeNoted) closure.assumptions.push_back({code, text});
     closure.notes.push_back(std::move(text));
 }
 

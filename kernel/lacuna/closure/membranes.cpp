@@ -22,8 +22,6 @@ namespace {
 /// A face is about flat if half the range of its heights over its plane is within this share of its extent.
 /// A lower value counts roughness as a bend; a higher one overlooks shallow bends.
 constexpr double kFlat = 0.02;
-/// Tolerance for a face on a quadratic height, as a share of its bulge; the same as in closing.
-constexpr double kOnIt = 0.03;
 /// Tolerance for the inside of a face on the quadric of its rim, as a share of its bulge. Bounded from above
 /// by a membrane between two planes, which is further off both; a lower value rejects coarse facets.
 constexpr double kNearIt = 0.2;
@@ -72,7 +70,7 @@ bool lies_as_told(const Model& model, FaceId face)
 {
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
     const geometry::Plane plane = mean_plane(model, face);
-    const double off = kOnIt * heights_of(model, face).bulge();
+    const double off = kOnQuadratic * heights_of(model, face).bulge();
     const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);
     return std::ranges::any_of(shapes.told, [&](const QuadricSheet& sheet) {
         return std::ranges::all_of(corners_of(model[face]), [&](Index p) {
@@ -94,7 +92,7 @@ bool bends_off_quadratic(const Model& model, FaceId face)
 {
     if (model[face].geometry != Geometry::newell || !(face_area_vector(model, face).norm() > 0)) return false;
     const Heights heights = heights_of(model, face);
-    return off_quadratic(heights, heights.extent()) > kOnIt * heights.bulge();
+    return off_quadratic(heights, heights.extent()) > kOnQuadratic * heights.bulge();
 }
 
 bool bends_as_rim(const Model& model, FaceId face)
@@ -128,7 +126,7 @@ bool bends_as_rim(const Model& model, FaceId face)
                          q[3] + 2 * q[6] * p.z() + q[8] * p.y() + q[9] * p.x());
         return std::abs(powers_at(at).dot(q)) / slope.norm() * extent; // to first order
     };
-    return std::ranges::all_of(rim, [&](const Vec3& p) { return off(p) <= kOnIt * bulge; }) &&
+    return std::ranges::all_of(rim, [&](const Vec3& p) { return off(p) <= kOnQuadratic * bulge; }) &&
            std::ranges::all_of(corners_of(model[face]),
                                [&](Index p) { return off(model.at(p)) <= kNearIt * bulge; });
 }

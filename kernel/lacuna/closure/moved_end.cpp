@@ -32,12 +32,10 @@ using namespace topology;
 
 namespace {
 
-/// A moved foot of a wall may be off the wall's top by this share of the end's width, more than the sag of
-/// round sides. A lower value refuses coarse facets; a higher one accepts motions that miss the tops.
+/// A moved foot of a wall may be off the wall's top, and points of a straight side off their line, by this
+/// share of the end's width: more than the sag of round sides. A lower value refuses coarse facets; a higher
+/// one accepts motions that miss the tops.
 constexpr double kOnTop = 0.01;
-/// Points closer to a line than this share of the end's width are collinear. A lower value takes inexact
-/// straight sides for bent; a higher one takes slightly bent sides for straight.
-constexpr double kOnLine = 0.01;
 /// Sample points along each wall's foot. More represent curved feet more closely and cost time.
 constexpr int kSamples = 8;
 
@@ -300,7 +298,7 @@ private:
         const auto straight = [&](const std::vector<EdgeUse>& uses) {
             const std::vector<Vec3> chain = use_places(volume_.model, uses);
             return std::ranges::all_of(chain, [&](const Vec3& p) {
-                return geometry::distance_to_segment(p, chain.front(), chain.back()) <= kOnLine * width;
+                return geometry::distance_to_segment(p, chain.front(), chain.back()) <= kOnTop * width;
             });
         };
         std::vector<std::vector<Vec3>> tops;
@@ -361,7 +359,7 @@ private:
         for (const Vec3& p : from_)
             if ((p - from_.front()).norm() > along.norm()) along = p - from_.front();
         return std::ranges::all_of(from_, [&](const Vec3& p) {
-            return (p - from_.front()).cross(along.stableNormalized()).norm() <= kOnLine * width;
+            return (p - from_.front()).cross(along.stableNormalized()).norm() <= kOnTop * width;
         });
     }
 

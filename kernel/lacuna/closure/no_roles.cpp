@@ -10,6 +10,7 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace lacuna::closure {
@@ -27,12 +27,6 @@ using namespace topology;
 
 namespace {
 
-/// A cone includes its apex within this share of its radius; the tolerance of the shape fits.
-constexpr double kTip = 0.01;
-/// Cosine of 5°, within which axes are parallel.
-constexpr double kParallel = 0.996;
-/// Edges where the skin turns inward by more than 30° are concave: the limit between patches.
-constexpr double kConcaveEdge = std::numbers::pi / 6;
 /// Number of planes tried for a message. Limits run time, as each is a cut.
 constexpr std::size_t kMostPlanes = 8;
 /// Number of faces that a message lists for a recipe.
@@ -62,7 +56,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
     const std::vector<double> turns = concave_turns(volume, context);
     std::vector<FaceId> tried;
     for (std::size_t e = 0; e < turns.size(); ++e) {
-        if (!(turns[e] > kConcaveEdge)) continue;
+        if (!(turns[e] > kCreaseAngle * kDegree)) continue;
         for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
             const auto plane = plane_of(model, use.face);
             if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
@@ -84,7 +78,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
 bool is_cone_to_its_tip(const Model& model, FaceId face)
 {
     const auto cone = cone_shape(model, face);
-    return cone && cone->least_radius <= kTip * cone->largest_radius;
+    return cone && cone->least_radius <= kOffShape * cone->largest_radius;
 }
 
 /// An edge between two cylinders with non-parallel axes, each covering half a turn or more; fillets cover
@@ -100,7 +94,7 @@ EdgeId crossing_of_bores(const Model& model)
         if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
         if (!is_bore(uses[0].face) || !is_bore(uses[1].face)) continue;
         const auto a = round_shape(model, uses[0].face), b = round_shape(model, uses[1].face);
-        if (a && b && a->axis && b->axis && std::abs(a->axis->dot(*b->axis)) < kParallel) return EdgeId(e);
+        if (a && b && a->axis && b->axis && a->axis->cross(*b->axis).norm() > kAlongAxis) return EdgeId(e);
     }
     return {};
 }

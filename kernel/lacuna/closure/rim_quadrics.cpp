@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/rim_quadrics.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -74,8 +75,7 @@ struct EvenFrame {
 std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
 {
     const geometry::Spread spread = geometry::spread_of(points);
-    constexpr double kInPlane = 1e-12;
-    if (!(spread.square(0) > kInPlane * spread.square(2))) return std::nullopt;
+    if (!(spread.square(0) > kRoundoff * spread.square(2))) return std::nullopt;
     const Vec3 stretches = spread.square.cwiseSqrt().cwiseInverse();
     return EvenFrame{spread.centre, std::sqrt(spread.square(2)),
                      spread.axis * stretches.asDiagonal() * spread.axis.transpose()};
@@ -212,7 +212,6 @@ std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops,
 std::optional<QuadricSheet> sheet_through(std::span<const Vec3> rim, const Quadric& quadric,
                                           const geometry::Plane& plane)
 {
-    constexpr double kNoSlope = 1e-6; // share of the steepest slope, for the line where two planes meet
     std::vector<Vec3> slopes;
     double steepest = 0;
     for (const Vec3& p : rim) {
@@ -222,7 +221,7 @@ std::optional<QuadricSheet> sheet_through(std::span<const Vec3> rim, const Quadr
     std::size_t rising = 0, falling = 0;
     for (const Vec3& slope : slopes) {
         const double rise = slope.dot(plane.normal);
-        const double enough = std::max(kStandsUp * slope.norm(), kNoSlope * steepest);
+        const double enough = std::max(kStandsUp * slope.norm(), kFileAccuracy * steepest);
         rising += rise > enough ? 1 : 0;
         falling += -rise > enough ? 1 : 0;
     }
@@ -277,10 +276,8 @@ std::optional<double> QuadricSheet::height(const Vec2& place) const
     way << plane.normal, 0;
     const double a = way.dot(quadric.form * way), b = way.dot(quadric.form * foot);
     const double c = foot.dot(quadric.form * foot);
-    // Points of the rim may lie beyond the steep edge of the sheet by rounding.
-    constexpr double kRounding = 1e-6;
     const double inside = b * b - a * c;
-    if (inside < -kRounding * (b * b + std::abs(a * c))) return std::nullopt;
+    if (inside < -kFileAccuracy * (b * b + std::abs(a * c))) return std::nullopt;
     const double root = side * std::sqrt(std::max(0.0, inside));
     const double off = b * side > 0 ? -c / (b + root) : (root - b) / a;
     if (!std::isfinite(off)) return std::nullopt;

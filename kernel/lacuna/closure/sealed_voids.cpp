@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/moved_end.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>
 
@@ -21,9 +22,6 @@ using namespace topology;
 
 namespace {
 
-/// Volumes that differ by less than this share of the larger are equal. It exceeds the effect of the sag of
-/// round faces.
-constexpr double kSameVolume = 5e-3;
 /// Skins coincide if their distance is below this share of the cube root of their volume. A lower value finds
 /// one void twice because of different facets; a higher one merges different voids.
 constexpr double kSameSkin = 0.02;

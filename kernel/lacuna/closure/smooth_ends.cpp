@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/smooth_ends.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/patches.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::closure {
@@ -21,7 +21,7 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 {
     const Vec3 area = area_vector_of(model, faces);
     const Vec3 normal = area.normalized();
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = kInfinity, high = -low;
     for (const FaceId face : faces) {
         for (const Index p : corners_of(model[face])) {
             low = std::min(low, model.at(p).dot(normal));
@@ -40,7 +40,7 @@ std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::
     for (std::size_t i = 0; i < extended.size(); ++i) {
         if (!is_free_of_meshes(model[extended[i]])) return {};
         for (const EdgeUse& use : uses_of(model[extended[i]])) {
-            if (angle[use.edge.index()] >= kSmooth) continue;
+            if (angle[use.edge.index()] >= kCreaseAngle) continue;
             for (const FaceUse& user : model.uses_of_edge(use.edge)) {
                 if (std::ranges::find(extended, user.face) != extended.end()) continue;
                 if (volume.role[user.face.index()] != Role::wall) return {};

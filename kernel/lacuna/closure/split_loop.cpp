@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -21,11 +22,6 @@ using namespace topology;
 
 namespace {
 
-/// Sine of the largest turn of a straight chain.
-constexpr double kStraight = 1e-6;
-/// Sine of the largest angle between parallel sides of a groove. Facets of a prism are parallel up to
-/// rounding, those of a bent groove's side are not; a higher value takes slightly bent grooves for straight.
-constexpr double kParallel = 0.02;
 /// Ends are congruent if one moved onto the other is off by less than this share of its length, more than the
 /// sag of round sides. A higher value takes the ends of a channel with slight taper for congruent.
 constexpr double kAlike = 0.005;
@@ -125,7 +121,7 @@ std::size_t turns(const std::vector<Vec3>& chain)
     std::size_t count = 0;
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
         const Vec3 a = chain[i] - chain[i - 1], b = chain[i + 1] - chain[i];
-        count += a.cross(b).norm() > kStraight * a.norm() * b.norm() ? 1 : 0;
+        count += a.cross(b).norm() > kFileAccuracy * a.norm() * b.norm() ? 1 : 0;
     }
     return count;
 }

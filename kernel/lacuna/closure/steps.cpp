@@ -8,6 +8,7 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -16,9 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -61,7 +60,7 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kStep * std::numbers::pi / 180) {
+                if (turns[use.edge.index()] < kStep * kDegree) {
                     if (model.uses_of_edge(use.edge).size() > 1) ++onward;
                     continue;
                 }
@@ -317,7 +316,7 @@ private:
     /// A height along the sweep below the whole volume.
     [[nodiscard]] double lowest() const
     {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (const Vec3& p : volume_.model.points) least = std::min(least, p.dot(across_.normal));
         return least - volume_.model.diagonal;
     }
@@ -519,7 +518,7 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     double tolerance = 0;
     for (const StepPiece& piece : pieces) {
         const Model& model = piece.volume.model;
-        double low = std::numeric_limits<double>::infinity(), high = -low;
+        double low = kInfinity, high = -low;
         for (const Face& face : model.faces) {
             for (const Index p : corners_of(face)) {
                 low = std::min(low, model.at(p).dot(way));

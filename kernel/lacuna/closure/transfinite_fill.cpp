@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/transfinite_fill.h>
 
 #include <lacuna/closure/detail/outline.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -164,9 +165,9 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
     const bool even = side[0].chain.size() == side[2].chain.size() &&
                       side[1].chain.size() == side[3].chain.size();
     // A twisted patch must not be represented by a few facets, because the swept mesh follows it.
-    constexpr double kFewSegments = 8, kFlat = 1e-3;
+    constexpr double kFewSegments = 8;
     const double across = (side[0].points.front() - side[2].points.front()).norm();
-    const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kFlat * across;
+    const bool twisted = std::min(width, height) < kFewSegments && twist_of(side) > kVisible * across;
     const bool bent_both_ways = std::min(width, height) >= kFewSegments;
     const geometry::Triangulation flat = even && !twisted ? grid_between(side, outline, width, height)
                                          : twisted || bent_both_ways

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -27,9 +28,6 @@ constexpr int kMostSegments = 64;
 /// Maximum turn of a smooth curve's tangents, 3/4 of a circle. The handles become infinite at a full one; a
 /// higher value lets curves bulge further.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
-/// The ends face each other if their normals point towards each other by more than this share of the chords,
-/// which exceeds rounding.
-constexpr double kFacing = 1e-6;
 
 // --- gaps ---------------------------------------------------------------------------------------------
 
@@ -176,7 +174,7 @@ double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, cons
         if (gap.above.empty()) lean -= chord.dot(normal_at(volume, Role::target, gap.target));
         asked = asked || gap.below.empty() || gap.above.empty();
     }
-    if (asked && !(std::abs(lean) > kFacing * length)) {
+    if (asked && !(std::abs(lean) > kFileAccuracy * length)) {
         throw NotClosed(
             Message("closure.no_side",
                     "{} and {} do not face each other, so smooth void edges could leave on either side",

@@ -2,10 +2,12 @@
 #include <lacuna/closure/shared/void_geometry.h>
 
 #include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -101,9 +103,6 @@ struct QuadraticHeight {
 /// conic do not determine the height inside.
 std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
 {
-    // Tolerance as a share of the bulge. Mouths of slots in shafts and spheres of 1.6 to six times their
-    // radius are below 0.025; missing walls next to partial walls of a bent prism are above 0.045.
-    constexpr double kOnIt = 0.03;
     // Least over largest eigenvalue. Ellipses are below 1e-4, slots 1.5 times as long as wide at 9e-4, longer
     // ones up to 5e-3.
     constexpr double kManyConics = 7e-4;
@@ -135,7 +134,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
         spread += s.weight / length * off * off.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    if (axes.eigenvalues()(0) <= 1e-12 * axes.eigenvalues()(1)) return std::nullopt; // collinear
+    if (axes.eigenvalues()(0) <= kRoundoff * axes.eigenvalues()(1)) return std::nullopt; // collinear
     result.stretch = axes.operatorInverseSqrt();
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Quadratic right = Quadratic::Zero();
@@ -148,7 +147,7 @@ std::optional<QuadraticHeight> quadratic_through(const Model& model, const Newel
     if (fit.eigenvalues()(0) < kManyConics * fit.eigenvalues()(5)) return std::nullopt;
     result.coefficient = normal.ldlt().solve(right);
     const bool on_it = std::ranges::all_of(samples, [&](const Sample& s) {
-        return std::abs(result.at(s.place) - s.height) <= kOnIt * newell.bulge;
+        return std::abs(result.at(s.place) - s.height) <= kOnQuadratic * newell.bulge;
     });
     return on_it ? std::optional(result) : std::nullopt;
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/io/shared/deck_middles.h>
@@ -41,9 +42,7 @@ struct GivenMiddles {
 
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
 {
-    // Share of the diagonal: reused nodes equal those of the deck up to the rounding of the scale.
-    constexpr double kTogether = 1e-9;
-    const GivenMiddles given{volume.decks, kTogether * volume.volume.model.diagonal, volume.scale};
+    const GivenMiddles given{volume.decks, kSamePlace * volume.volume.model.diagonal, volume.scale};
     options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
         return given.find(from.size(), [&](const io::Deck& deck) {
             return io::middles_between(deck, from, to, given.tolerance, given.scale);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/cut.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
 
 #include <algorithm>
@@ -13,9 +14,6 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Number of facets and points between checks for cancelling.
-constexpr std::size_t kStepsBetweenPolls = 4096;
-
 } // namespace
 
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
@@ -24,7 +22,7 @@ std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Tr
 {
     std::size_t steps = 0;
     const auto poll = [&] {
-        if (steps++ % kStepsBetweenPolls == 0) check_cancelled(context);
+        if (steps++ % kBetweenPolls == 0) check_cancelled(context);
     };
     std::unordered_map<Index, std::vector<Index>> neighbours;
     for (const Triangle& t : triangles) {

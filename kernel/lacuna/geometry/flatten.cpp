@@ -8,6 +8,7 @@
 #include <lacuna/geometry/shared/tips.h>
 #include <lacuna/geometry/shared/union_find.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <algorithm>
@@ -192,8 +193,7 @@ bool is_planar(const Facets& facets, const Plane& plane)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& point : facets.points) box.extend(point);
-    // 1e-9: six digits better than a drawing, six digits above double precision.
-    const double tolerance = 1e-9 * box.diagonal().norm();
+    const double tolerance = kSamePlace * box.diagonal().norm();
     return std::all_of(facets.points.begin(), facets.points.end(),
                        [&](const Vec3& p) { return std::abs(height(plane, p)) <= tolerance; });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/minimise.h>
 
+#include <lacuna/core/shared/criteria.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -69,7 +71,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
         }
         Pair pair{tried - x, next_gradient - gradient, 0};
         const double curvature = pair.step.dot(pair.change);
-        if (curvature > 1e-12 * pair.step.norm() * pair.change.norm()) {
+        if (curvature > kRoundoff * pair.step.norm() * pair.change.norm()) {
             pair.inverse = 1 / curvature;
             memory.push_back(std::move(pair));
             if (memory.size() > options.memory) memory.pop_front();

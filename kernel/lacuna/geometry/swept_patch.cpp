@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/swept_patch.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>
 
@@ -17,8 +18,6 @@ constexpr double kShortChord = 0.1;
 constexpr double kReach = 0.02;
 /// Number of frames along a seam: steps of 3° for half a turn.
 constexpr int kFrames = 64;
-/// A seam that deviates less from its chord, relative to its length, is straight.
-constexpr double kStraight = 1e-9;
 
 } // namespace
 
@@ -58,7 +57,7 @@ SweptPatch::SweptPatch(std::span<const Vec3> bottom, std::span<const Vec3> right
 
 bool SweptPatch::is_bent_seam() const
 {
-    const double reach = kStraight * left_.arc.back();
+    const double reach = kSamePlace * left_.arc.back();
     const Vec3 along = (left_.points.back() - left_.points.front()).stableNormalized();
     double stray = 0;
     for (int i = 0; i <= kFrames; ++i) {

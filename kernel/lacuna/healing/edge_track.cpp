@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/edge_track.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::healing {
 
@@ -90,7 +90,7 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
             places[active[k]].distance = (at[3 * k] - p).norm();
             if (!(tangent.squaredNorm() > 0)) continue;
             const double next = t[k] + (p - at[3 * k]).dot(tangent) / tangent.squaredNorm();
-            still = still && std::abs(next - t[k]) <= 1e-12 * (high - low);
+            still = still && std::abs(next - t[k]) <= kRoundoff * (high - low);
             t[k] = std::clamp(next, low, high);
         }
         if (still) break;
@@ -114,7 +114,7 @@ std::vector<EdgeTrack::EdgePosition> EdgeTrack::locate(std::span<const Vec3> poi
     std::vector<EdgePosition> places(points.size());
     for (std::size_t q = 0; q < points.size(); ++q) {
         check_cancelled(context);
-        places[q].distance = std::numeric_limits<double>::infinity();
+        places[q].distance = kInfinity;
         for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
             const EdgePosition place = on_segment(points[q], i);
             if (place.distance < places[q].distance) places[q] = place;
@@ -137,7 +137,7 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
         // A curve longer than four times its chord would leave the other edge by more than the tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
-        places[q].distance = std::numeric_limits<double>::infinity();
+        places[q].distance = kInfinity;
         std::size_t best = from;
         for (std::size_t i = from; i + 1 < points_.size() && window >= 0; ++i) {
             EdgePosition place = on_segment(points[q], i);

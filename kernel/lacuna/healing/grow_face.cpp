@@ -2,6 +2,7 @@
 #include <lacuna/healing/shared/grow_face.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/healing/split_facets.h>
@@ -51,8 +52,7 @@ class Grower {
 public:
     Grower(const topology::Model& model, double angle) : model_(model)
     {
-        constexpr double kSlack = 1e-6; // as in split_facets(): 32-bit coordinates give angles no finer
-        least_cosine_ = std::cos(std::min(angle * std::numbers::pi / 180 + kSlack, std::numbers::pi));
+        least_cosine_ = std::cos(std::min(angle * std::numbers::pi / 180 + kFileAccuracy, std::numbers::pi));
         for (std::size_t f = 0; f < model.faces.size(); ++f)
             add_cells(model.faces[f], static_cast<Index>(f), cells_, cell_of_triangle_);
         for (std::size_t c = 0; c < cells_.size(); ++c)
@@ -71,7 +71,7 @@ public:
         std::vector<Index> front{nearest(near, may)};
         grown[index(front[0])] = true;
         for (std::size_t i = 0; i < front.size(); ++i) {
-            if (i % 4096 == 0) check_cancelled(context); // cancels without noticeable delay
+            if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index from = front[i];
             for (std::size_t k = 0; k < cells_[index(from)].count(); ++k) {
                 const std::vector<Index>& here = users_.at(key(cells_[index(from)], k));

@@ -3,6 +3,7 @@
 #include <lacuna/healing/split_facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/repeated_cells.h>
 #include <lacuna/healing/detail/t_junctions.h>
@@ -89,7 +90,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     for (const Vec3& p : points) box.extend(p);
     facets.diagonal = box.diagonal().norm();
     check_size(box.min(), box.max(), facets.diagonal);
-    facets.tolerance = tolerance > 0 ? tolerance : 1e-6 * facets.diagonal;
+    facets.tolerance = tolerance > 0 ? tolerance : kFileAccuracy * facets.diagonal;
 
     const std::vector<Index> joined = weld(points, facets.tolerance, context);
     std::vector<Index> kept(points.size(), -1);

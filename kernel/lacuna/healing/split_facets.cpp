@@ -6,6 +6,7 @@
 #include <lacuna/topology/model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/healing/detail/facet_sides.h>
@@ -20,12 +21,6 @@
 
 namespace lacuna::healing {
 namespace {
-
-// A turn of exactly the feature angle must be classified the same way everywhere; 32-bit coordinates give
-// angles no finer than this [radians].
-constexpr double kAngleSlack = 1e-6;
-/// Facets between two cancellation checks. Rule of thumb.
-constexpr std::size_t kFacetsBetweenPolls = 4096;
 
 /// Do two facets, or the quads they belong to, have the same corners?
 bool on_each_other(const Facets& facets, Index f, Index g)
@@ -112,7 +107,7 @@ struct Flood {
 Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     const std::vector<Vec3> normal = normals_of(facets, sides, feature, context);
-    const double least_cosine = std::cos(std::min(feature + kAngleSlack, std::numbers::pi));
+    const double least_cosine = std::cos(std::min(feature + kFileAccuracy, std::numbers::pi));
     Flood flood{std::vector<Index>(facets.count(), -1), std::vector<bool>(facets.count(), false), 0};
     std::vector<Index> front;
     for (std::size_t seed = 0; seed < facets.count(); ++seed) {
@@ -122,7 +117,7 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
         front.assign(1, static_cast<Index>(seed));
         double as_given = 0; // area that keeps its given orientation, minus the area that is reversed
         for (std::size_t i = 0; i < front.size(); ++i) {
-            if (i % kFacetsBetweenPolls == 0) check_cancelled(context);
+            if (i % kBetweenPolls == 0) check_cancelled(context);
             const Index f = front[i];
             as_given += (flood.flipped[index(f)] ? -1 : 1) *
                         area_vector(facets.points, facets.corner[index(f)]).norm();
@@ -211,7 +206,7 @@ public:
         : model_(model),
           sides_(sides),
           context_(context),
-          least_cosine_(std::cos(std::min(feature + kAngleSlack, std::numbers::pi))),
+          least_cosine_(std::cos(std::min(feature + kFileAccuracy, std::numbers::pi))),
           kind_(sides.segment_count(), -1),
           done_(sides.segment_count(), false)
     {

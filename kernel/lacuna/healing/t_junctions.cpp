@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/detail/t_junctions.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/healing/detail/facet_sides.h>
 #include <lacuna/topology/shared/side_points.h>
 
@@ -9,9 +10,6 @@
 namespace lacuna::healing {
 
 namespace {
-
-/// Facets between two cancellation checks. Rule of thumb.
-constexpr std::size_t kCutBetweenPolls = 4096;
 
 } // namespace
 
@@ -61,7 +59,7 @@ std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::sp
     if (sides.empty()) return {};
     std::vector<FacetPiece> pieces;
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        if (f % kCutBetweenPolls == 0) check_cancelled(context);
+        if (f % kBetweenPolls == 0) check_cancelled(context);
         for (const topology::ParamFacet& part : topology::cut_at_sides(points, {facets[f]}, sides))
             pieces.push_back({part.corner, static_cast<Index>(f)});
     }

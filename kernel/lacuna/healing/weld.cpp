@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/healing/shared/weld.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -78,8 +80,6 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
 /// Cell width in tolerances: most points then search no neighbour cell, and few share a cell. Rule of thumb;
 /// it changes run time only.
 constexpr double kCellWidth = 32;
-/// Points between two cancellation checks. Rule of thumb.
-constexpr std::size_t kPointsBetweenPolls = 4096;
 
 } // namespace
 
@@ -101,7 +101,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     for (std::size_t i = 0; i < points.size(); ++i) different += result[i] == static_cast<Index>(i) ? 1 : 0;
     CellTable table(points.size(), different);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i % kPointsBetweenPolls == 0) check_cancelled(context);
+        if (i % kBetweenPolls == 0) check_cancelled(context);
         if (result[i] != static_cast<Index>(i)) continue;
         const Cell least = cell_at(points[i].array() - tolerance);
         const Cell most = cell_at(points[i].array() + tolerance);

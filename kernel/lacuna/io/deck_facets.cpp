@@ -4,6 +4,7 @@
 #include <lacuna/io/detail/deck_facets.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/default_labels.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/healing/shared/weld.h>
@@ -220,8 +221,8 @@ private:
     {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : deck_.points) box.extend(p);
-        constexpr double kOfDiagonal = 1e-6; // as split_facets() welds
-        return healing::weld(deck_.points, tolerance_ > 0 ? tolerance_ : kOfDiagonal * box.diagonal().norm());
+        return healing::weld(deck_.points,
+                             tolerance_ > 0 ? tolerance_ : kFileAccuracy * box.diagonal().norm());
     }
 
     /// Process the sides and shells with the same corners, solids first.

@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
@@ -13,10 +14,6 @@
 
 namespace lacuna::io {
 namespace {
-
-/// Maximum distance of a mesh node from its deck node [-] × the diagonal: kept nodes are bit-identical to the
-/// deck's, apart from the scale.
-constexpr double kTogether = 1e-9;
 
 /// A face by its corners; a triangle of the mesh, which repeats its last corner, by three.
 Quad key_of(Quad face)
@@ -48,7 +45,7 @@ public:
         check_patches(gone);
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
-        join_middles(deck_, mesh_, matched_, kTogether * model_.diagonal, scale_, points);
+        join_middles(deck_, mesh_, matched_, kSamePlace * model_.diagonal, scale_, points);
         return points;
     }
 
@@ -77,7 +74,7 @@ private:
                 skin_.push_back(static_cast<Index>(n));
                 places.push_back(mesh_.nodes[n]);
             }
-        at_ = nodes_at(deck_, places, kTogether * model_.diagonal, scale_);
+        at_ = nodes_at(deck_, places, kSamePlace * model_.diagonal, scale_);
         node_of_.assign(deck_.points.size(), -1);
         candidates_.resize(mesh_.nodes.size());
         for (std::size_t i = 0; i < skin_.size(); ++i)
@@ -221,7 +218,7 @@ private:
         std::vector<Vec3> places;
         for (const Triangle& triangle : face.triangles)
             for (const Index point : triangle) places.push_back(model_.points[index(point)]);
-        const NodesAt at = nodes_at(deck_, places, kTogether * model_.diagonal, scale_);
+        const NodesAt at = nodes_at(deck_, places, kSamePlace * model_.diagonal, scale_);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (at.at(i).empty()) return false;
         return true;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/nastran.h>
 
+#include <lacuna/core/shared/criteria.h>
+
 #include <cmath>
-#include <numbers>
 
 namespace lacuna::io {
 namespace {
@@ -12,7 +13,6 @@ constexpr int kDeepest = 200; // nested frames; each level needs a recursive cal
 /// Components of a point along the axes of a frame of this kind.
 Vec3 along_axes(char kind, const Vec3& p)
 {
-    constexpr double kDegree = std::numbers::pi / 180;
     if (kind == 'C') return {p.x() * std::cos(p.y() * kDegree), p.x() * std::sin(p.y() * kDegree), p.z()};
     if (kind == 'S') {
         const double across = p.x() * std::sin(p.y() * kDegree);
@@ -57,8 +57,7 @@ void Frames::resolve(Index tag, Frame& frame)
     --depth_;
     const Vec3 z = (at[1] - at[0]).stableNormalized();
     const Vec3 y = z.cross((at[2] - at[0]).stableNormalized());
-    constexpr double kLeastSine = 1e-9; // between the z axis and the third point: less is rounding
-    if (!(y.norm() > kLeastSine))
+    if (!(y.norm() > kSamePlace))
         given.place.fail("the three points of {} are in line", numbered("coordinate system", tag));
     frame.axes.col(2) = z;
     frame.axes.col(1) = y.normalized();

@@ -4,10 +4,11 @@
 // pairs.
 #include <lacuna/matching/detail/arc_pairs.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -15,8 +16,6 @@ namespace lacuna::matching {
 
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Corners further apart than this share of the longer adjacent side are not paired: another corner is then
 /// closer.
 constexpr double kFarCorner = 0.5;
@@ -128,8 +127,8 @@ public:
           offset_(offset),
           backward_(backward),
           most_twist_(most_twist),
-          partner_(source.vertices.size(), kNone),
-          taken_(target.vertices.size(), kNone)
+          partner_(source.vertices.size(), kNoIndex),
+          taken_(target.vertices.size(), kNoIndex)
     {
         fit_shares();
     }
@@ -149,7 +148,7 @@ public:
     {
         std::vector<std::pair<double, double>> knots;
         for (std::size_t i = 0; i < partner_.size(); ++i) {
-            if (partner_[i] != kNone) knots.emplace_back(source_.at[i], target_.at[partner_[i]]);
+            if (partner_[i] != kNoIndex) knots.emplace_back(source_.at[i], target_.at[partner_[i]]);
         }
         shares_.emplace(offset_, backward_, knots);
         place_.clear();
@@ -160,7 +159,7 @@ public:
     {
         std::vector<std::size_t> knots;
         for (std::size_t i = 0; i < partner_.size(); ++i) {
-            if (partner_[i] != kNone) knots.push_back(i);
+            if (partner_[i] != kNoIndex) knots.push_back(i);
         }
         if (knots.empty()) pair_corners(0, 1, true);
         for (std::size_t k = 0; k < knots.size(); ++k) {
@@ -186,7 +185,7 @@ public:
         }
         std::sort(near.begin(), near.end());
         for (const auto& [distance, i, j] : near) {
-            if (partner_[i] == kNone && taken_[j] == kNone) pair(i, j);
+            if (partner_[i] == kNoIndex && taken_[j] == kNoIndex) pair(i, j);
         }
         fit_shares();
     }
@@ -195,7 +194,7 @@ public:
     {
         ArcPairs found;
         for (std::size_t i = 0; i < partner_.size(); ++i) {
-            if (partner_[i] != kNone)
+            if (partner_[i] != kNoIndex)
                 found.vertices.emplace_back(source_.vertices[i], target_.vertices[partner_[i]]);
             else if (source_.corner[i] && wants(source_, partner_, i))
                 found.split_target.emplace_back(source_.vertices[i], to_target(i));
@@ -220,7 +219,7 @@ private:
 
     static bool wants(const ArcLoop& loop, const std::vector<std::size_t>& partner, std::size_t i)
     {
-        return loop.open[i] && partner[i] == kNone;
+        return loop.open[i] && partner[i] == kNoIndex;
     }
 
     /// The shorter or the longer of the sides next to a vertex.
@@ -242,10 +241,10 @@ private:
             if (whole || (along > 0 && along < run)) list.emplace_back(along, i);
         };
         for (std::size_t i = 0; i < partner_.size(); ++i) {
-            if (source_.corner[i] && partner_[i] == kNone) add(low, source_.at[i], i);
+            if (source_.corner[i] && partner_[i] == kNoIndex) add(low, source_.at[i], i);
         }
         for (std::size_t j = 0; j < taken_.size(); ++j) {
-            if (target_.corner[j] && taken_[j] == kNone) add(high, place_[j], j);
+            if (target_.corner[j] && taken_[j] == kNoIndex) add(high, place_[j], j);
         }
         if (low.empty() || high.empty()) return;
         std::sort(low.begin(), low.end());
@@ -271,7 +270,7 @@ private:
     /// A loop needs at least one void edge.
     void add_one(ArcPairs& found) const
     {
-        std::size_t best = kNone;
+        std::size_t best = kNoIndex;
         double farthest = -1;
         for (std::size_t i = 0; i < partner_.size(); ++i) {
             if (!source_.open[i]) continue;
@@ -282,7 +281,7 @@ private:
             farthest = nearest;
             best = i;
         }
-        if (best != kNone) found.split_target.emplace_back(source_.vertices[best], to_target(best));
+        if (best != kNoIndex) found.split_target.emplace_back(source_.vertices[best], to_target(best));
     }
 
     const ArcLoop& source_;

@@ -2,6 +2,7 @@
 #include <lacuna/matching/shared/guides.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
@@ -30,8 +31,6 @@ namespace {
 /// points; more average out the facets and cost time.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
-/// Offset of the first and last level from the rims, so that no level passes through a facet corner there.
-constexpr double kRim = 1e-12;
 
 using FacetSide = std::pair<Index, Index>;
 
@@ -289,7 +288,7 @@ std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
         return Vec3((section[(i + k) % n] - to) - onward * (below[i] - from));
     };
     std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < n; ++k) {
         double sum = 0;
         for (std::size_t i = 0; i < n && sum < least; ++i) sum += off(i, k).squaredNorm();
@@ -329,7 +328,7 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
     const Vec3 open = section.back() - section.front();
     const Vec3 up = (line.rise - line.rise.dot(open) / open.squaredNorm() * open).stableNormalized();
     const Vec3 middle = geometry::mean_point(section);
-    const Vec3 off = up.cross(open) / (2 * std::numbers::pi);
+    const Vec3 off = up.cross(open) / kFullTurn;
     section.push_back(middle + off);
     section.push_back(middle - off);
     return (std::abs(area.dot(up)) + open.squaredNorm() / (4 * std::numbers::pi)) * up;
@@ -387,8 +386,9 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
                          const RunContext& context)
 {
     std::vector<double> levels;
+    // The outermost levels avoid the facet corners on the rims.
     for (int k = 0; k <= count; ++k)
-        levels.push_back(std::clamp(static_cast<double>(k) / count, kRim, 1 - kRim));
+        levels.push_back(std::clamp(static_cast<double>(k) / count, kRoundoff, 1 - kRoundoff));
     const auto facets = facets_at_levels(volume, part, heights, levels);
     if (!facets) return {};
     std::vector<LevelLine> lines;

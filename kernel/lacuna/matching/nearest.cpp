@@ -4,11 +4,11 @@
 #include <lacuna/matching/detail/nearest.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <tuple>
 
@@ -18,8 +18,6 @@ using namespace topology;
 
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Step 7: distances within this many standard deviations of the mean are no outliers, and at least this
 /// share must be none. Both are the paper's.
 constexpr double kDeviations = 2;
@@ -60,8 +58,8 @@ public:
           model_(problem.volume.model),
           source_(ends_of(model_, problem.source)),
           target_(ends_of(model_, problem.target)),
-          partner_(source_.vertex.size(), kNone),
-          fixed_(source_.vertex.size(), kNone),
+          partner_(source_.vertex.size(), kNoIndex),
+          fixed_(source_.vertex.size(), kNoIndex),
           result_(std::move(match))
     {
         for (std::size_t s = 0; s < fixed_.size(); ++s) {
@@ -106,7 +104,7 @@ private:
     /// Fixed pairs exclude other partners.
     [[nodiscard]] bool may(std::size_t s, std::size_t t) const
     {
-        if (fixed_[s] != kNone) return fixed_[s] == t;
+        if (fixed_[s] != kNoIndex) return fixed_[s] == t;
         const int loop = problem_.forced[source_.loop[s]];
         if (loop >= 0 && static_cast<std::size_t>(loop) != target_.loop[t]) return false;
         return std::ranges::find(fixed_, t) == fixed_.end();
@@ -115,7 +113,7 @@ private:
     template <class Allowed>
     static std::size_t nearest(const Vec3& from, const Ends& ends, const Allowed& allowed)
     {
-        std::size_t best = kNone;
+        std::size_t best = kNoIndex;
         double least = kInfinity;
         for (std::size_t i = 0; i < ends.at.size(); ++i) {
             const double d = (ends.at[i] - from).norm();
@@ -132,7 +130,7 @@ private:
     {
         std::vector<int> met(target_.vertex.size(), 0);
         for (const std::size_t t : nearest_to_source_) {
-            if (t != kNone) ++met[t];
+            if (t != kNoIndex) ++met[t];
         }
         if (std::ranges::all_of(met, [](int count) { return count == 1; })) {
             partner_ = nearest_to_source_;
@@ -141,17 +139,18 @@ private:
         std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
         for (std::size_t s = 0; s < partner_.size(); ++s) {
             const std::size_t t = nearest_to_source_[s];
-            if (t != kNone && met[t] == 1) pairs.emplace_back(fixed_[s] != kNone ? -1 : distance(s, t), s, t);
+            if (t != kNoIndex && met[t] == 1)
+                pairs.emplace_back(fixed_[s] != kNoIndex ? -1 : distance(s, t), s, t);
         }
         for (std::size_t t = 0; t < met.size(); ++t) {
             if (met[t] == 1) continue;
             const std::size_t s = nearest(target_.at[t], source_, [&](std::size_t i) { return may(i, t); });
-            if (s != kNone) pairs.emplace_back(distance(s, t), s, t);
+            if (s != kNoIndex) pairs.emplace_back(distance(s, t), s, t);
         }
         std::sort(pairs.begin(), pairs.end());
         std::vector<bool> taken(met.size(), false);
         for (const auto& [d, s, t] : pairs) {
-            if (partner_[s] != kNone || taken[t]) continue;
+            if (partner_[s] != kNoIndex || taken[t]) continue;
             partner_[s] = t;
             taken[t] = true;
         }
@@ -161,13 +160,13 @@ private:
     void match_loops()
     {
         const std::size_t n = problem_.source.size();
-        loop_.assign(n, kNone);
-        std::vector<std::size_t> claimed(n, kNone);
+        loop_.assign(n, kNoIndex);
+        std::vector<std::size_t> claimed(n, kNoIndex);
         for (std::size_t l = 0; l < n; ++l) {
             check_cancelled(problem_.context);
             std::vector<std::size_t> votes(n, 0);
             for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
-                if (partner_[s] != kNone) ++votes[target_.loop[partner_[s]]];
+                if (partner_[s] != kNoIndex) ++votes[target_.loop[partner_[s]]];
             }
             const auto most = std::ranges::max_element(votes);
             if (problem_.forced[l] >= 0) {
@@ -179,7 +178,7 @@ private:
                 loop_[l] = static_cast<std::size_t>(most - votes.begin());
             }
             const std::size_t other = std::exchange(claimed[loop_[l]], l);
-            if (other != kNone) {
+            if (other != kNoIndex) {
                 throw NotClosed("matching.nearest_failed",
                                 "method \"nearest\" cannot match {}: it and {} are both nearest to {}",
                                 source_loop(l), source_loop(other), target_loop(loop_[l]));
@@ -200,9 +199,9 @@ private:
             std::vector<std::size_t> matched;
             double sum = 0;
             for (std::size_t s = source_.first[l]; s < source_.first[l + 1]; ++s) {
-                if (partner_[s] == kNone) continue;
+                if (partner_[s] == kNoIndex) continue;
                 if (target_.loop[partner_[s]] != loop_[l]) {
-                    partner_[s] = kNone;
+                    partner_[s] = kNoIndex;
                     continue;
                 }
                 matched.push_back(s);
@@ -218,8 +217,8 @@ private:
             for (const std::size_t s : matched) {
                 if (std::abs(distance(s, partner_[s]) - mean) <= reach)
                     ++within;
-                else if (fixed_[s] == kNone)
-                    partner_[s] = kNone;
+                else if (fixed_[s] == kNoIndex)
+                    partner_[s] = kNoIndex;
             }
             if (static_cast<double>(within) < kShare * count)
                 refuse_loop(l, "the distances of its vertices vary too much");
@@ -238,7 +237,7 @@ private:
                 for (std::size_t i = 0; i < n; ++i) {
                     const std::size_t s = source_.first[l] + i;
                     const std::size_t t = target_.first[m] + partner_place(i, n, shift, backward);
-                    keeps = keeps && (fixed_[s] == kNone || fixed_[s] == t);
+                    keeps = keeps && (fixed_[s] == kNoIndex || fixed_[s] == t);
                     way.agree += partner_[s] == t ? 1 : 0;
                     way.distance += distance(s, t);
                 }
@@ -293,7 +292,7 @@ private:
         // A fixed pair leaves one alignment only.
         const auto first = fixed_.begin() + static_cast<std::ptrdiff_t>(source_.first[l]);
         const bool settled = std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
-                                         [](std::size_t t) { return t != kNone; });
+                                         [](std::size_t t) { return t != kNoIndex; });
         if (!settled && static_cast<double>(way.agree) < kShare * static_cast<double>(n)) {
             refuse_clash(l);
             refuse_loop(l, "the nearest vertices do not keep the order along the loop");
@@ -331,10 +330,10 @@ private:
     {
         double matched = 0, second = 0;
         for (std::size_t s = 0; s < partner_.size(); ++s) {
-            if (fixed_[s] != kNone) continue;
+            if (fixed_[s] != kNoIndex) continue;
             const std::size_t next = nearest(source_.at[s], target_,
                                              [&](std::size_t t) { return t != partner_[s]; });
-            if (next == kNone) continue;
+            if (next == kNoIndex) continue;
             matched += distance(s, partner_[s]);
             second += distance(s, next);
         }
@@ -346,7 +345,7 @@ private:
     {
         for (std::size_t a = source_.first[l]; a < source_.first[l + 1]; ++a) {
             for (std::size_t b = 0; b < partner_.size(); ++b) {
-                if (a == b || nearest_to_source_[a] == kNone ||
+                if (a == b || nearest_to_source_[a] == kNoIndex ||
                     nearest_to_source_[a] != nearest_to_source_[b])
                     continue;
                 throw NotClosed(

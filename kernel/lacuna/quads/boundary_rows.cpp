@@ -2,6 +2,7 @@
 #include <lacuna/quads/shared/boundary_rows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
 #include <algorithm>
@@ -15,8 +16,6 @@ namespace {
 
 using namespace paving;
 
-/// A row quad with a flatter corner (6°) counts as folded, as in the paver's own rows.
-constexpr double kLeastSine = 0.1;
 /// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves
 /// but heights are measured square to the side, so zero would reject valid input; a larger share accepts more
 /// uneven rows.
@@ -74,7 +73,7 @@ public:
     [[nodiscard]] RowsFinding least_room() const
     {
         const GapFinder gaps(partial_, given_);
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         RowsFinding finding;
         for (const Cycle& loop : given_) {
             for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
@@ -116,7 +115,8 @@ private:
     {
         const Index node = front.nodes[i];
         if (partial_.is_fixed(node) && !is_cut_[index(node)]) return turn_[index(node)];
-        return corner_angle(partial_.points, front.nodes, i) > kBentAbove ? RowTurn::outer : RowTurn::smooth;
+        return corner_angle(partial_.points, front.nodes, i) > kReversalAbove * kDegree ? RowTurn::outer
+                                                                                        : RowTurn::smooth;
     }
 
     /// Whether rows continue past a place of the front.
@@ -293,7 +293,7 @@ private:
             for (std::size_t k = 0; k < run.sides; ++k) {
                 const std::size_t next = (k + 1) % count;
                 const Quad quad{level[r][k], level[r][next], level[r + 1][next], level[r + 1][k]};
-                if (!(least_sine(partial_, quad) > kLeastSine))
+                if (!(least_sine(partial_, quad) > kFlatQuad))
                     return refuse(RowsFinding::Why::sharp_bend, base.nodes[k], table, heights[r],
                                   r > 0 ? heights[r - 1] : 0);
                 partial_.quads.push_back(quad);

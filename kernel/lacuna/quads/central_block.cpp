@@ -35,13 +35,13 @@ double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 /// The angle of one of four axes at 45°; empty if there are no such axes.
 std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
 {
-    constexpr double kSame = 1e-5; // far above what nodes are alike by, far below two axes
     for (const Symmetry& first : symmetries) {
         if (!first.map.mirrors) continue;
         const double angle = first.map.angle() / 2;
         int found = 0;
         for (const Symmetry& other : symmetries) {
-            if (other.map.mirrors && std::abs(std::remainder(other.map.angle() / 2 - angle, kPi / 4)) < kSame)
+            if (other.map.mirrors &&
+                std::abs(std::remainder(other.map.angle() / 2 - angle, kPi / 4)) < kSameAngle)
                 ++found;
         }
         if (found == 4) return angle;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/count_trial.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_size.h>
@@ -44,13 +45,13 @@ std::optional<double> score_of_counts(const PlanarRegion& region, std::span<cons
     // Penalty for the number of quads: kWorth for a quarter more or fewer than asked, growing with the square
     // of the deviation. That is more than mean scaled Jacobians usually differ by, so a larger kWorth lets
     // the number of quads decide alone.
-    constexpr double kQuarter = 0.25, kWorth = 0.2;
+    constexpr double kWorth = 0.2;
     PlanarRegion made = divided(region, segment, counts);
     const std::vector<PlanarQuads> meshes = fill_patterns(made);
     made.size = paving::sizes_with_boundary(made).ring;
     std::optional<double> best;
     for (const PlanarQuads& mesh : meshes) {
-        const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuarter;
+        const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuadsOff;
         best = std::max(best.value_or(-1), paving::score_of(measure_plane(mesh, made)) - kWorth * off * off);
     }
     return best;

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/face_pattern.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -107,7 +107,7 @@ private:
         // For large loops, only some sides are evaluated for a place of the inner loop; for a small loop, all
         // of them.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         std::size_t best = 0;
         for (std::size_t by = 0; by < n; ++by) {
             double sum = 0;
@@ -132,12 +132,9 @@ private:
     int shift_ = 0;
 };
 
-/// Far above interpolation errors and far below a grid edge [edges of the grid].
-constexpr double kRounding = 1e-6;
-
 /// The nearest integer. Half-way values are rounded down, even with rounding errors, so that holes that are
 /// images of each other all move in the same direction.
-int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kRounding)); }
+int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
 
 void move(GridLoop& loop, int along, int across, int period)
 {
@@ -285,7 +282,7 @@ private:
         if (by.allFinite() && trade_column_for_row(traded)) {
             GridLoop other = positions_of(traded);
             const Vec2 now = way_to(goal, other);
-            if (off(now) < off(by) - kRounding) {
+            if (off(now) < off(by) - kCountSlack) {
                 grid_[l] = std::move(other);
                 by = now;
             }
@@ -402,9 +399,9 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
 /// asked. Higher bounds continue the search more often, for a better mesh in more time.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
-    constexpr double kMean = 0.92, kSizes = 0.95;
+    constexpr double kMean = 0.92;
     return quality.min_scaled_jacobian > least && quality.mean_scaled_jacobian > kMean &&
-           quality.size_share() > kSizes && quality.row_share() >= rows;
+           quality.size_share() > kPromisedShare && quality.row_share() >= rows;
 }
 
 /// The corners of a region's only loop, if each of them suits one quad and no other node bends.
@@ -511,16 +508,15 @@ private:
     void keep(PlanarQuads mesh)
     {
         // Bounds at which the search ends: above kSquare no other ends of 135° or changing rows are tried;
-        // above kFine with the share kRows of good rows nothing else is. Discs get no better than kFine, and
-        // kRows is the promised share.
-        constexpr double kSquare = 0.75, kFine = 0.85, kRows = 0.95;
+        // above kFine with the promised share of good rows nothing else is. Discs get no better than kFine.
+        constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
         fits_.push_back(!decides || paving::has_quads_asked(made_.back(), sizes_.usual) ? 1 : 0);
         if (!fits_.back()) return;
         const PlaneQuality quality = measure_plane(made_.back(), region_);
         is_square_ = is_square_ || quads::is_fine(quality, kSquare, 0);
-        is_fine_ = is_fine_ || quads::is_fine(quality, kFine, kRows);
+        is_fine_ = is_fine_ || quads::is_fine(quality, kFine, kPromisedShare);
     }
 
     PatternFiller fill(const FacePattern& pattern)

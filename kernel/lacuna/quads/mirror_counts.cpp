@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/mirror_counts.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/ring_counts.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace lacuna::quads {
@@ -88,7 +88,6 @@ struct PartSegments {
 
 PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
 {
-    constexpr double kTiny = 1e-6; // far above rounding, far below a side
     PartSegments made;
     made.own.resize(part.region.points.size());
     for (const auto& loop : part.region.loops) {
@@ -120,7 +119,8 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
         BoundarySegment& own = made.all[t];
         const auto s = index(halved.segment_at(made.starts[t]));
         const BoundarySegment& whole = task.segments[s];
-        own.least = std::max(1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kTiny)));
+        own.least = std::max(
+            1, static_cast<int>(std::ceil(whole.least * own.wanted / whole.wanted - kCountSlack)));
     }
     return made;
 }
@@ -157,7 +157,7 @@ Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorP
             for (const Symmetry& image : part.images) sum[image_of(halved, part, image, p)] += sides[t];
         }
     }
-    return {std::move(sum), counts ? counts->cost : std::numeric_limits<double>::infinity()};
+    return {std::move(sum), counts ? counts->cost : kInfinity};
 }
 
 } // namespace
@@ -210,7 +210,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     // A mesh of quads only needs an even number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
-    return counts ? counts->cost : std::numeric_limits<double>::infinity();
+    return counts ? counts->cost : kInfinity;
 }
 
 } // namespace lacuna::quads

@@ -2,6 +2,7 @@
 #include <lacuna/quads/shared/odd_region.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/mesh/shared/incidence.h>
@@ -21,7 +22,6 @@ namespace {
 /// Limit of sides that are tried, and the quality of the worst cell that ends the search: the quality that
 /// the `ImproveOptions` of a sweep count as good enough.
 constexpr std::size_t kMostSides = 4;
-constexpr double kGoodEnough = 0.5;
 /// How many quads of a row are tried as the triangle. More of them find a better place, further inside, and
 /// take more time.
 constexpr std::size_t kMostSteps = 8;
@@ -53,8 +53,8 @@ struct Closed {
 
     [[nodiscard]] bool better_than(const Closed& other) const
     {
-        return std::pair(std::min(worst, kGoodEnough), mean) >
-               std::pair(std::min(other.worst, kGoodEnough), other.mean);
+        return std::pair(std::min(worst, kPoorQuad), mean) >
+               std::pair(std::min(other.worst, kPoorQuad), other.mean);
     }
 };
 
@@ -158,7 +158,7 @@ private:
         offer(mean);
         for (const double step : kSteps) {
             for (int d = 0; d < kDirections; ++d) {
-                const double angle = 2 * std::numbers::pi * d / kDirections;
+                const double angle = kFullTurn * d / kDirections;
                 offer(old + step * side * Vec2(std::cos(angle), std::sin(angle)));
             }
         }
@@ -433,7 +433,7 @@ PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& 
         const PlanarQuads filled = mesher(divided, context);
         if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))
             best = std::move(closed);
-        if (best && best->worst >= kGoodEnough) break;
+        if (best && best->worst >= kPoorQuad) break;
     }
     if (!best) refuse_rows(sides_of(region));
     tell_triangles(best->mesh, 1);

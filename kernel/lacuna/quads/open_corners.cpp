@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/open_corners.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/quad_net.h>
 #include <lacuna/quads/detail/region_loops.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -22,7 +22,7 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
 {
     // All corners are visible from the diagonal through the reflex corner.
     std::size_t inward = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2 out = outer[(k + 1) % 4] - outer[k], back = outer[(k + 3) % 4] - outer[k];
         const double sine = corner_sine(cross(out, back), out.norm() * back.norm());
@@ -32,7 +32,7 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         }
     }
     const Vec2 centre = (outer[inward] + outer[(inward + 2) % 4]) / 2;
-    double room = std::numeric_limits<double>::infinity();
+    double room = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2 side = outer[(k + 1) % 4] - outer[k];
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
@@ -54,8 +54,7 @@ std::array<Quad, 5> pillow(std::vector<Vec2>& points, const Quad& outer)
     const Vec2 centre = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
     std::array<Vec2, 4> place;
     for (std::size_t k = 0; k < 4; ++k) place[k] = (corner[k] + centre) / 2;
-    constexpr double kFlat = 0.1; // a flatter quad leaves no room half way to its middle
-    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFlat)
+    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFlatQuad)
         place = small_within(corner).value_or(place);
     const auto first = static_cast<Index>(points.size());
     points.insert(points.end(), place.begin(), place.end());
@@ -86,14 +85,12 @@ public:
     void run()
     {
         constexpr int kMostTries = 4; // each change adds a quad at the node, and no angle needs more
-        // Least sine after an optional swap; lower opens more corners but leaves worse quads.
-        constexpr double kGood = 0.5;
         for (Index p = 0; index(p) < fixed_; ++p) {
             if (!net_.is_used(p)) continue;
             for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries)
                 if (!swap_edge(p, 0)) pillow_widest(p);
             // A wide node gets another quad if the quads around stay good.
-            if (net_.valence(p) < better_[index(p)]) swap_edge(p, kGood);
+            if (net_.valence(p) < better_[index(p)]) swap_edge(p, kPoorQuad);
         }
         for (std::size_t q = 0; q < net_.quad_slots(); ++q) {
             if (q == mesh_.quads.size()) mesh_.quads.emplace_back();

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/outline_symmetry.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
 namespace lacuna::quads {
 namespace {
-
-/// Two nodes coincide if they are nearer than this share of the region's extent: the accuracy of nodes on CAD
-/// edges. A smaller value misses symmetries, a larger one accepts regions that are not symmetric.
-constexpr double kAlike = 1e-6;
 
 Vec2 middle_of(const PlanarRegion& region)
 {
@@ -34,7 +30,7 @@ double extent_of(const PlanarRegion& region, const Vec2& centre)
 class OutlineFinder {
 public:
     explicit OutlineFinder(const PlanarRegion& region)
-        : region_(region), centre_(middle_of(region)), alike_(kAlike * extent_of(region, centre_))
+        : region_(region), centre_(middle_of(region)), alike_(kFileAccuracy * extent_of(region, centre_))
     {
     }
 
@@ -55,7 +51,7 @@ public:
             found, [&](const Symmetry& s) { return s.map.mirrors && s.to[index(first)] == first; });
         const bool has_axis = through != found.end();
         const double axis = has_axis ? through->map.angle() : 0;
-        const double step = 2 * std::numbers::pi * static_cast<double>(every) / static_cast<double>(turns);
+        const double step = kFullTurn * static_cast<double>(every) / static_cast<double>(turns);
         std::erase_if(found, [&](const Symmetry& s) {
             if (s.map.mirrors && !has_axis) return true;
             const double off = std::remainder(s.map.angle() - (s.map.mirrors ? axis : 0), step);
@@ -172,7 +168,7 @@ public:
     PartCutter(const PlanarRegion& region, const Vec2& centre, double from, double to, bool has_centre)
         : region_(region),
           centre_(centre),
-          alike_(kAlike * extent_of(region, centre)),
+          alike_(kFileAccuracy * extent_of(region, centre)),
           ray_{Vec2(std::cos(from), std::sin(from)), Vec2(std::cos(to), std::sin(to))},
           is_half_(to - from > std::numbers::pi - 1e-9),
           has_centre_(has_centre)
@@ -292,7 +288,7 @@ private:
     [[nodiscard]] std::optional<Index> next_start(char ray, double beyond, Index start) const
     {
         std::optional<Index> best;
-        double nearest = std::numeric_limits<double>::infinity();
+        double nearest = kInfinity;
         const auto look = [&](Index p) {
             if (ray_of(arm(p)) != ray) return;
             const double at = ray == 1 ? arm(p).norm() : -arm(p).norm();
@@ -410,7 +406,7 @@ std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, 
     std::vector<Pair> pairs;
     for (const Axis& axis : axes) {
         for (const Axis& other : axes) {
-            if (std::abs(other.angle - axis.angle - kPi / 2) <= 1e-6)
+            if (std::abs(other.angle - axis.angle - kPi / 2) <= kFileAccuracy)
                 pairs.push_back({axis.worth + other.worth, axis.angle});
         }
     }
@@ -442,7 +438,7 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     if (!part) return std::nullopt;
     // The images: rotated by a multiple of twice the part's angle, or reflected and then rotated.
     const double angle = to - from;
-    const auto count = static_cast<int>(std::lround(2 * std::numbers::pi / angle));
+    const auto count = static_cast<int>(std::lround(kFullTurn / angle));
     part->images.push_back({{centre, 1, 0, false}, {}});
     part->images.back().to.resize(region.points.size());
     std::iota(part->images.back().to.begin(), part->images.back().to.end(), 0);
@@ -450,10 +446,8 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
         const bool mirrors = j % 2 != 0;
         const double turn = mirrors ? 2 * from + (j + 1) * angle : j * angle;
         const auto found = std::ranges::find_if(symmetries, [&](const Symmetry& s) {
-            // Far above the accuracy of nodes, far below the angle between two symmetries.
-            constexpr double kSame = 1e-5;
-            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSame &&
-                   std::abs(s.map.sine - std::sin(turn)) < kSame;
+            return s.map.mirrors == mirrors && std::abs(s.map.cosine - std::cos(turn)) < kSameAngle &&
+                   std::abs(s.map.sine - std::sin(turn)) < kSameAngle;
         });
         if (found == symmetries.end()) return std::nullopt;
         part->images.push_back({{centre, std::cos(turn), std::sin(turn), mirrors}, found->to});

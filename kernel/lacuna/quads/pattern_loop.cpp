@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pattern_loop.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -8,8 +9,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
 namespace lacuna::quads {
 namespace {
@@ -36,7 +35,7 @@ double frame_angle(const LoopFrame& frame, const Vec2& p)
 }
 
 /// An angle in right angles, from -2 to 2.
-double in_quarters(double angle) { return std::remainder(angle, 2 * std::numbers::pi) / kRightAngle; }
+double in_quarters(double angle) { return std::remainder(angle, kFullTurn) / kRightAngle; }
 
 LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame)
 {
@@ -133,7 +132,6 @@ public:
     static constexpr int kWidth = 3;
 
 private:
-    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     using Costs = std::array<double, kWidth>;
     static std::size_t index(int slot) { return static_cast<std::size_t>(slot); }
     [[nodiscard]] std::size_t slot(std::size_t i, int h) const { return index(h - heading(i, 0)); }
@@ -217,7 +215,7 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
     PatternLoop headed{loop, {}, angles.direction, {}, {}, angles.turns};
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int s = 0; s < HeadingSearch::kWidth; ++s) {
         std::vector<int> headings;
         const double cost = search.run(search.heading(0, s), headings);

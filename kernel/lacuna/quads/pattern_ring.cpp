@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pattern_ring.h>
 
 #include <lacuna/quads/detail/partial_mesh.h>
+#include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,10 +109,8 @@ private:
 
 int RingWidths::steps(double height) const
 {
-    // As in `measure_plane()`, rows of a constant number have the size asked if the ring's widths differ by a
-    // factor of up to 1.6 / 0.6.
-    constexpr double kMostRatio = 1.6 / 0.6;
-    if (!(least > 0) || most < kMostRatio * least) return 0;
+    // Rows of a constant number have the size asked if the ring's widths differ by less than the sizes may.
+    if (!(least > 0) || most < kLongestOfSize / kShortestOfSize * least) return 0;
     // Half the difference that would make all rows equal, so that rows beside the steps are neither too high
     // nor too low.
     return static_cast<int>(std::lround((most - least) / (2 * height)));

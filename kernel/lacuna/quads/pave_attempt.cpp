@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_attempt.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
@@ -19,10 +20,9 @@ namespace {
 /// Whether a single mapped patch fills the region well.
 bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
-    constexpr double kGood = 0.8; // quality above which rows gain nothing; lower uses one patch more often
     if (loops.size() > 1 || loops.front().size() < 8) return false;
     const PatchFit fit = fit_patch(partial, loops.front(), corner_angles(partial.points, loops.front()));
-    return fit.quality > kGood;
+    return fit.quality > kGoodQuad;
 }
 
 /// Number of rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end.

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pave_choice.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/marks.h>
 #include <lacuna/quads/detail/mirror_counts.h>
@@ -29,9 +30,6 @@ constexpr std::size_t kSmall = 4000;
 /// kSmall. If the worst quad stays poor, the outline is more likely the cause than the cuts, so the limit is
 /// lower. Higher limits take more time for a small gain.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
-/// A worst quad below this is poor: half the scaled Jacobian of a square. A higher value tries more ways of
-/// paving.
-constexpr double kPoor = 0.5;
 
 /// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
 /// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Further rows
@@ -67,12 +65,12 @@ constexpr double kGoodEnough = 3.3;
 /// A mesh is kept without further trials if its worst quad and its shares of right sizes and right rows reach
 /// these bounds, and its irregular nodes hardly exceed the topological minimum. Looser bounds save time and
 /// may miss a better mesh.
-constexpr double kFineWorst = 0.82, kFineSizes = 0.95, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
+constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
 {
     const auto irregular = static_cast<double>(quality.irregular + quality.boundary_irregular);
-    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kFineSizes &&
+    return irregular <= kNearLeast * least + kFewMore && quality.size_share() > kPromisedShare &&
            quality.row_share() > kFineRows;
 }
 
@@ -457,7 +455,7 @@ void AttemptChooser::try_default_weights()
     if (is_good_grid_ || try_coarse()) return;
     if (is_few_) {
         try_few_weights();
-        if (best_.worst > kPoor) return;
+        if (best_.worst > kPoorQuad) return;
     }
     pave_in(RowStyle::by_shape);
     if (best_.worst <= setting_.flat) pave_in(RowStyle::buffer);
@@ -476,9 +474,9 @@ double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) con
 void AttemptChooser::try_all_weights()
 {
     if (best_.worst <= setting_.flat || !is_small() || is_good_enough()) return;
-    if (is_few_ && best_.worst > kPoor) return;
+    if (is_few_ && best_.worst > kPoorQuad) return;
     for (const CutWeights& weights : cut_weight_rows()) {
-        const std::size_t most = best_.worst > kPoor ? kMostMade : kMostMadePoor;
+        const std::size_t most = best_.worst > kPoorQuad ? kMostMade : kMostMadePoor;
         if (made_ >= most || is_good_enough()) return;
         finish(begin(best_.style, weights));
     }
@@ -487,7 +485,7 @@ void AttemptChooser::try_all_weights()
 void AttemptChooser::try_triangles()
 {
     // The last resort; also tried if the worst quad is poor and the region small, where it takes little time.
-    if (best_.worst <= setting_.flat || (is_small() && best_.worst < kPoor)) pave_in(RowStyle::triangles);
+    if (best_.worst <= setting_.flat || (is_small() && best_.worst < kPoorQuad)) pave_in(RowStyle::triangles);
 }
 
 } // namespace lacuna::quads::paving

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/pave_coarse.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/coarse_region.h>
 #include <lacuna/quads/detail/pave_attempt.h>
@@ -21,8 +22,6 @@ constexpr double kManyStill = 8000;
 /// Limit of sides that may be divided for that. Each leaves a triangle, with a few irregular nodes, so a
 /// higher limit coarsens more regions at the cost of more of them.
 constexpr std::size_t kMostDivided = 8;
-/// A coarse mesh is kept if its worst quad exceeds this; a higher value tries all ways of paving more often.
-constexpr double kFair = 0.5;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
 /// number of sides: the longest side of each. Empty if there are too many.
@@ -55,7 +54,7 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
     const AttemptSetting setting{region, sizes_with_boundary(region).usual, flat_below(region)};
     Attempt attempt = begin_attempt(setting, RowStyle::by_shape, {}, context);
     finish_attempt(attempt, setting, true, context);
-    if (attempt.worst > kFair && find_fault(attempt.mesh, region).empty()) {
+    if (attempt.worst > kPoorQuad && find_fault(attempt.mesh, region).empty()) {
         report = std::move(attempt.report);
         return std::move(attempt.mesh);
     }
@@ -81,7 +80,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
         try {
             PlanarQuads mesh = fill_divided_region(region, some, mesher, context);
             const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last cell
-            if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kFair) return mesh;
+            if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kPoorQuad) return mesh;
         } catch (const NotSweepable&) {
             // filled in another way below
         }
@@ -133,10 +132,8 @@ std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& s
     if (!found) return std::nullopt;
     Paved& made = *found;
     made.report.used += ", each quad cut in four";
-    // A few poor quads among so many are cheap to improve. A higher value improves more of them.
-    constexpr double kFine = 0.8;
     smooth_plane(made.mesh.points, made.mesh.quads, region.points.size(),
-                 {.size = size, .good_enough = kFine}, context);
+                 {.size = size, .good_enough = kGoodQuad}, context);
     correct_row_heights(made.mesh, region, size);
     return found;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_cut.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
-
-#include <limits>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -81,7 +80,7 @@ public:
             arc_[i + 1] = arc_[i] + side.norm();
             heading_[i] = std::atan2(side.y(), side.x());
             pace_[i] = 1 / partial.size(at(i));
-            if (angles[i] < kCornerBelow) corners_.push_back(i);
+            if (angles[i] < kCornerBelow * kDegree) corners_.push_back(i);
         }
     }
 
@@ -93,7 +92,7 @@ public:
         // is no other. A lower bound saves time and may miss the best line.
         constexpr double kShort = 0.85;
         auto cut = find_among(kShort);
-        return cut ? cut : find_among(std::numeric_limits<double>::infinity());
+        return cut ? cut : find_among(kInfinity);
     }
 
 private:
@@ -114,7 +113,7 @@ private:
             const CutBound& next = *--end;
             if (best && next.cost >= best->cost) break;
             const std::size_t i = places_[next.from], j = places_[next.to];
-            const auto choice = judge(i, j, best ? best->cost : std::numeric_limits<double>::infinity());
+            const auto choice = judge(i, j, best ? best->cost : kInfinity);
             if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
             if (keeps_away(*choice, kAway))
                 best = choice;
@@ -150,7 +149,7 @@ private:
     /// Reduction of a line's cost if it ends at a node.
     [[nodiscard]] double gain(std::size_t i) const
     {
-        return angles_[i] > kBentAbove ? partial_.weights.bent : 0.0;
+        return angles_[i] > kReversalAbove * kDegree ? partial_.weights.bent : 0.0;
     }
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
@@ -175,7 +174,7 @@ private:
         constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward; more cost time
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
-            if (angles_[i] > kBentAbove) bent.push_back(i);
+            if (angles_[i] > kReversalAbove * kDegree) bent.push_back(i);
         }
         stride_ = n_ <= kSpread ? 1 : std::max<std::size_t>(2, n_ / kSpread);
         std::vector<std::size_t> places;
@@ -231,9 +230,8 @@ private:
     /// Map an angle from -2π…4π to 0…2π.
     static double whole_turn(double angle)
     {
-        constexpr double kTurn = 2 * std::numbers::pi;
-        if (angle < 0) return angle + kTurn;
-        return angle < kTurn ? angle : angle - kTurn;
+        if (angle < 0) return angle + kFullTurn;
+        return angle < kFullTurn ? angle : angle - kFullTurn;
     }
 
     /// Weight of the angles at an end: lower for an inner node, because it moves later.
@@ -258,7 +256,7 @@ private:
             if (count < corner.size()) corner[count] = place;
             ++count;
         };
-        if (angle_from < kCornerBelow) add(0);
+        if (angle_from < kCornerBelow * kDegree) add(0);
         auto next = std::upper_bound(corners_.begin(), corners_.end(), from);
         for (std::size_t k = 0; k < corners_.size() && count <= corner.size(); ++k, ++next) {
             if (next == corners_.end()) next = corners_.begin();
@@ -266,7 +264,7 @@ private:
             if (place == 0 || place >= span) break;
             add(place);
         }
-        if (angle_to < kCornerBelow) add(span);
+        if (angle_to < kCornerBelow * kDegree) add(span);
         if (count < 3 || count > 5) return 0.3;
         SideCounts sides{{}, count};
         for (std::size_t k = 0; k < count; ++k)
@@ -387,7 +385,7 @@ std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vec
 LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops)
 {
     LoopBridge best;
-    best.cost = std::numeric_limits<double>::infinity();
+    best.cost = kInfinity;
     for (std::size_t b = 1; b < loops.size(); ++b) {
         for (const std::size_t i : spread(loops[0].size())) {
             for (const std::size_t j : spread(loops[b].size())) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_fit.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/quads/detail/patch_template.h>
 
@@ -86,7 +87,7 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
                                       reversed(sample(partial, cycle, corners[3], edges[3], m))};
     std::array<bool, 4> is_virtual{};
     for (std::size_t k = 0; k < 4; ++k)
-        is_virtual[k] = angles[corners[k]] > kCornerBelow && !partial.is_fixed(cycle[corners[k]]);
+        is_virtual[k] = angles[corners[k]] > kCornerBelow * kDegree && !partial.is_fixed(cycle[corners[k]]);
     const double quality = judge_block(partial, side, is_virtual);
     // Columns that turn off to a neighbouring side bend the grid, and lower the quality more the more of them
     // there are.
@@ -167,8 +168,8 @@ PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::ve
 {
     PatchFit fit;
     for (std::size_t i = 0; i < cycle.size(); ++i) {
-        if (angles[i] > kBentAbove) return {};
-        if (angles[i] < kCornerBelow) fit.corners.push_back(i);
+        if (angles[i] > kReversalAbove * kDegree) return {};
+        if (angles[i] < kCornerBelow * kDegree) fit.corners.push_back(i);
     }
     if (fit.corners.empty()) return fit_round(partial, cycle, angles);
     if (fit.corners.size() == 3) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_rows.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/pave_gaps.h>
 
@@ -10,8 +11,6 @@ namespace lacuna::quads::paving {
 namespace {
 
 constexpr int kMostQuads = 4; ///< at a node: a reversal, because no angle exceeds four right angles
-/// A row quad with a flatter corner (6°) counts as folded. A higher value drops more rows.
-constexpr double kLeastSine = 0.1;
 
 Vec2 rotated(const Vec2& v, double angle)
 {
@@ -69,7 +68,7 @@ public:
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
             for (std::size_t q = quads; q < partial_.quads.size() && good; ++q)
-                good = least_sine(partial_, partial_.quads[q]) > (least_quads_ > 1 ? 0 : kLeastSine);
+                good = least_sine(partial_, partial_.quads[q]) > (least_quads_ > 1 ? 0 : kFlatQuad);
             if (good) return inner;
         }
         partial_.points.resize(points);

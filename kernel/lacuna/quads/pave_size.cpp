@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_size.h>
 
+#include <lacuna/core/shared/criteria.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,7 +48,7 @@ public:
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);
-        most_.assign(static_cast<std::size_t>(nx_ * ny_), std::numeric_limits<double>::infinity());
+        most_.assign(static_cast<std::size_t>(nx_ * ny_), kInfinity);
         least_.assign(most_.size(), 0);
         for (const BoundarySide& side : sides) {
             const std::size_t cell = cell_of(side.middle);
@@ -54,7 +56,6 @@ public:
             least_[cell] = std::max(least_[cell], side.length);
         }
         // Two rounds of two sweeps propagate the bounds everywhere except around sharp bends.
-        constexpr double kGrading = 0.3; // change of size over distance
         const double rise = kGrading * cell_;
         for (int round = 0; round < 2; ++round) {
             for (int y = 1; y + 1 < ny_; ++y) relax(y, -1, rise);
@@ -149,14 +150,13 @@ double quads_within(const PlanarRegion& region)
 
 bool has_quads_asked(const PlanarQuads& mesh, const SizeField& size)
 {
-    constexpr double kOff = 0.25;
     double asked = 0;
     for (const Quad& quad : mesh.quads) {
         const auto at = [&](std::size_t k) -> const Vec2& { return mesh.points[index(quad[k])]; };
         const double length = size((at(0) + at(1) + at(2) + at(3)) / 4);
         asked += cross(at(2) - at(0), at(3) - at(1)) / 2 / (length * length);
     }
-    return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kOff * asked;
+    return std::abs(static_cast<double>(mesh.quads.size()) - asked) <= kQuadsOff * asked;
 }
 
 } // namespace lacuna::quads::paving

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/raise_flat_quads.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -50,9 +51,8 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
 
 void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr double kFlat = 0.15; // better quads are left to the smoother; higher moves more points here
-    constexpr int kSweeps = 12;    // limit; most meshes need fewer
-    const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlat; };
+    constexpr int kSweeps = 12; // limit; most meshes need fewer
+    const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlatQuad; };
     if (std::ranges::none_of(mesh.quads, is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);
     const std::vector<double> least_side = sides_to_keep(mesh.points, stars, fixed);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/ring_counts.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_ring.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -42,7 +42,6 @@ double out_of_size(const CountedLoop& loop)
 /// How often a loop repeats the same sequence of segments.
 int repeats(const CountTask& task, std::size_t l)
 {
-    constexpr double kAlike = 0.01; // relative tolerance; larger treats less similar segments as equal
     std::vector<double> wanted;
     const std::vector<Index>& loop = task.region.loops[l];
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -54,7 +53,7 @@ int repeats(const CountTask& task, std::size_t l)
         if (n % period != 0) continue;
         bool same = true;
         for (std::size_t i = 0; i < n && same; ++i)
-            same = std::abs(wanted[i] - wanted[i % period]) <= kAlike * wanted[i];
+            same = std::abs(wanted[i] - wanted[i % period]) <= kAlikeSizes * wanted[i];
         if (same) return static_cast<int>(n / period);
     }
     return 1;
@@ -64,17 +63,16 @@ int repeats(const CountTask& task, std::size_t l)
 /// follows; otherwise 1. A multiple of it keeps the holes alike.
 int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::size_t about)
 {
-    constexpr double kAlike = 0.01; // relative tolerance; larger treats less similar holes as equal
     const Vec2 centre = centre_of(task.region.points, task.region.loops[about]);
     double first = 0;
     for (std::size_t l = 1; l < task.region.loops.size(); ++l) {
         if (l == about) continue;
         const double distance = (centre_of(task.region.points, task.region.loops[l]) - centre).norm();
         if (first == 0) first = distance;
-        if (std::abs(distance - first) > kAlike * first) return 1;
+        if (std::abs(distance - first) > kAlikeSizes * first) return 1;
     }
     const bool same = std::ranges::all_of(others, [&](const CountedLoop& loop) {
-        return std::abs(loop.wanted - others.front().wanted) <= kAlike * others.front().wanted;
+        return std::abs(loop.wanted - others.front().wanted) <= kAlikeSizes * others.front().wanted;
     });
     return same && !others.empty() ? static_cast<int>(others.size()) : 1;
 }
@@ -97,7 +95,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
                                                   std::span<const int> more, const CountRange& range)
 {
     std::optional<std::vector<CountedLoop>> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
     // Weight of the number of quads for rows that do not change; rows that change make up for it. Chosen on
     // gears of 400 and 3,000 quads.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/row_heights.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -60,8 +61,7 @@ private:
 
     void raise(const Post& post)
     {
-        // Larger tolerances move fewer nodes; a lower kGood favours row heights over the neighbouring quads.
-        constexpr double kGood = 0.8;                ///< least sine to which a row may lower its neighbours
+        // Larger tolerances move fewer nodes.
         constexpr double kHeight = 0.2, kLean = 0.2; ///< deviations within this share of the height stay
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
@@ -71,7 +71,7 @@ private:
                                      (1 + kHeight) * post.height);
         const double side = std::clamp(arm.dot(along), -kLean * post.height, kLean * post.height);
         const Vec2 goal = at(post.foot) + up * post.inward + side * along;
-        const double before = worst_at(post.top), least = is_good ? before : std::min(before, kGood);
+        const double before = worst_at(post.top), least = is_good ? before : std::min(before, kGoodQuad);
         for (const double part : {1.0, 0.5, 0.25}) {
             mesh_.points[index(post.top)] = start + part * (goal - start);
             if (worst_at(post.top) >= least) return;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/segment_symmetry.h>
 
+#include <lacuna/core/shared/constants.h>
+
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
 namespace lacuna::quads {
 namespace {
-
-constexpr auto kNone = std::numeric_limits<std::size_t>::max();
 
 /// The image of each segment; a segment without sides is its own image. Empty if a segment has several
 /// images.
@@ -17,20 +16,21 @@ std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, st
                                                   std::size_t count, const Symmetry& symmetry)
 {
     const auto of = [&](Index p) { return index(segment[index(p)]); };
-    std::vector<std::size_t> onto(count, kNone), from(count, kNone);
+    std::vector<std::size_t> onto(count, kNoIndex), from(count, kNoIndex);
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
             // A reflection maps the side's end to the start of the image.
             const Index start = symmetry.map.mirrors ? loop[(i + 1) % n] : loop[i];
             const std::size_t own = of(loop[i]), image = of(symmetry.to[index(start)]);
-            if ((onto[own] != kNone && onto[own] != image) || (from[image] != kNone && from[image] != own))
+            if ((onto[own] != kNoIndex && onto[own] != image) ||
+                (from[image] != kNoIndex && from[image] != own))
                 return std::nullopt;
             onto[own] = image;
             from[image] = own;
         }
     }
     for (std::size_t s = 0; s < count; ++s) {
-        if (onto[s] == kNone) onto[s] = s;
+        if (onto[s] == kNoIndex) onto[s] = s;
     }
     return onto;
 }

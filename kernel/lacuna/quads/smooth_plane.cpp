@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/shared/smooth_plane.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -8,14 +9,12 @@
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace lacuna::quads {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A move shorter than this share of the surrounding sides does not wake the neighbours. A higher value ends
 /// earlier, with less smooth meshes.
 constexpr double kStill = 0.02;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/square_rows.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -286,8 +286,7 @@ private:
             return cost < -least && least_sine(mesh_.points, star, at(p)) >= floor ? -cost : least;
         };
         Vec2 x = start;
-        geometry::pattern_search(x, -cost_above(p, std::numeric_limits<double>::infinity()),
-                                 {side, kFirst, kLast, 0}, value, ways_);
+        geometry::pattern_search(x, -cost_above(p, kInfinity), {side, kFirst, kLast, 0}, value, ways_);
         place(p, x);
         if (x == start) {
             for (std::size_t i = 0; i < near_.size(); ++i)
@@ -317,16 +316,13 @@ private:
     double floor_ = kGood;
 };
 
-/// The promised share of good rows and of good sizes.
-constexpr double kPromised = 0.95;
-
 /// Value of a mesh: shares above the promised one count a quarter, so that they are not bought with poor
 /// quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;
     const auto share = [](double x) {
-        return std::min(x, kPromised) + kBeyond * std::max(0.0, x - kPromised);
+        return std::min(x, kPromisedShare) + kBeyond * std::max(0.0, x - kPromisedShare);
     };
     return quality.mean_scaled_jacobian + share(quality.row_share()) / 2 + share(quality.size_share()) / 2;
 }
@@ -341,10 +337,9 @@ void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symm
     constexpr double kLess = 0.01;
     constexpr int kRounds = 12, kIdle = 3; // idle rounds: without gain
     constexpr double kStill = 0.03;        // of a side: smaller moves gain nothing more
-    constexpr double kAlike = 1e-6;        // difference between images of one quad
     const PlaneQuality before = quality;
-    const double rounding = symmetries.empty() ? 0 : kAlike;
-    const auto keeps = [](double was, double is) { return is >= kPromised || was < kPromised; };
+    const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
+    const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };
     PlanarQuads made = mesh;
     RowSquarer squarer(made, region, symmetries, sizes);
     for (int round = 0, idle = 0; round < kRounds && idle < kIdle; ++round, ++idle) {
@@ -368,7 +363,7 @@ void square_rows(PlanarQuads& mesh, const PlanarRegion& region, std::span<const 
 {
     PlaneQuality quality = measure_plane(mesh, region);
     if (quality.good_rows < quality.possible_rows) improve(mesh, region, symmetries, false, quality);
-    if (quality.size_share() < kPromised) improve(mesh, region, symmetries, true, quality);
+    if (quality.size_share() < kPromisedShare) improve(mesh, region, symmetries, true, quality);
 }
 
 } // namespace lacuna::quads::paving

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/straight_counts.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/count_trial.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_ring.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -201,8 +201,8 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     // held family (benchmarks/pave/).
     constexpr double kQuads = 0.25, kRows = 1;
     constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
-    // As many quads as asked, a quarter more or less, is what is promised. Choices.
-    constexpr double kMostOff = 0.25, kOff = 2, kNearAsked = 0.1, kMany = 2000;
+    // kOff is the cost of a number of quads that breaks the promise. Choices.
+    constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
     constexpr std::size_t kNear = 4; // of those, for the range that is promised
     const double asked = quads_asked(task);
@@ -210,7 +210,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
-    double least = std::numeric_limits<double>::infinity(); // cost of those
+    double least = kInfinity; // cost of those
     // What is no part has no axes that take up the difference of more rows, and without turns these change
     // nothing.
     const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
@@ -239,7 +239,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             const double quads = has_grids ? closed->quads : asked; // not known
             counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
-            if (std::abs(quads - asked) > kMostOff * asked) counts.cost += kOff;
+            if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
             // Few lines leave holes no place, and for many looking takes long.
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
@@ -274,7 +274,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
     all.erase(std::unique(all.begin(), all.end(), alike), all.end());
     if (all.size() < 2) return std::nullopt;
     std::optional<Counts> best;
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
         const auto score = score_of_counts(task.region, task.segment, all[i].sides, quads_asked(task));
         if (!score || *score <= most) continue;

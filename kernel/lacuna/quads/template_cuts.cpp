@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/patch_template.h>
 
+#include <lacuna/quads/shared/measure_plane.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +14,6 @@ namespace {
 /// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it. A higher limit gives
 /// more candidates with worse angles.
 constexpr double kMostSlant = 0.7;
-/// So are those with fewer or more edges than these shares of what their length has room for, so that no quad
-/// along a cut is stretched by much more than 1.6. A choice, not a measurement.
-constexpr double kFewestEdges = 0.6, kMostEdges = 1.6;
 
 /// Twice what `spoke_feet()` finds for side i: every second side's length, added and subtracted in turn.
 int twice_foot(const SideCounts& counts, std::size_t i)
@@ -137,8 +136,8 @@ public:
     {
         const Vec2 across = loop_[to] - loop_[from];
         const double length = across.norm(), fitting = length / spacing_;
-        edges.low = std::max(edges.low, static_cast<int>(fitting * kFewestEdges));
-        edges.high = std::min(edges.high, static_cast<int>(fitting * kMostEdges) + 1);
+        edges.low = std::max(edges.low, static_cast<int>(fitting * kShortestOfSize));
+        edges.high = std::min(edges.high, static_cast<int>(fitting * kLongestOfSize) + 1);
         if ((to + loop_.size() - from + index(edges.low)) % 2 != 0) ++edges.low; // parts have even outlines
         if (edges.low > edges.high || !(length > 0)) return;
         // How far from square the cut meets the sides, 0 to 1.

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/triangle_quads.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/region_loops.h>
@@ -47,7 +48,7 @@ public:
                 const Index other = opposite_[4 * c + k];
                 if (other < 0) continue;
                 const double quality = scaled_jacobian(mesh.points, merged(static_cast<Index>(c), other / 4));
-                if (quality > kLeast) neighbours_[c].emplace_back(quality, other / 4);
+                if (quality > kFlatQuad) neighbours_[c].emplace_back(quality, other / 4);
             }
             std::ranges::sort(neighbours_[c], std::greater<>());
         }
@@ -92,9 +93,6 @@ public:
     }
 
 private:
-    /// A flatter quad is no pair, because smoothing cannot improve it at a boundary. A higher value leaves
-    /// more triangles.
-    static constexpr double kLeast = 0.15;
     /// Sides of a triangle as a quad with its last corner twice.
     static constexpr std::array<std::size_t, 3> kTriangleSides{0, 1, 3};
 

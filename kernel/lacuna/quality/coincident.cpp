@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/coincident.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -218,7 +218,7 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
     std::vector<std::array<double, 2>> range(levels);
     parallel_for(context, levels, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = begin; l < end; ++l) {
-            double low = std::numeric_limits<double>::infinity(), high = -low;
+            double low = kInfinity, high = -low;
             for (const Vec3& point : points.subspan(l * level, level)) {
                 const double at = way.dot(point);
                 low = std::min(low, at);
@@ -257,11 +257,10 @@ std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t leve
 /// @return  whether all are finite.
 bool extend(Eigen::AlignedBox3d& box, std::span<const Vec3> points)
 {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     constexpr std::size_t kNumbers = 12;
     alignas(64) double low[kNumbers], high[kNumbers], zero[kNumbers] = {};
-    std::fill_n(low, kNumbers, kNone);
-    std::fill_n(high, kNumbers, -kNone);
+    std::fill_n(low, kNumbers, kInfinity);
+    std::fill_n(high, kNumbers, -kInfinity);
     const double* number = points.empty() ? nullptr : points.front().data();
     const std::size_t fours = points.size() / 4;
     for (std::size_t f = 0; f < fours; ++f, number += kNumbers) {

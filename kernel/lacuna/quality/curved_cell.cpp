@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/shared/second_order.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/lanes.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quality {
 namespace {
@@ -16,9 +16,6 @@ constexpr std::size_t kSide = 6;                    ///< coefficients in each di
 constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Coefficients below this part of the largest count as zero: the conversion from values amplifies rounding
-/// by less than 1e4.
-constexpr double kRounding = 1e-12;
 /// Distance below which a middle node counts as straight, relative to the size of
 /// the cell: rounding with a margin.
 constexpr double kStraight = 1e-13;
@@ -190,7 +187,7 @@ bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_
     }
     if (*std::min_element(bezier.begin(), bezier.end()) > floor) return true;
     std::array<double, 3> inner;
-    inner.fill(std::numeric_limits<double>::infinity());
+    inner.fill(kInfinity);
     for (std::size_t at = 0; at < kAll; ++at)
         for (std::size_t d = 0; d < 3; ++d) {
             const std::size_t i = at / kStrides[d] % kSide;
@@ -269,7 +266,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     Bezier bezier;
     const double scaled = coefficients(nodes, bezier);
     CurvedCell cell;
-    double sum = 0, largest = 0, least = std::numeric_limits<double>::infinity();
+    double sum = 0, largest = 0, least = kInfinity;
     for (const double value : bezier) {
         sum += value;
         largest = std::max(largest, std::abs(value));
@@ -279,7 +276,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     cell.volume = sum / static_cast<double>(kAll);
     cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
     cell.scaled_jacobian = scaled;
-    const double floor = kRounding * largest;
+    const double floor = kRoundoff * largest;
     cell.positive = cell.scaled_jacobian > 0 &&
                     (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
     return cell;
@@ -305,10 +302,9 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell)
 
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    constexpr std::size_t kGrain = 256; // a curved cell takes a few microseconds
     const std::size_t count = mesh.hex_count();
     std::vector<std::uint8_t> invalid(count, 0);
-    parallel_for(context, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(context, count, kCurvedGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
             const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())

@@ -2,6 +2,7 @@
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/detail/cell_columns.h>
 #include <lacuna/quality/detail/cell_metrics.h>
@@ -13,11 +14,10 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr Range kAny{};
 constexpr Range kUnit{0, 1};
-constexpr Range kFromZero{0, kEndless};
-constexpr Range kFromOne{1, kEndless};
+constexpr Range kFromZero{0, kInfinity};
+constexpr Range kFromOne{1, kInfinity};
 constexpr std::optional<Range> kNone{};
 
 constexpr std::array<MetricInfo, kMetricCount> kInfos{{
@@ -48,9 +48,9 @@ constexpr std::array<MetricInfo, kMetricCount> kInfos{{
 /// Statistics of some cells; those of several parts are merged in order.
 struct Tally {
     std::size_t count = 0, outside = 0, worst = 0;
-    double min = kEndless, max = -kEndless, mean = 0;
+    double min = kInfinity, max = -kInfinity, mean = 0;
     double squares = 0; ///< sum of squared distances from the mean
-    double badness = -kEndless;
+    double badness = -kInfinity;
 
     void add(double value, std::size_t cell, const MetricInfo& info)
     {
@@ -62,9 +62,8 @@ struct Tally {
         min = std::min(min, value);
         max = std::max(max, value);
         // Rounding may put a cube's metrics slightly outside their range.
-        constexpr double kRounding = 1e-12;
         if (info.acceptable &&
-            !(value >= info.acceptable->low - kRounding && value <= info.acceptable->high + kRounding))
+            !(value >= info.acceptable->low - kRoundoff && value <= info.acceptable->high + kRoundoff))
             ++outside;
         const double bad = info.larger_is_better ? -value : value;
         if (bad > badness || (bad == badness && cell < worst)) {
@@ -313,8 +312,7 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 {
     std::vector<double> values = values_of(SweptCells{mesh}, metric, average_volume, context);
     if (mesh.order() == 1 || metric != Metric::scaled_jacobian) return values;
-    constexpr std::size_t kGrain = 256; // a curved cell takes one or two microseconds
-    parallel_for(context, values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(context, values.size(), kCurvedGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
             if (!is_straight(nodes)) values[c] = in_single_precision(judge(nodes, 0).scaled_jacobian);

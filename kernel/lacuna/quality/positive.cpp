@@ -3,11 +3,11 @@
 // positive_everywhere(): bisect a cell's coefficients until all coefficients of each part are positive, three
 // coefficients at a time. Everything is inlined into its callers, to be compiled for their instruction set.
 // Vectors are never passed by value, as the calling convention depends on the instruction set.
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quality/detail/cell_batch.h>
 #include <lacuna/quality/detail/lanes.h>
 
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quality {
 namespace {
@@ -57,12 +57,11 @@ LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
     for (const int r : {4, 5}) lower(along_w, row[r]);
     Row all = along_v;
     for (const int r : {0, 2, 3, 5, 6, 8}) lower(all, row[r]);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    const auto middle = [&](std::size_t d, double least) { return cuts_left[d] > 0 ? least : kNone; };
+    const auto middle = [&](std::size_t d, double least) { return cuts_left[d] > 0 ? least : kInfinity; };
     const double u = middle(0, all[1]), v = middle(1, least_of(along_v)), w = middle(2, least_of(along_w));
     const double uv = v < u ? v : u;
     const int best = w < uv ? 2 : v < u ? 1 : 0;
-    return (w < uv ? w : uv) < kNone ? best : -1;
+    return (w < uv ? w : uv) < kInfinity ? best : -1;
 }
 
 /// Bisect across rows (de Casteljau). @param kStep  distance in rows between coefficients along the direction
@@ -180,7 +179,7 @@ template <int kAlong, int kRow, int kNextRow>
 LACUNA_INLINE void cut_four(const Values& values, int first, FourCut& cut)
 {
     cut.least = four_of(values.bezier[0], first);
-    cut.middle = Row{} + std::numeric_limits<double>::infinity();
+    cut.middle = Row{} + kInfinity;
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
             const int at = i * kRow + j * kNextRow;

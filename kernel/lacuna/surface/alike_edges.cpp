@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/alike_edges.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/quads/shared/symmetry.h>
 #include <lacuna/surface/detail/plane_loops.h>
@@ -63,7 +64,6 @@ namespace {
 
 void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
 {
-    constexpr double kSame = 0.01; // relative tolerance of the number of sides; heuristic
     for (std::vector<EdgeId>& set : alike_edges(model, face)) {
         double sum = 0;
         bool same = true;
@@ -77,7 +77,7 @@ void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
         }
         const double mean = sum / static_cast<double>(set.size());
         for (const EdgeId edge : set)
-            same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kSame * mean;
+            same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kAlikeSizes * mean;
         if (!same) continue;
         // Counts that differ by rounding alone must round to the same integer.
         for (const EdgeId edge : set) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/alike_ends.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/surface/detail/linking_map.h>
@@ -81,7 +82,7 @@ private:
     static std::ptrdiff_t lines_before(const LinkingSurface& link, double at)
     {
         return std::ranges::count_if(link.lines, [&](const LinkingLine& line) {
-            return line.source_at <= (at + 1e-9) * link.source.length();
+            return line.source_at <= (at + kSamePlace) * link.source.length();
         });
     }
 
@@ -97,7 +98,7 @@ private:
             const VertexId vertex = use_from(model_, link.target.uses()[i]);
             if (!ends_.contains(vertex)) continue;
             double at = target_coordinate(link, link.target.start(i));
-            if (at > 1 - 1e-9) at -= 1;
+            if (at > 1 - kSamePlace) at -= 1;
             high.push_back({vertex, at});
         }
         std::ranges::stable_sort(high, {}, &End::at);

@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/boundary_layers.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -76,7 +77,7 @@ private:
             for (std::size_t i = 0; i < n && n > 1; ++i) {
                 const EdgeUse before = loop.uses[(i + n - 1) % n], after = loop.uses[i];
                 const double angle = inner_angle(model_, face, loop, i);
-                if (angle >= kRowsEnd) continue;
+                if (angle >= kCornerBelow) continue;
                 add_end(face, before, after, true);
                 add_end(face, after, before, false);
             }

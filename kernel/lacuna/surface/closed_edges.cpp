@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/closed_edges.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/flat_ends.h>
@@ -41,10 +42,9 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
     for (const EdgeId id : edges) {
         const Edge& edge = model[id];
         if (edge.from != edge.to || ends[edge.from] != 2) continue;
-        constexpr double kSmooth = 0.7; ///< cosine of 45°; heuristic
         const Vec3 out = model.at(edge.points[1]) - model.at(edge.points[0]);
         const Vec3 in = model.at(edge.points.back()) - model.at(edge.points[edge.points.size() - 2]);
-        if (out.dot(in) < kSmooth * out.norm() * in.norm()) continue;
+        if (out.dot(in) < kContinues * out.norm() * in.norm()) continue;
         const FlatEdge flat = flat_edge(model, map, id, target);
         Circle circle{id, Vec2::Zero(), 0, flat.line, flat.at};
         for (std::size_t i = 0; i + 1 < flat.line.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/edge_nodes.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
@@ -10,10 +11,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A position within this share of a side from a polyline point returns that point bit for bit, so that given
-/// nodes stay. Rounding is a million times smaller.
-constexpr double kOnPoint = 1e-9;
 
 } // namespace
 
@@ -41,7 +38,8 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
             result[i] = line.back();
         } else {
             const geometry::PolylinePlace at = geometry::place_at(arc, fractions[i] * arc.back());
-            if (edge.curve == nullptr && std::min(at.fraction, 1 - at.fraction) < kOnPoint) {
+            // Points of the polyline are returned bit for bit, so that given nodes stay.
+            if (edge.curve == nullptr && std::min(at.fraction, 1 - at.fraction) < kSamePlace) {
                 result[i] = line[at.segment + (at.fraction < 0.5 ? 0 : 1)];
             } else if (edge.curve == nullptr) {
                 result[i] = (1 - at.fraction) * line[at.segment] + at.fraction * line[at.segment + 1];

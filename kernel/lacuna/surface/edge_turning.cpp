@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/edge_turning.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <numbers>
 
 namespace lacuna::surface {
 
@@ -15,9 +15,6 @@ using namespace topology;
 
 namespace {
 
-/// A sharper bend inside an edge is a corner: a hexagon still approximates a circle, a square does not.
-/// Heuristic.
-constexpr double kCorner = 75 * std::numbers::pi / 180;
 /// Samples of an exact curve, enough to locate its bends. Heuristic.
 constexpr std::size_t kCurveSides = 64;
 
@@ -33,7 +30,7 @@ double bend(const Vec3& before, const Vec3& at, const Vec3& after)
 {
     const Vec3 in = at - before, out = after - at;
     const double angle = geometry::angle_between(in, out);
-    return angle < kCorner ? angle : 0;
+    return angle < kBendBelow * kDegree ? angle : 0;
 }
 
 } // namespace

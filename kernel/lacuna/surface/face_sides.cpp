@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/face_sides.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/shared/submap.h>
 #include <lacuna/topology/shared/facet_area.h>
 
@@ -15,10 +16,6 @@ using namespace topology;
 
 namespace {
 
-/// A vertex with a smaller inner angle is a corner of a mapped face; above 360° minus this it is a reversal
-/// [degrees]. The bound lies halfway between a right angle and a straight one.
-constexpr double kCorner = 135;
-constexpr double kReversal = 225;
 /// A face whose opposite sides differ by a larger ratio is mapped only on request, because its quads would
 /// differ as much. Heuristic.
 constexpr double kUnlike = 3;
@@ -64,8 +61,8 @@ std::optional<std::vector<std::size_t>> corners_of(const Model& model, FaceId fa
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < loops[0].uses.size(); ++i) {
         const double angle = inner_angle(model, face, loops[0], i);
-        if (angle > kReversal) return std::nullopt;
-        if (angle < kCorner) corners.push_back(i);
+        if (angle > kReversalAbove) return std::nullopt;
+        if (angle < kCornerBelow) corners.push_back(i);
     }
     return corners;
 }

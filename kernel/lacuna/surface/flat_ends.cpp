@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/flat_ends.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/imprint.h>
 
@@ -179,7 +180,7 @@ private:
                         if (!at) continue;
                         const Vec2 place = a.line[i] + (*at)[0] * (a.line[i + 1] - a.line[i]);
                         const bool at_node = std::ranges::any_of(flat_.place, [&](const Vec2& node) {
-                            return (node - place).norm() <= 1e-9 * base_.model.diagonal;
+                            return (node - place).norm() <= kSamePlace * base_.model.diagonal;
                         });
                         if (at_node) continue;
                         const std::size_t node = add_node(place);
@@ -232,7 +233,7 @@ std::vector<FlatPiece> pieces_of(std::span<const FlatEdge> edges, std::span<cons
             const FlatEdge::Cut &a = cuts[c], &b = cuts[c + 1];
             FlatPiece piece{e, a.at, b.at, a.node, b.node, {place[a.node]}, {a.at}};
             for (std::size_t i = 0; i < edge.line.size(); ++i) {
-                if (edge.at[i] <= a.at + 1e-12 || edge.at[i] >= b.at - 1e-12) continue;
+                if (edge.at[i] <= a.at + kRoundoff || edge.at[i] >= b.at - kRoundoff) continue;
                 piece.line.push_back(edge.line[i]);
                 piece.at.push_back(edge.at[i]);
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/imprint_map.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -92,10 +93,9 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     double extent = 0;
     for (const auto& [point, place] : fixed)
         extent = std::max(extent, (place - fixed.begin()->second).squaredNorm());
-    constexpr double kNoArea = 1e-12; ///< of the squared extent: rounding
     for (const Triangle& t : triangles) {
         const double area = geometry::cross(target(t[1]) - target(t[0]), target(t[2]) - target(t[0])) / 2;
-        if (area > kNoArea * extent) one_to_one_ = false;
+        if (area > kRoundoff * extent) one_to_one_ = false;
     }
 }
 

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/imprint_rims.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/linking_map.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,7 +23,7 @@ namespace {
 /// Whether a vertex of the source's rim is swept to a corner or to the end of a side line of the target's.
 bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
 {
-    const double slack = 1e-9 * link.source.length();
+    const double slack = kSamePlace * link.source.length();
     for (const LinkingLine& line : link.lines) {
         if (std::abs(line.source_at - source_at) <= slack) return true;
     }
@@ -32,7 +32,7 @@ bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
         for (std::size_t i = 0; i < link.target.uses().size(); ++i) {
             double off = std::abs(segment.target_from - link.target.start(i));
             off = std::min(off, std::abs(off - link.target.length()));
-            if (off <= 1e-9 * link.target.length() && matching::is_corner(model, link.target.uses(), i))
+            if (off <= kSamePlace * link.target.length() && matching::is_corner(model, link.target.uses(), i))
                 return true;
         }
     }
@@ -82,9 +82,9 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
             const VertexId vertex = use_from(before, link.target.uses()[i]);
             if (!ends.contains(vertex)) continue;
             const double at = target_coordinate(link, link.target.start(i)) * link.source.length();
-            const double exact = std::max(1e-9 * link.source.length(), before.tolerance);
+            const double exact = std::max(kSamePlace * link.source.length(), before.tolerance);
             std::optional<std::size_t> near;
-            double least = std::numeric_limits<double>::infinity();
+            double least = kInfinity;
             for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
                 double off = std::abs(link.source.start(u) - at);
                 off = std::min(off, std::abs(off - link.source.length()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/interval_program.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -30,8 +30,6 @@ constexpr double kOutOfSize = 2;
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 /// Larger sets are not solved: these take 0.1 s. Heuristic.
 constexpr double kMostWork = 1e8;
-/// A gain below this share of the cost is rounding.
-constexpr double kRounding = 1e-12;
 
 double wish_cost(double n, double wanted, double weight)
 {
@@ -370,7 +368,7 @@ private:
     bool step()
     {
         constexpr int kMostStep = 1 << 16;
-        double best = -kRounding * (1 + std::abs(cost_));
+        double best = -kRoundoff * (1 + std::abs(cost_));
         const std::vector<std::pair<std::size_t, std::int64_t>>* along = nullptr;
         std::int64_t times = 0;
         for (const auto& vector : vectors_) {
@@ -427,12 +425,11 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
 {
     const std::size_t n = program.variables.size();
     geometry::UnionFind sets(n);
-    constexpr auto kNone = std::numeric_limits<std::size_t>::max();
     // Fixed variables do not connect equations.
     const auto first_of = [&](const std::vector<std::size_t>& variables, std::size_t first) {
         for (const std::size_t v : variables) {
             if (program.variables[v].fixed) continue;
-            if (first == kNone)
+            if (first == kNoIndex)
                 first = v;
             else
                 sets.unite_least(first, v);
@@ -440,9 +437,9 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
         return first;
     };
     for (const IntervalEquation& equation : program.equations)
-        first_of(equation.other, first_of(equation.one, kNone));
-    for (const IntervalWish& wish : program.wishes) first_of(wish.variables, kNone);
-    for (const IntervalFloor& floor : program.floors) first_of(floor.variables, kNone);
+        first_of(equation.other, first_of(equation.one, kNoIndex));
+    for (const IntervalWish& wish : program.wishes) first_of(wish.variables, kNoIndex);
+    for (const IntervalFloor& floor : program.floors) first_of(floor.variables, kNoIndex);
 
     struct Parts {
         std::vector<std::size_t> variables, equations, wishes, floors;
@@ -455,16 +452,16 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
     const auto sort = [&](std::vector<std::size_t> Parts::*list, std::size_t count, const auto& first) {
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t variable = first(i);
-            if (variable != kNone) (parts[sets.find(variable)].*list).push_back(i);
+            if (variable != kNoIndex) (parts[sets.find(variable)].*list).push_back(i);
         }
     };
     sort(&Parts::equations, program.equations.size(), [&](std::size_t e) {
-        return first_of(program.equations[e].other, first_of(program.equations[e].one, kNone));
+        return first_of(program.equations[e].other, first_of(program.equations[e].one, kNoIndex));
     });
     sort(&Parts::wishes, program.wishes.size(),
-         [&](std::size_t w) { return first_of(program.wishes[w].variables, kNone); });
+         [&](std::size_t w) { return first_of(program.wishes[w].variables, kNoIndex); });
     sort(&Parts::floors, program.floors.size(),
-         [&](std::size_t f) { return first_of(program.floors[f].variables, kNone); });
+         [&](std::size_t f) { return first_of(program.floors[f].variables, kNoIndex); });
 
     std::vector<int> counts(n);
     for (std::size_t v = 0; v < n; ++v) counts[v] = program.variables[v].given;

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/linking_map.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
@@ -19,9 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <unordered_map>
 
@@ -68,9 +67,6 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangl
     return geometry::solve_harmonic(problem, context);
 }
 
-/// Columns that differ less are straight up to rounding; unchanged, their rows stay affine images of the
-/// rims.
-constexpr double kEvenAlready = 1e-3;
 /// Columns at which sections are sampled: one per degree.
 constexpr std::size_t kColumnsRound = 360;
 
@@ -125,10 +121,10 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
-        const double off = 2 * std::numbers::pi * (p.at / length - s(p.point, 0));
+        const double off = kFullTurn * (p.at / length - s(p.point, 0));
         sum += Vec2(std::cos(off), std::sin(off));
     }
-    const double start = std::atan2(sum.y(), sum.x()) / (2 * std::numbers::pi);
+    const double start = std::atan2(sum.y(), sum.x()) / kFullTurn;
     return {(start - std::floor(start)) * length, s(cut.back(), 0)};
 }
 
@@ -137,8 +133,8 @@ double target_coordinate(const LinkingSurface& link, double target_at)
     const double length = link.target.length();
     const double first = link.segments.front().target_from;
     double at = target_at;
-    while (at < first - 1e-12 * length) at += length;
-    while (at > first + length * (1 + 1e-12)) at -= length;
+    while (at < first - kRoundoff * length) at += length;
+    while (at > first + length * (1 + kRoundoff)) at -= length;
     for (const RimSegment& segment : link.segments) {
         if (at > segment.target_to && &segment != &link.segments.back()) continue;
         const double f = (at - segment.target_from) / (segment.target_to - segment.target_from);
@@ -177,7 +173,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         fixed[p.point] = Vec2(p.at / link.source.length(), 0);
     for (const ChainNode& p : high) {
         const double s = target_coordinate(link, p.at);
-        const double turned = s - std::floor(s - end_branch + 1e-12);
+        const double turned = s - std::floor(s - end_branch + kRoundoff);
         fixed[p.point] = Vec2(p.point == cut.back() ? end_branch : turned, 1);
     }
     for (const Crease& line : upright) {
@@ -211,7 +207,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     std::vector<Vec3> flat;
     std::vector<Triangle> flat_triangles;
     for (std::size_t t = 0; t < facets.size(); ++t) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
+        double least = kInfinity, most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index p = facets[t][i];
             corners[t][i] = Vec2(strip_(p, 0) + problem.corner_turns[t][i], strip_(p, 1));
@@ -253,7 +249,7 @@ void LinkingMap::measure_heights(const Model& model)
     double off = 0;
     for (std::size_t k = 0; k <= kSteps; ++k)
         off = std::max(off, std::abs(even_[k] - static_cast<double>(k) / kSteps));
-    if (off < kEvenAlready) even_.clear();
+    if (off < kVisible) even_.clear();
 }
 
 double LinkingMap::from_even(double height) const
@@ -271,8 +267,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     // Sections lie a quarter of the radius apart: frames transported over bends in several planes are within
     // 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
-    constexpr double kLeads = 0.2;                    // least length of the axis, in section radii; heuristic
-    constexpr double kBends = std::numbers::pi / 180; // smaller bends count as straight; heuristic
+    constexpr double kLeads = 0.2; // least length of the axis, in section radii; heuristic
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
@@ -286,7 +281,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
-        widths.push_back(geometry::length(ring) / (2 * std::numbers::pi));
+        widths.push_back(geometry::length(ring) / kFullTurn);
     }
     // Nested sections, as of a flat ring, define no direction; their planes define the rotation instead.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
@@ -310,7 +305,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         turn_ += off - std::round(off);
         turned.push_back(turn_);
         most_turned_ = std::max(most_turned_, std::abs(turn_));
-        bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kBends;
+        bends_ = bends_ || geometry::angle_between(ways.front(), ways[k]) > kParallel;
     }
     std::vector<double> knots{0}; // side lines stay upright; columns between two side lines keep their share
     for (const LinkingLine& line : link.lines)
@@ -336,8 +331,8 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
             worst = std::max(worst, std::abs(columns_[k].back() - s));
         }
     }
-    if (worst < kEvenAlready) columns_.clear();
-    if (std::abs(turn_) < kEvenAlready) turn_ = 0;
+    if (worst < kVisible) columns_.clear();
+    if (std::abs(turn_) < kVisible) turn_ = 0;
 }
 
 double LinkingMap::harmonic(double s, double t) const
@@ -353,7 +348,7 @@ Vec2 LinkingMap::upright(const Vec2& place) const
 {
     if (columns_.empty()) return place;
     double low = place.x() - 2, high = place.x() + 2; // a column deviates by less from its harmonic s
-    while (high - low > 1e-12) {
+    while (high - low > kRoundoff) {
         const double middle = (low + high) / 2;
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
     }
@@ -470,13 +465,13 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
     // A column through the end of a piece still crosses it.
-    constexpr double kSlack = 1e-9; ///< of a turn: rounding
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;
         const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
-        for (double at = s + std::ceil(low - kSlack - s); at <= high + kSlack; at += 1) {
-            const double f = high - low > kSlack ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0) : 0.5;
+        for (double at = s + std::ceil(low - kSamePlace - s); at <= high + kSamePlace; at += 1) {
+            const double f = high - low > kSamePlace ? std::clamp((at - a.x()) / (b.x() - a.x()), 0.0, 1.0)
+                                                     : 0.5;
             result.push_back(
                 {a.y() + f * (b.y() - a.y()), piece.edge, piece.from + f * (piece.to - piece.from)});
         }

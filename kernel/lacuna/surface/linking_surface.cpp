@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/matching/shared/corners.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/detail/linking_map.h>
@@ -44,9 +45,6 @@ std::optional<std::size_t> use_leaving(const Model& model, const std::vector<Edg
     }
     return std::nullopt;
 }
-
-/// A seam that deviates less from the columns beside it is one of them [turns]: 1°. Heuristic.
-constexpr double kSeamTurns = 1.0 / 360;
 
 struct RimOf {
     std::map<EdgeId, std::size_t> rim; ///< rim number of each rim edge
@@ -189,7 +187,7 @@ bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const Ru
         if (beside.size() != 2 || beside[0].face != beside[1].face) return false;
     }
     const LinkingMap map(volume, link, true, context);
-    return map.most_turned() > kSeamTurns || (map.bends() && link.walls.size() > 1);
+    return map.most_turned() > kParallel / kFullTurn || (map.bends() && link.walls.size() > 1);
 }
 
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/rim_breaks.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/edge_turning.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 #include <lacuna/topology/shared/facet_area.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -20,15 +21,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// Vertices of both rims closer than this share of the local facets use one column, as for edges of the
-/// walls: no quad fits between them.
-constexpr double kOneColumn = 0.4;
-/// Facets at smaller angles are coplanar [radian].
-constexpr double kFlat = 1e-6;
-/// A crease continues within this angle [cosine]: facet sides across it are at 90°. Of several candidates the
-/// sharpest and straightest is taken.
-constexpr double kGoesOn = 0.25;
 
 /// The points that the Douglas-Peucker rule keeps, both ends included: the others lie within `sag` of the
 /// chords.
@@ -79,7 +71,7 @@ template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)
 {
-    const double length = chain.length(), reach = kOneColumn * length / static_cast<double>(vertices.size());
+    const double length = chain.length(), reach = kOneEdge * length / static_cast<double>(vertices.size());
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         double& at = ends[i].*side;
         if (starts_at(chain, chain.wrapped(at))) continue;
@@ -159,7 +151,7 @@ BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Ve
         const std::vector<double> own = shares_between(s0, s1, link.source, low);
         const std::vector<double> other = shares_between(t0, t1, link.target, high);
         const auto facets = static_cast<double>(std::max(own.size(), other.size()) + 1);
-        BreakPairs inside = paired_breaks(own, other, kOneColumn / facets);
+        BreakPairs inside = paired_breaks(own, other, kOneEdge / facets);
         complete(inside);
         pairs.emplace_back(s0, t0);
         for (const auto& [s, t] : inside) pairs.emplace_back(s0 + s * (s1 - s0), t0 + t * (t1 - t0));
@@ -202,7 +194,7 @@ void RimFacets::find_sides()
                 const auto [other, fresh] = first.try_emplace(edge_key(a, b), own);
                 if (fresh) continue;
                 const double turn = geometry::angle_between(other->second, own);
-                if (turn < kFlat) continue;
+                if (turn < kFileAccuracy) continue;
                 sides_[a].push_back({b, turn});
                 sides_[b].push_back({a, turn});
             }
@@ -255,7 +247,7 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
                 const Vec3 back = here - model.at(crease[crease.size() - 2]);
                 const Vec3 on = model.at(side.to) - here;
                 const double cosine = back.dot(on) / (back.norm() * on.norm());
-                if (cosine < kGoesOn) continue;
+                if (cosine < std::cos(kBendBelow * kDegree)) continue;
                 turn *= cosine * cosine;
             }
             if (turn <= most) continue;
@@ -282,8 +274,8 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
         const std::vector<Vec3> line = edge_line(model, use.edge);
         const std::vector<double> arc = geometry::arc_lengths(line);
         const double turn = EdgeTurning(model, use.edge).between(0, arc.back());
-        if (turn < kFlat) continue;
-        const double angle = 2 * std::numbers::pi / per_turn, sag = arc.back() * angle * angle / (8 * turn);
+        if (turn < kFileAccuracy) continue;
+        const double angle = kFullTurn / per_turn, sag = arc.back() * angle * angle / (8 * turn);
         const std::vector<std::size_t> points = kept_points(line, sag);
         const double most = std::max(turn / angle, arc.back() / size(line[line.size() / 2]));
         if (static_cast<double>(points.size() - 1) > std::ceil(most)) continue;

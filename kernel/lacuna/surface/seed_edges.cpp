@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/seed_edges.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace lacuna::surface {
@@ -28,10 +28,6 @@ constexpr double kPartOfSide = 0.05;
 
 /// Points per piece at which the size is sampled. Heuristic.
 constexpr int kSizeSamples = 32;
-
-/// Sizes along an edge that differ by a smaller share count as uniform, and the nodes are spaced evenly: the
-/// difference is invisible.
-constexpr double kSameSize = 1e-3;
 
 /// Turn of the target's rim over even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
@@ -152,7 +148,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     const double opposite = std::accumulate(piece.opposite.begin(), piece.opposite.end(), 0.0);
     const double more = opposite > own ? (opposite - own) / opposite : 0;
     double by_turn = 0, by_size = 0, sides = 0;
-    double least = std::numeric_limits<double>::infinity(), most = 0;
+    double least = kInfinity, most = 0;
     piece.wanted = {0};
     const std::vector<Vec3> points = edge_points(task.model, edge, at);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -160,7 +156,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         double turn = turn_between(from, from + step);
         if (more > 0) turn += more * piece.opposite[i];
         const double size = piece.length / kSizeSamples / task.size(points[i]);
-        const double bend = turn * per_turn / (2 * std::numbers::pi);
+        const double bend = turn * per_turn / kFullTurn;
         const double here = std::max(size, bend);
         by_turn += bend;
         by_size += size;
@@ -169,7 +165,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         least = std::min(least, here);
         most = std::max(most, here);
     }
-    if (most < least * (1 + kSameSize)) piece.wanted.clear();
+    if (most < least * (1 + kVisible)) piece.wanted.clear();
     if (sides > std::numeric_limits<Index>::max() / 8) {
 
         throw NotSweepable(Message("surface.too_many_sides",

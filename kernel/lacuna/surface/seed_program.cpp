@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/seed_program.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/detail/interval_program.h>
 #include <lacuna/surface/detail/round_sides.h>
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -23,7 +23,7 @@ constexpr double kLineWeight = 1;
 
 /// A face with a round side of at least this turn is filled by two three-sided patterns side by side: 120°.
 /// Heuristic.
-constexpr double kHalves = 2 * std::numbers::pi / 3;
+constexpr double kHalves = kFullTurn / 3;
 
 /// Weight of a square core relative to an edge. With a quarter of it, sectors around a common point alternate
 /// between 15 and 13 sides.
@@ -217,7 +217,6 @@ IntervalProgram with_alike(const Program& program, const AlikeEdges& alike)
 IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const IntervalProgram& intervals,
                               const Program& program)
 {
-    constexpr double kSame = 0.01; // same tolerance as for alike edges
     IntervalProgram straight = intervals;
     for (const FaceId face : seeds.submapped) {
         std::vector<std::pair<double, std::size_t>> wanted; // by variable
@@ -229,7 +228,7 @@ IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const In
         }
         std::ranges::sort(wanted);
         for (std::size_t i = 1; i < wanted.size(); ++i) {
-            if (wanted[i].first <= (1 + kSame) * wanted[i - 1].first)
+            if (wanted[i].first <= (1 + kAlikeSizes) * wanted[i - 1].first)
                 straight.equations.push_back({{wanted[i - 1].second}, {wanted[i].second}});
         }
     }
@@ -301,12 +300,12 @@ std::vector<int> solve_for_quads(const SeedTask& task, const AlikeEdges& alike, 
 {
     // The promised number of quads is the requested one within a quarter. The weight inside that range and
     // the number of corrections are heuristic.
-    constexpr double kNear = 0.1, kMostOff = 0.25, kQuads = 0.25;
+    constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;
     std::vector<int> best = solve(task, alike, seeds, program, 1), counts = best;
     const auto rank = [&](const std::vector<int>& of) {
         const double off = quads_of(program, of) - program.asked;
-        return std::pair(std::abs(off) > kMostOff * program.asked,
+        return std::pair(std::abs(off) > kQuadsOff * program.asked,
                          cost_of_intervals(program.intervals, of) + kQuads * off * off / program.asked);
     };
     double share = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/shape_size.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -16,10 +17,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -30,8 +29,6 @@ using namespace topology;
 
 namespace {
 
-/// Growth of the size per distance from a place with short sides: the paver's grading from its boundary [-].
-constexpr double kGrading = 0.3;
 /// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
 /// Rim points per side of the requested size: more resolve size changes better and cost time. Not measured.
@@ -65,7 +62,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
     if (f.kind == "plane") return;
     struct Around {
         Eigen::Matrix3d bends = Eigen::Matrix3d::Zero();
-        double area = 0, shortest = std::numeric_limits<double>::infinity();
+        double area = 0, shortest = kInfinity;
 
         void add(const Around& other)
         {
@@ -121,7 +118,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
                                                                     Eigen::EigenvaluesOnly);
         const double curvature = solver.eigenvalues().cwiseAbs().maxCoeff();
         if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size resolves
-        double size = 2 * std::numbers::pi / (curvature * per_turn);
+        double size = kFullTurn / (curvature * per_turn);
         if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
         size = std::max(size, kLeastShare * asked(model.at(point)));
         if (!(size < asked(model.at(point)))) continue;
@@ -217,7 +214,7 @@ private:
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
                 // The edge's own curvature limits its sides to this length anyway.
-                const double bend = at.curvature * sizing.curvature / (2 * std::numbers::pi);
+                const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
                 // Wider places do not reduce the size.
                 const double reach = std::max(sizing.gap * most,

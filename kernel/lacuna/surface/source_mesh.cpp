@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/source_mesh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
@@ -239,8 +240,8 @@ private:
             for (std::size_t u = 0; u < loop.uses.size(); ++u) {
                 const EdgeUse use = loop.uses[u];
                 const double angle = loop.uses.size() > 1 ? inner_angle(model_, face, loop, u) : 180;
-                if (angle < kRowsEnd) rows.turn[next] = quads::RowTurn::inner;
-                if (angle > kRowsBreak) rows.turn[next] = quads::RowTurn::outer;
+                if (angle < kCornerBelow) rows.turn[next] = quads::RowTurn::inner;
+                if (angle > kReversalAbove) rows.turn[next] = quads::RowTurn::outer;
                 std::vector<double> at = seeds_.fractions(use.edge);
                 if (use.reversed) std::ranges::reverse(at);
                 for (std::size_t i = 0; i + 1 < at.size(); ++i, ++next) {

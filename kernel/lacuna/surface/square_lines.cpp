@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/square_lines.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/sparse_factor.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/detail/section_line.h>
@@ -37,7 +38,6 @@ constexpr double kWorthIt = 0.05;
 /// only then do the walls determine the sections above. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// A cosine and its derivatives by the positions of a line's two ends.
 struct Cosine {
@@ -357,10 +357,10 @@ private:
         Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(variables));
         for_terms(lines, rungs, weight, [&](double r, double w, std::span<const Slope> own) {
             for (const auto& [v, dv] : own) {
-                if (v == kNone) continue;
+                if (v == kNoIndex) continue;
                 right[static_cast<Eigen::Index>(v)] -= w * dv * r;
                 for (const auto& [o, d_o] : own) {
-                    if (o != kNone && o <= v)
+                    if (o != kNoIndex && o <= v)
                         entries.emplace_back(static_cast<int>(v), static_cast<int>(o), w * dv * d_o);
                 }
             }
@@ -388,7 +388,8 @@ private:
             Line& line = lines_[l];
             const auto shift_end = [&](std::vector<double>& at, const std::vector<std::size_t>& variable) {
                 for (std::size_t i = 0; i < at.size(); ++i) {
-                    if (variable[i] != kNone) at[i] += length * move[static_cast<Eigen::Index>(variable[i])];
+                    if (variable[i] != kNoIndex)
+                        at[i] += length * move[static_cast<Eigen::Index>(variable[i])];
                 }
             };
             shift_end(line.at, line.variable);
@@ -413,7 +414,7 @@ private:
         std::size_t variables = 0;
         for (const std::size_t l : lines) {
             Line& line = lines_[l];
-            line.variable.assign(line.at.size(), kNone);
+            line.variable.assign(line.at.size(), kNoIndex);
             if (line.piece->fixed || line.piece->rows() > 0) continue;
             for (std::size_t i = 1; i + 1 < line.at.size(); ++i) line.variable[i] = variables++;
         }
@@ -441,7 +442,7 @@ private:
             alike.push_back(line.at);
             line.above = line.at;
             line.variable_above = line.variable;
-            for (std::size_t& v : line.variable_above) v += v == kNone ? 0 : variables;
+            for (std::size_t& v : line.variable_above) v += v == kNoIndex ? 0 : variables;
             line.steep = line.steepness();
         }
         const bool even = square(lines, rungs, 2 * variables);
@@ -458,11 +459,10 @@ private:
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
-        constexpr double kStill = 1e-3; // invisible change [sides]
         double weight = 1;
         std::vector<Line> uneven; // uneven lines, with their previous weight
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
-            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kStill; ++k) {}
+            for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {
                 if (!uneven.empty()) go_towards(lines, rungs, uneven);
                 return true;
@@ -512,7 +512,7 @@ private:
             const auto fractions = [&](const std::vector<double>& at) {
                 std::vector<double> placed;
                 for (std::size_t i = 1; i + 1 < at.size(); ++i) {
-                    if (line.variable[i] == kNone) break;
+                    if (line.variable[i] == kNoIndex) break;
                     const auto k = std::min(static_cast<std::size_t>(at[i]), nodes.size() - 2);
                     placed.push_back(nodes[k] + (at[i] - static_cast<double>(k)) * (nodes[k + 1] - nodes[k]));
                 }

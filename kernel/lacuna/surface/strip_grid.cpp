@@ -2,13 +2,12 @@
 #include <lacuna/surface/detail/strip_grid.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace lacuna::surface {
 
@@ -161,7 +160,7 @@ private:
         std::vector<std::size_t> node;
         for (const WallNet::Column& column : net_.columns) {
             std::size_t nearest = 0;
-            double least = std::numeric_limits<double>::infinity();
+            double least = kInfinity;
             for (std::size_t i = 0; i < count_; ++i) {
                 const double to = column.target_at
                                       ? link.target.wrapped(nodes.target_at[i]) - *column.target_at
@@ -225,10 +224,9 @@ private:
     /// The position in the strip of a fraction of an edge.
     static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
     {
-        constexpr double kSlack = 1e-9; ///< of the edge: rounding
         for (const LinkingMap::Piece& piece : pieces) {
             const double low = std::min(piece.from, piece.to), high = std::max(piece.from, piece.to);
-            if (piece.edge != edge || share < low - kSlack || share > high + kSlack) continue;
+            if (piece.edge != edge || share < low - kSamePlace || share > high + kSamePlace) continue;
             const double f = high > low ? (share - piece.from) / (piece.to - piece.from) : 0;
             return piece.a + f * (piece.b - piece.a);
         }
@@ -249,14 +247,14 @@ private:
         std::vector<Anchor> anchors;
         for (const std::size_t stop : level.stops) {
             const double s = net_.stops[stop].place.x();
-            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + 1e-9)});
+            anchors.push_back({column_node[net_.stops[stop].column], s - std::floor(s + kSamePlace)});
         }
         std::ranges::sort(anchors, {}, &Anchor::node);
         for (std::size_t a = 0; a < anchors.size(); ++a) {
             const Anchor& from = anchors[a];
             Anchor to = anchors[(a + 1) % anchors.size()];
             if (a + 1 == anchors.size()) to.node += count_;
-            while (to.s <= from.s + 1e-9) to.s += 1;
+            while (to.s <= from.s + kSamePlace) to.s += 1;
             const double start = at_node(from.node), whole = at_node(to.node) - start;
             for (std::size_t i = from.node + 1; i < to.node; ++i) {
                 const double s = from.s + (at_node(i) - start) / whole * (to.s - from.s);
@@ -349,11 +347,10 @@ private:
     void move_grid()
     {
         // Solve on a cylinder, because the grid is periodic like the strip.
-        constexpr double kTurn = 2 * std::numbers::pi;
         std::vector<Vec3> points;
         for (std::size_t k = 0; k <= layers_; ++k) {
             for (std::size_t i = 0; i < count_; ++i) {
-                const double angle = kTurn * at_node(i), radius = map_->width() / kTurn;
+                const double angle = kFullTurn * at_node(i), radius = map_->width() / kFullTurn;
                 points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
                                     heights[k] * map_->height());
             }

@@ -2,6 +2,8 @@
 #include <lacuna/surface/shared/wall_breaks.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/surface/detail/imprint_rules.h>
 #include <lacuna/surface/detail/wall_net.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -16,11 +18,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A break of the rim closer to a column than this share of the size is used for the column: no quad fits
-/// between them. Heuristic.
-constexpr double kOneColumn = 0.4;
-constexpr double kRounding = 1e-9; ///< of the rim's length
 
 /// Whether an edge inside a linking surface ends off its side lines and rims.
 bool has_net(const Model& model, const LinkingSurface& link)
@@ -87,12 +84,12 @@ private:
         const WallNet::Column& own = net_.columns[column];
         for (const auto& [place, other] : taken_) {
             const WallNet::Column& that = net_.columns[other];
-            if (std::abs(place - at) <= kRounding * link_.source.length() && own.low <= that.high &&
+            if (std::abs(place - at) <= kSamePlace * link_.source.length() && own.low <= that.high &&
                 that.low <= own.high)
                 return true;
         }
         return std::ranges::any_of(link_.lines, [&](const LinkingLine& line) {
-            return std::abs(line.source_at - at) <= kRounding * link_.source.length();
+            return std::abs(line.source_at - at) <= kSamePlace * link_.source.length();
         });
     }
 
@@ -105,8 +102,8 @@ private:
             return;
         }
         const std::array here{std::min(at, link_.source.length())};
-        const double reach = kOneColumn * size_(link_.source.points(here).front());
-        double least = std::max(reach, kRounding * link_.source.length());
+        const double reach = kOneEdge * size_(link_.source.points(here).front());
+        double least = std::max(reach, kSamePlace * link_.source.length());
         std::optional<std::size_t> near;
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             const double off = std::abs(link_.segments[i].source_from - at);
@@ -129,13 +126,13 @@ private:
         const RimSegment &own = link_.segments[i],
                          &before = link_.segments[(i > 0 ? i : link_.segments.size()) - 1];
         const double way = std::remainder(target_at - own.target_from, length);
-        if (std::abs(way) <= kRounding * length) return 0;
+        if (std::abs(way) <= kSamePlace * length) return 0;
         if (own.given || before.given || own.target_from + way >= own.target_to ||
             before.target_to + way <= before.target_from)
             return std::nullopt;
         for (std::size_t u = 0; u < link_.target.uses().size(); ++u) {
             const double off = std::remainder(link_.target.start(u) - own.target_from, length);
-            if (std::abs(off) <= kRounding * length) return std::nullopt;
+            if (std::abs(off) <= kSamePlace * length) return std::nullopt;
         }
         return way;
     }
@@ -152,7 +149,7 @@ private:
 
     void divide(double at)
     {
-        const double slack = kRounding * link_.source.length();
+        const double slack = kSamePlace * link_.source.length();
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             RimSegment& low = link_.segments[i];
             if (at < low.source_from + slack || at > low.source_to - slack) continue;

@@ -2,6 +2,7 @@
 #include <lacuna/surface/detail/wall_net.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
@@ -19,19 +20,15 @@ namespace {
 /// Tangent of 30°: an edge that deviates more from the direction of its column or level is slanted or round.
 /// Heuristic.
 constexpr double kSlanted = 0.577;
-/// Cosine of 20°; facets' edges with a larger bend are corners. Heuristic.
-constexpr double kSmooth = 0.94;
-/// Tolerance of equal positions in the strip: rounding.
-constexpr double kSamePlaceInStrip = 1e-9;
 
-double wrapped(double s) { return s - std::floor(s + kSamePlaceInStrip); }
+double wrapped(double s) { return s - std::floor(s + kSamePlace); }
 
 /// Whether two intervals on the circle of length 1 overlap in more than a point.
 bool overlap(double a0, double a1, double b0, double b1)
 {
     const double shift = std::floor(a0 - b0);
     for (const double turn : {shift - 1, shift, shift + 1, shift + 2}) {
-        if (std::min(a1, b1 + turn) - std::max(a0, b0 + turn) > kSamePlaceInStrip) return true;
+        if (std::min(a1, b1 + turn) - std::max(a0, b0 + turn) > kSamePlace) return true;
     }
     return false;
 }
@@ -107,8 +104,8 @@ private:
         for (const LinkingMap::Piece& piece : ring.pieces) {
             const Edge& edge = model_[piece.edge];
             const auto end = [&](double share, const Vec2& place) {
-                if (share < kSamePlaceInStrip) places.emplace(edge.from, place);
-                if (share > 1 - kSamePlaceInStrip) places.emplace(edge.to, place);
+                if (share < kSamePlace) places.emplace(edge.from, place);
+                if (share > 1 - kSamePlace) places.emplace(edge.to, place);
             };
             end(piece.from, piece.a);
             end(piece.to, piece.b);
@@ -167,7 +164,7 @@ private:
             if (edge.from == vertex) leave(edge.points[0], edge.points[1]);
             if (edge.to == vertex) leave(edge.points.back(), edge.points[edge.points.size() - 2]);
         }
-        return away.size() == 2 && away[0].dot(away[1]) < -kSmooth ? EdgeId() : any;
+        return away.size() == 2 && away[0].dot(away[1]) < -kOneCurve ? EdgeId() : any;
     }
 
     /// Edges of one ring follow each other around the walls; those around a round patch turn back.

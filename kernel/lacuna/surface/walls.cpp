@@ -2,6 +2,7 @@
 #include <lacuna/surface/shared/walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/swept_patch.h>
@@ -37,7 +38,7 @@ std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSu
     std::vector<std::vector<FaceId>> panels;
     for (const LinkingLine& line : link.lines) {
         const EdgeUse foot =
-            link.source.uses()[link.source.position(line.source_at + 1e-9 * link.source.length()).use];
+            link.source.uses()[link.source.position(line.source_at + kSamePlace * link.source.length()).use];
         std::vector<FaceId> faces;
         for (const FaceUse& use : model.uses_of_edge(foot.edge)) {
             if (walls.contains(use.face)) faces.push_back(use.face);
@@ -323,7 +324,7 @@ LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vect
     for (std::size_t i = 0; i < link.segments.size(); ++i) {
         const RimSegment& segment = link.segments[i];
         while (line < link.lines.size() &&
-               link.lines[line].source_at <= segment.source_from + 1e-12 * link.source.length()) {
+               link.lines[line].source_at <= segment.source_from + kRoundoff * link.source.length()) {
             nodes.line.push_back(nodes.source_at.size());
             ++line;
         }

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
@@ -38,9 +39,6 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
     give_mesh(volume, to, nodes, mesh.quads);
 }
 
-/// Relative tolerance, to the largest coordinate, within which two meshes of a shared face are equal:
-/// rounding of the same patch computed in another order.
-constexpr double kRounding = 1e-12;
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
 constexpr double kFlat = 1e-9;
 
@@ -462,7 +460,7 @@ private:
                         const std::vector<FaceId>& faces)
     {
         SettledNodes settled;
-        const double within = kRounding * coordinates_of(m);
+        const double within = kRoundoff * coordinates_of(m);
         for (const Neighbour& n : alike) {
             const mesh::SkinNodes theirs = result_.parts[n.other].skin();
             const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/assembly_imprint.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -26,15 +27,12 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// Chords that cross at less than this sine are parallel: then only their ends count.
-constexpr double kAlong = 1e-6;
-
 /// The midpoint of the shortest connection of two chords; empty if they are parallel or too far apart.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), whole = uu * vv - uv * uv;
-    if (!(whole > kAlong * kAlong * uu * vv)) return std::nullopt;
+    if (!(whole > kFileAccuracy * kFileAccuracy * uu * vv)) return std::nullopt;
     const double s = (vv * w.dot(u) - uv * w.dot(v)) / whole, t = (uv * w.dot(u) - uu * w.dot(v)) / whole;
     const double slack_s = within / std::sqrt(uu), slack_t = within / std::sqrt(vv);
     if (s < -slack_s || s > 1 + slack_s || t < -slack_t || t > 1 + slack_t) return std::nullopt;

@@ -10,6 +10,7 @@
 #include <lacuna/surface/shared/seeds.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -43,9 +44,6 @@ constexpr double kSameCentre = 0.2;
 constexpr double kMostNodes = 2e7;
 /// A rim segment does not include edges that it covers by less than this share of its length.
 constexpr double kInset = 1e-3;
-/// Rows of two members are equal if they differ by less than this share of their thickness: the tolerance of
-/// rows within one volume.
-constexpr double kSameRows = 0.02;
 /// Bound on the rounds of making ends even. Each round adds a side to one class; families of blocks need far
 /// fewer.
 constexpr int kRounds = 64;
@@ -463,7 +461,7 @@ private:
         if (a.size() != b.size()) return false;
         for (std::size_t i = 0; i < a.size(); ++i) {
             const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
-            if (std::abs(a[i] - b[i]) > kSameRows * thick) return false;
+            if (std::abs(a[i] - b[i]) > kThicknessOff * thick) return false;
         }
         return true;
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_region.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::sweep {
@@ -149,9 +149,6 @@ mesh::Incidence uses_of(const CellRegion& region)
     });
 }
 
-/// Two sides at an angle below this sine are collinear, up to rounding.
-constexpr double kInLine = 1e-6;
-
 /// Two sides of a cell that are collinear and fixed.
 std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
                                         const std::vector<char>& locked)
@@ -159,7 +156,7 @@ std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8
     std::optional<StuckCorner> stuck;
     for_locked_angles(hex, locked, [&](std::size_t c, std::size_t a, std::size_t b) {
         const Vec3 u = corners[a] - corners[c], v = corners[b] - corners[c];
-        if (!stuck && u.cross(v).norm() <= kInLine * u.norm() * v.norm())
+        if (!stuck && u.cross(v).norm() <= kFileAccuracy * u.norm() * v.norm())
             stuck = StuckCorner{hex[c], {hex[a], hex[b]}};
     });
     return stuck;
@@ -288,10 +285,9 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
 double RegionEnergy::least_determinant(const Eigen::VectorXd& x)
 {
     put(x);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     return parallel_min(
-        context_, region_.cells.size(), kChunk, kNone, [&](std::size_t begin, std::size_t end) {
-            double least = kNone;
+        context_, region_.cells.size(), kChunk, kInfinity, [&](std::size_t begin, std::size_t end) {
+            double least = kInfinity;
             for (std::size_t c = begin; c < end; ++c) {
                 const Hex& cell = region_.cells[c];
                 least = std::min(least, sweep::least_determinant(corners_of(places_, cell), region_.box[c],

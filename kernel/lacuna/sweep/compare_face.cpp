@@ -7,6 +7,7 @@
 // searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/tips.h>
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -25,15 +25,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A quad is treated as flat, as two triangles instead of four, if the gap between its diagonals is below
-/// this share of its longest side. A lower value makes more quads cost four triangles; a higher one hides
-/// real twist. Not measured.
-constexpr double kFlat = 1e-3;
 /// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
 /// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// Relative tolerance for points in a plane, to the face's extent: rounding is a thousand times smaller.
-constexpr double kInPlane = 1e-12;
 /// Distances above this, in sides of the quad, are not taken from the walk, because another part of the face
 /// may be nearer. A lower value searches the tree more often. Not measured.
 constexpr double kFar = 0.25;
@@ -108,7 +102,7 @@ QuadFacets facets_of(const std::array<Vec3, 4>& c)
 {
     if (c[2] == c[3]) return {{{{c[0], c[1], c[2]}}}, 1}; // a triangle
     const Vec3 one = (c[0] + c[2]) / 2, other = (c[1] + c[3]) / 2;
-    if ((one - other).squaredNorm() < kFlat * kFlat * (c[2] - c[0]).squaredNorm())
+    if ((one - other).squaredNorm() < kVisible * kVisible * (c[2] - c[0]).squaredNorm())
         return {{{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}}, 2};
     QuadFacets facets;
     for (std::size_t k = 0; k < 4; ++k) facets.corners[k] = {c[k], c[(k + 1) % 4], (one + other) / 2};
@@ -171,7 +165,7 @@ private:
         for (const Vec3& p : shape_.points) box.extend(p);
         origin_ = (box.min() + box.max()) / 2;
         normal_ = area.stableNormalized();
-        const double slack = kInPlane * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
+        const double slack = kRoundoff * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
         const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
         origin_ = shape_.points[index(shape_.triangles.front()[0])];
         const auto bends = [&](const Vec3& bulge) { return std::abs(normal_.dot(bulge)) > slack; };
@@ -316,7 +310,7 @@ private:
             const Vec3 bulge = shape_.bulge_at(facet, foot->barycentric);
             sample.distance = std::abs(foot->height - walk.normal(foot->facet).dot(bulge));
         } else {
-            const double reach = foot ? std::abs(foot->height) : std::numeric_limits<double>::infinity();
+            const double reach = foot ? std::abs(foot->height) : kInfinity;
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
         // If the point is far off, as on a long quad in a bend, the nearest facet may be on the opposite part
@@ -332,7 +326,7 @@ private:
     /// Distance of a point from the face; `facet` becomes the nearest facet.
     /// @param reach  a facet is known to be within this distance.
     [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
-                                          double reach = std::numeric_limits<double>::infinity()) const
+                                          double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
         if (hit.triangle < 0)
@@ -436,7 +430,7 @@ private:
     {
         constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
-        double best = std::numeric_limits<double>::infinity();
+        double best = kInfinity;
         Index nearest = quads.front();
         for (std::size_t i = 0; i < quads.size(); i += step) {
             const double found = (node(quads_[index(quads[i])][0]) - point).squaredNorm();

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/drawn_layers.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/wall_columns.h>
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 namespace lacuna::sweep {
 
@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kSteps = 64;
 /// A larger turn in one step counts as a corner, which layers cannot resolve [radian]. A lower value ignores
 /// tight bends, a higher one concentrates layers at corners. Not measured.
-constexpr double kCorner = 40 * std::numbers::pi / 180;
+constexpr double kCorner = 40 * kDegree;
 /// Minimum number of side lines whose mean is used as the axis: one line alone is not in the middle.
 constexpr std::size_t kMiddle = 2;
 /// Where the mean of the columns moves by less than this share of their mean length, the columns diverge, as
@@ -174,8 +174,7 @@ std::optional<DrawnLayers> drawn_layers(const OpenVolume& volume, const SweepOpt
 {
     if (options.curvature == 0 || !by_count_alone(volume, options)) return std::nullopt;
     const Way way = way_of(volume, links.of(volume, context), context);
-    constexpr double kStraight = 1e-3; // [radian]
-    if (!(way.turned.back() > kStraight)) return std::nullopt;
+    if (!(way.turned.back() > kVisible)) return std::nullopt;
     const int layers = options.layers.count;
     const double whole = length_between(way, layer_heights({.count = kSteps}));
     const auto loss_of = [&](const std::vector<double>& heights) {

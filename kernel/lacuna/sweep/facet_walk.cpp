@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/facet_walk.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/shared/incidence.h>
 
 #include <algorithm>
@@ -10,11 +11,6 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A foot point this close to a side lies on it, as a share of the facet's altitude; rounding is a hundred
-/// times smaller.
-constexpr double kOnSide = 1e-12;
-/// Facets with a smaller ratio of height to longest side are degenerate: their gradients would be rounding.
-constexpr double kThin = 1e-6;
 /// Heights up to this share of the facet's minimum altitude are above this facet and its neighbours only. A
 /// higher value accepts more points without a tree and risks a nearer facet elsewhere. Not measured.
 constexpr double kLow = 0.1;
@@ -65,11 +61,11 @@ void FacetWalk::set_frame(std::size_t facet, const std::array<Vec3, 3>& c)
     const double longest = std::sqrt(
         std::max({ab.squaredNorm(), ac.squaredNorm(), (c[2] - c[1]).squaredNorm()}));
     const double twice = area.norm();
-    if (!(twice > kThin * longest * longest)) return;
+    if (!(twice > kFileAccuracy * longest * longest)) return;
     frame.to_first = ac.cross(frame.normal) / twice;
     frame.to_second = frame.normal.cross(ab) / twice;
     frame.altitude = {twice / (c[2] - c[1]).norm(), twice / ac.norm(), twice / ab.norm()};
-    frame.rounding = kOnSide * longest;
+    frame.rounding = kRoundoff * longest;
 }
 
 std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) const
@@ -87,7 +83,7 @@ std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) c
         int lowest = 0;
         const double least = foot.barycentric.minCoeff(&lowest);
         const double height = std::abs(foot.height);
-        if (least < -kOnSide) {
+        if (least < -kRoundoff) {
             const Index next = across_[index(now)][(static_cast<std::size_t>(lowest) + 1) % 3];
             if (next == before) return std::nullopt; // outside both: above the edge between them
             before = now;

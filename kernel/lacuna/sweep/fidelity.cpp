@@ -2,6 +2,7 @@
 #include <lacuna/sweep/fidelity.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/surface/shared/face_shape.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -43,7 +43,7 @@ FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const D
     }
     const double width = rim > 0 ? 2 * face_area(model, face) / rim : 0;
     result.max_distance = result.mean_distance = result.found = width;
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (const SkinOfFace& other : skin.faces) {
         for (std::size_t q = 0; q < other.quads.size(); ++q) {
             const double distance = (skin.points[index(other.quads[q][0])] - result.place).squaredNorm();
@@ -125,7 +125,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     std::vector<surface::FaceShape> shapes;
     for (const SkinOfFace& patch : skin.faces) {
         check_cancelled(context);
-        const double side = patch.quads.empty() ? std::numeric_limits<double>::infinity() : patch.mean_side;
+        const double side = patch.quads.empty() ? kInfinity : patch.mean_side;
         shapes.push_back(surface::face_shape(model, patch.face, [side](const Vec3&) { return side; }));
         result.sealed_volume += shapes.back().volume_integral(origin);
     }
@@ -222,7 +222,7 @@ std::string in_words(const Fidelity& fidelity)
         fidelity.volume, fidelity.sealed_volume, more < 0 ? "" : "+", more, fidelity.max_distance,
         fidelity.mean_distance);
     const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
-    const double rounding = 1e-9 * std::cbrt(std::abs(fidelity.sealed_volume));
+    const double rounding = kSamePlace * std::cbrt(std::abs(fidelity.sealed_volume));
     if (worst != fidelity.faces.end() && worst->max_distance > rounding)
         line += formatted("; most on {} at {}", worst->entity, at_place(worst->place));
     return line;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/sweep/detail/middle_skin.h>
 
@@ -122,12 +123,11 @@ void LevelBlend::blend(const Vec3* nodes, const std::vector<std::uint8_t>& known
 std::vector<Vec3> LevelBlend::beyond(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                                      const std::vector<Vec3>& bend) const
 {
-    constexpr double kRounding = 1e-9; // of the side
     std::vector<Vec3> rest(bend.size(), Vec3::Zero());
     each_chord(nodes, known, bend, [&](Index side, const SideFrame& frame, const Vec3& local) {
         if (known[index(side)] != 0) return;
         const Vec3 beyond = frame.local(bend[index(side)]) - local;
-        if (beyond.norm() > kRounding) rest[index(side)] = beyond;
+        if (beyond.norm() > kSamePlace) rest[index(side)] = beyond;
     });
     return rest;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/mean_outline.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/surface/shared/projector.h>
@@ -18,14 +19,12 @@ using namespace topology;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// Maximum corner angle of a quad on either end. A higher value accepts flatter corners, a lower one moves
 /// more nodes inward. Not measured.
 constexpr double kWidest = 150 * kDegree;
 /// The shortfall from the angle that right-angled quads would fill: near 45° one quad fewer fits. A node with
 /// a larger shortfall than the first is moved inward until it is below the second. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
-constexpr double kRight = 90 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
 double inner_angle(const Vec2& a, const Vec2& b, const Vec2& c)
@@ -70,8 +69,8 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
         const double larger = std::max(inner_angle(rims.low[a], rims.low[b], rims.low[c]),
                                        inner_angle(rims.high[a], rims.high[b], rims.high[c]));
         const double quads = std::ceil(larger / kWidest);
-        if (inner_angle(mean[a], mean[b], mean[c]) >= quads * kRight - kMayLack) continue;
-        const double wanted = quads * kRight - kLacks;
+        if (inner_angle(mean[a], mean[b], mean[c]) >= quads * kRightAngle - kMayLack) continue;
+        const double wanted = quads * kRightAngle - kLacks;
         if (wanted >= std::numbers::pi) continue;
         const Vec2 chord = mean[c] - mean[a];
         const Vec2 outward(chord.y(), -chord.x());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/middle_placer.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
@@ -8,13 +9,6 @@
 namespace lacuna::sweep {
 
 namespace {
-
-/// Bends below this share of a side are zero: the error of projections. Straight cells then stay exactly
-/// straight.
-constexpr double kNoBend = 1e-9;
-/// The bends of walls beyond the columns' cubics are spread over the layers if they exceed this share of a
-/// side. A lower value costs time without effect on the cells. Not measured.
-constexpr double kSpread = 1e-3;
 
 bool any(const std::vector<Vec3>& vectors)
 {
@@ -84,7 +78,7 @@ std::vector<Vec3> MiddlePlacer::bends_of_end(int level, const Vec3* nodes) const
         const Segment& side = mesh_.middles.sides[s];
         const Vec3 &a = nodes[index(side[0])], &b = nodes[index(side[1])];
         bends[s] = on_skin(places_.side(index(level), static_cast<Index>(s))) - (a + b) / 2;
-        if (bends[s].squaredNorm() < kNoBend * kNoBend * (b - a).squaredNorm()) bends[s].setZero();
+        if (bends[s].squaredNorm() < kSamePlace * kSamePlace * (b - a).squaredNorm()) bends[s].setZero();
     }
     return bends;
 }
@@ -140,8 +134,8 @@ void MiddlePlacer::bend_columns(const RunContext& context)
             left = std::max(left, rest.norm() / length);
         }
     }
-    columns_bend_ = most >= kNoBend;
-    if (!columns_bend_ || left < kSpread) {
+    columns_bend_ = most >= kSamePlace;
+    if (!columns_bend_ || left < kVisible) {
         beyond_ = {};
         return;
     }
@@ -191,7 +185,8 @@ void MiddlePlacer::place_level(int level, const Corners& corners, Vec3* out) con
         if (!end && rim_side_[s] == 0) continue;
         const Vec3& at = on_skin(places_.side(index(level), static_cast<Index>(s)));
         if (!end) bends[s] = at - out[s];
-        if (!end && bends[s].squaredNorm() < kNoBend * kNoBend * (b - a).squaredNorm()) bends[s].setZero();
+        if (!end && bends[s].squaredNorm() < kSamePlace * kSamePlace * (b - a).squaredNorm())
+            bends[s].setZero();
         out[s] = at;
     }
     if (end || (first_.empty() && !any(bends))) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/middle_skin.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -18,10 +19,6 @@ namespace lacuna::sweep {
 using namespace topology;
 
 namespace {
-
-/// A node lies on facets or an edge if its distance is below this share of the side. The error of projections
-/// is far smaller; nodes of bent walls are much farther from a void face's facets.
-constexpr double kOn = 1e-6;
 
 /// A side of the skin, and the patches of the two quads adjacent to it.
 struct SkinSide {
@@ -182,9 +179,8 @@ private:
     /// straight.
     void settle(const SkinSide& side, const Vec3& at)
     {
-        constexpr double kRounding = 1e-12; // of the side
         const Vec3 between = straight(side);
-        middle(side) = (at - between).norm() < kRounding * length(side) ? between : at;
+        middle(side) = (at - between).norm() < kRoundoff * length(side) ? between : at;
         skin_.set(side.place, Middle::settled);
     }
 
@@ -263,7 +259,7 @@ private:
             bends[s] = skin_.node(place(s)) - between(s);
             const Segment& side = mesh_.middles.sides[s];
             const double length = (nodes[index(side[1])] - nodes[index(side[0])]).norm();
-            if (bends[s].norm() < 1e-9 * length) bends[s].setZero(); // rounding
+            if (bends[s].norm() < kSamePlace * length) bends[s].setZero(); // rounding
         }
         blend.blend(nodes.data(), known, bends);
         for (std::size_t s = 0; s < count; ++s)
@@ -298,7 +294,7 @@ private:
                 const Vec3 below = bend(low), above = bend(high);
                 double whole = 0, way = 0;
                 for (std::size_t l = low; l < high; ++l) whole += (at[l + 1] - at[l]).norm();
-                if (below.norm() + above.norm() > kOn * kOn && whole > 0) {
+                if (below.norm() + above.norm() > kFileAccuracy * kFileAccuracy && whole > 0) {
                     for (std::size_t l = low + 1; l < high; ++l) {
                         way += (at[l] - at[l - 1]).norm();
                         const Vec3 between = (1 - way / whole) * below + (way / whole) * above;
@@ -318,7 +314,7 @@ private:
                 if (skin_.state(place) != Middle::open) continue;
                 const Vec3 bend = rim_bend(corners_, side[0], l);
                 const double length = (corner(l + 1, side[0]) - corner(l, side[0])).norm();
-                if (bend.norm() > 1e-9 * length) skin_.node(place) += bend;
+                if (bend.norm() > kSamePlace * length) skin_.node(place) += bend;
             }
     }
 
@@ -350,7 +346,7 @@ private:
             const geometry::FacetTree tree(model_.points, model_[id].triangles);
             for (const SkinSide* side : members) {
                 const Vec3 a = corners_[side->from], b = corners_[side->to];
-                const double near = kOn * (b - a).norm();
+                const double near = kFileAccuracy * (b - a).norm();
                 const auto on = [&](const Vec3& p) { return tree.closest(p, near * near).triangle >= 0; };
                 if (on(a) && on(b)) sides.push_back(side);
             }

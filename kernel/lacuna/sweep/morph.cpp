@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/morph.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/rim.h>
 #include <lacuna/sweep/detail/surface_smoothing.h>
@@ -20,8 +21,6 @@ constexpr double kSameQuality = 0.01;
 /// If the worst quad is below this share of the model's worst quad, other images of the source are tried. A
 /// higher value tries them more often, which costs time. Not measured.
 constexpr double kStandsUp = 0.5;
-/// Moves below this share of the rim's size count as zero: the projection error of points on the surface.
-constexpr double kOnSurface = 1e-9;
 
 /// The mesh's graph, and its factorisation with the rim fixed.
 struct Spreader {
@@ -194,7 +193,7 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
         project_nodes(projected.nodes, free_nodes, project);
         const double move = largest_move(guess.nodes, projected.nodes);
         const double size = columns.rim.empty() ? radius(source.nodes) : radius(columns.row(columns.layers));
-        if (move > kOnSurface * size) {
+        if (move > kSamePlace * size) {
             projected.worst = worst_quad(source.quads, projected.nodes, context);
             found = std::move(projected);
             result.report += formatted(", projected by up to {:.2g} of its radius",

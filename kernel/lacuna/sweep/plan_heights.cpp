@@ -2,14 +2,15 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/surface/shared/wall_columns.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string>
 
 namespace lacuna::sweep {
@@ -21,12 +22,6 @@ namespace {
 /// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
 /// measured.
 constexpr int kSamples = 32;
-/// Sizes along the sweep that differ by a smaller share are equal, and layers are uniform: the difference is
-/// invisible.
-constexpr double kSameSize = 1e-3;
-/// Heights given by walls agree with an end's rows if each differs by less than this share of its thickness:
-/// the tolerance of rows.
-constexpr double kSameRow = 0.02;
 
 /// Chords that represent a column when its turning is measured. More chords would count local dents as bends
 /// of the sweep, fewer would miss bends. Not measured.
@@ -84,16 +79,14 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
         least = std::min(least, mean.wanted[i] - mean.wanted[i - 1]);
         most = std::max(most, mean.wanted[i] - mean.wanted[i - 1]);
     }
-    if (!(most > least * (1 + kSameSize))) mean.wanted.clear();
+    if (!(most > least * (1 + kVisible))) mean.wanted.clear();
     return mean;
 }
 
 /// Layers required by the bends of the columns, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
-    constexpr double kRounding = 1e-6;
-    return static_cast<int>(
-        std::ceil(columns.turning * options.curvature / (2 * std::numbers::pi) - kRounding));
+    return static_cast<int>(std::ceil(columns.turning * options.curvature / kFullTurn - kCountSlack));
 }
 
 /// Layers about as high as the quads are wide, at least `least`. @throw InvalidInput  more layers than node
@@ -153,7 +146,7 @@ bool has_rows(const std::vector<double>& heights, const std::vector<double>& low
     const auto has = [&](const std::vector<double>& rows, const auto& at) {
         for (std::size_t j = 0; j < rows.size(); ++j) {
             const double thick = rows[j] - (j > 0 ? rows[j - 1] : 0);
-            if (std::abs(at(j + 1) * length - rows[j]) > kSameRow * thick) return false;
+            if (std::abs(at(j + 1) * length - rows[j]) > kThicknessOff * thick) return false;
         }
         return true;
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/quality/shared/second_order.h>
 #include <lacuna/sweep/detail/middle_skin.h>
@@ -192,8 +193,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
     // The size that the bend requires was found to help if the straight cell is good.
-    constexpr double kGood = 0.3;
-    if (straight < kGood)
+    if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is poor with straight sides already: its scaled Jacobian is {:.2g}", found(straight)));
     if (*worst < kFirstUpright)

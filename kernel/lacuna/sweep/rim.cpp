@@ -2,12 +2,12 @@
 #include <lacuna/sweep/detail/rim.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace lacuna::sweep {
@@ -43,11 +43,10 @@ void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes
     const std::span<const Vec3> row = columns.row(layer);
     double reach = 0;
     for (const Vec3& p : row) reach = std::max(reach, (p - row[0]).norm());
-    constexpr double kProjection = 1e-6; // the tolerance for given faces, relative to their size
     for (std::size_t k = 0; k < row.size(); ++k) {
         const Vec3& node = nodes[index(columns.rim[k])];
         const double gap = (row[k] - node).norm();
-        if (gap <= kProjection * reach) continue;
+        if (gap <= kFileAccuracy * reach) continue;
         throw InvalidInput(kColumns,
                            "the column over {} ends {:.6f} away from its node on the {}: columns must start "
                            "and end on the rims",
@@ -118,7 +117,7 @@ Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides)
 
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes)
 {
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = kInfinity;
     for (const Quad& quad : quads) {
         for (std::size_t i = 0; i < 4; ++i) {
             if (!mesh::is_side(quad, i)) continue;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/rim_arcs.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 namespace lacuna::sweep {
@@ -16,10 +16,6 @@ namespace {
 /// Assumed relative error of an arc's height: a parabola differs by a tenth from a circle of seven chords,
 /// and more from unevenly bent curves. A higher value accepts rims farther apart. Not measured.
 constexpr double kArcError = 0.25;
-
-/// Cosine of 20°: edges that meet at a smaller angle are one curve, since imprints may split circles into
-/// edges of single chords. A smaller angle would break coarse circles at their vertices. Not measured.
-constexpr double kGoesOn = 0.94;
 
 /// Curvature vector at the point between two chords, pointing inward; empty at a corner.
 std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double least_cosine)
@@ -37,7 +33,7 @@ void add_chords(const std::vector<Vec3>& points, const std::vector<bool>& starts
     const auto way = [&](std::size_t i) { return Vec3(points[(i + 1) % count] - points[i]); };
     std::vector<std::optional<Vec3>> bend(count);
     for (std::size_t i = 0; i < count; ++i)
-        bend[i] = curvature(way((i + count - 1) % count), way(i), starts[i] ? kGoesOn : 0);
+        bend[i] = curvature(way((i + count - 1) % count), way(i), starts[i] ? kOneCurve : 0);
     for (std::size_t i = 0; i < count; ++i) {
         const std::optional<Vec3>&before = bend[i], &after = bend[(i + 1) % count];
         const Vec3 sum = before.value_or(Vec3::Zero()) + after.value_or(Vec3::Zero());
@@ -90,7 +86,7 @@ std::vector<RimChord> rim_chords(const Model& model, FaceId face)
 
 double off_arcs(const Vec3& p, std::span<const RimChord> rim)
 {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (const RimChord& chord : rim) {
         const double f = fraction_along(p, chord.from, chord.to), height = 4 * f * (1 - f);
         const Vec3 place = (1 - f) * chord.from + f * chord.to + height * chord.bulge;

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/second_order.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/sweep/detail/middle_placer.h>
 
 #include <limits>
@@ -27,10 +28,9 @@ void check_amount(const mesh::HexMesh& mesh)
 Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh, const PlacedSkin& skin,
                           const Crew* crew, const RunContext& context)
 {
-    constexpr double kNone = std::numeric_limits<double>::infinity(); // misplaced corners were looked for
     Elevated result;
     result.layers = with_middles(layers, {mesh.middles.full, skin.middles.nodes()}, context);
-    result.quality = find_in_layers(*result.layers, kNone, crew, context).quality;
+    result.quality = find_in_layers(*result.layers, kInfinity, crew, context).quality;
     if (result.quality.uncertified > 0) result.layers.reset();
     return result;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/source_quads.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/shared/odd_region.h>
 #include <lacuna/quads/shared/pave.h>
 #include <lacuna/quads/shared/submap.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 
@@ -67,7 +67,6 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
-    constexpr double kGrading = 0.3;
     double more = 0;
     for (const surface::LinkingSurface& link : links) {
         const std::vector<double> turning = surface::turning_of_segments(model, link);
@@ -76,7 +75,7 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
             const double middle[] = {(segment.source_from + segment.source_to) / 2};
             const double by_size = (segment.source_to - segment.source_from) /
                                    size(link.source.points(middle).front());
-            more += std::max(0., turning[i] * per_turn / (2 * std::numbers::pi) - by_size);
+            more += std::max(0., turning[i] * per_turn / kFullTurn - by_size);
         }
     }
     return more / kGrading;

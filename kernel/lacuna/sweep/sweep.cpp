@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -108,9 +109,6 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// A mesh with this least scaled Jacobian is taken; below it the next plans are tried too. A square swept to
-/// a circle with 0.2 has 0.7 if swept from the circle. Not measured: a higher value tries more plans.
-constexpr double kGood = 0.3;
 /// The most meshes that are tried for a volume.
 constexpr std::size_t kMostTried = 6;
 /// The refusal of an end that came with triangles: no plan may mesh it anew unasked.
@@ -132,7 +130,7 @@ public:
     {
         for (std::size_t i = 0; i < std::min(plans.size(), kMostTried); ++i) {
             if (!is_like_each(plans[i])) attempt(plans[i]);
-            if (best_ && (best_->min_scaled_jacobian >= kGood || plan_->keeps_end)) break;
+            if (best_ && (best_->min_scaled_jacobian >= kPoorCell || plan_->keeps_end)) break;
         }
         if (!best_) throw NotSweepable(std::move(*refusal_));
         if (!plan_->layers.empty()) best_->report.push_back(plan_->layers);
@@ -250,11 +248,8 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     }
 }
 
-/// With default sizes, a mesh with a smaller least scaled Jacobian gets a warning. Not measured.
-constexpr double kPoor = 0.1;
-/// Relative volume difference above which a note is added.
-constexpr double kNoted = 0.02;
-/// Target for the sizes in that note, to reach 1 %: bends and barrels lost up to 1.6 times the estimate.
+/// Target for the sizes in the note about the volume, to reach 1 %: bends and barrels lost up to 1.6 times
+/// the estimate.
 constexpr double kWanted = 0.006;
 
 /// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square
@@ -290,11 +285,11 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     share_deadline(options.improving);
     Swept swept = sweep_or_with_wedges(volume, options, context);
-    if (!asked.size && swept.min_scaled_jacobian < kPoor) {
+    if (!asked.size && swept.min_scaled_jacobian < kPoorCell) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
         swept.report.push_back(swept.defaults.back());
     }
-    if (std::abs(volume_lost(swept.fidelity)) > kNoted) {
+    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) {
         swept.notes.push_back(volume_in_words(swept));
         swept.report.push_back("note: " + swept.notes.back());
     }

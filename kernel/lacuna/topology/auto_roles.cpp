@@ -5,6 +5,7 @@
 // adds them up.
 #include <lacuna/topology/auto_roles.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/marks.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -36,9 +36,6 @@ constexpr double kLoose = 0.3;
 /// straight sweep, a quarter or less for a bend by 90°. Tuned on 277 voids of prisms, tubes, bends and
 /// pockets.
 constexpr double kAcross = 2.0;
-/// Tolerance (1 − cosine) for normals that point in one direction, and for the mean normal of a flat patch:
-/// about a degree. Rule of thumb.
-constexpr double kOneWay = 2e-4;
 /// Mean inclination of walls below which a volume with steps can be cut straight along the sweep. Rule of
 /// thumb.
 constexpr double kStraight = 0.02;
@@ -54,21 +51,20 @@ constexpr std::size_t kMostFaces = 12;
 /// 10 MB.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
-constexpr std::size_t kNone = PatchMap::kNone;
-constexpr std::size_t kGap = kNone - 1; ///< in place of the target's rim: the walls lead to a free loop
+constexpr std::size_t kGap = kNoIndex - 1; ///< in place of the target's rim: the walls lead to a free loop
 
-/// The patches that are ends; `kNone` for a missing end.
+/// The patches that are ends; `kNoIndex` for a missing end.
 struct Reading {
-    std::size_t source = kNone, target = kNone;
+    std::size_t source = kNoIndex, target = kNoIndex;
     double cost = 0;
-    std::size_t step = kNone; ///< index of the candidate if its ends are several patches
+    std::size_t step = kNoIndex; ///< index of the candidate if its ends are several patches
 
     /// Likelier first; of equal ones those without ends, then steps, then by their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
         const auto rank = [](const Reading& r) {
-            const std::size_t kind = r.source == kNone ? 0 : r.step != kNone ? 1 : 2;
+            const std::size_t kind = r.source == kNoIndex ? 0 : r.step != kNoIndex ? 1 : 2;
             return std::tuple(kind, kind == 1 ? r.step : r.source, r.target + 1); // 0 for a missing end
         };
         return rank(x) < rank(y);
@@ -84,8 +80,8 @@ struct SteppedEnds {
 struct WallPart {
     long euler = 0;
     std::size_t rims = 0;
-    std::size_t source_rim = kNone, target_rim = kNone; ///< the rim of each end that it touches
-    bool several = false;                               ///< it touches several rims of one end
+    std::size_t source_rim = kNoIndex, target_rim = kNoIndex; ///< the rim of each end that it touches
+    bool several = false;                                     ///< it touches several rims of one end
 };
 
 /// The angles across edges, where the smooth edges of a flat face to a bent one count as just sharp: a floor
@@ -95,12 +91,12 @@ std::vector<double> parted_at_flat_faces(const Model& model, std::vector<double>
     std::vector<bool> flat(model.faces.size());
     for (std::size_t f = 0; f < flat.size(); ++f) {
         const FaceId id(f);
-        flat[f] = face_area_vector(model, id).norm() > (1 - kOneWay) * face_area(model, id);
+        flat[f] = face_area_vector(model, id).norm() > (1 - kFlatShare) * face_area(model, id);
     }
     for (std::size_t e = 0; e < angle.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() == 2 && flat[uses[0].face.index()] != flat[uses[1].face.index()])
-            angle[e] = std::max(angle[e], kSmooth);
+            angle[e] = std::max(angle[e], kCreaseAngle);
     }
     return angle;
 }
@@ -124,11 +120,11 @@ public:
     {
         for (std::size_t p = 0; p < map_.patches.size(); ++p) index_patch(p);
         for (std::size_t u = 0; u < map_.of_use.size(); ++u) {
-            if (map_.of_use[u] != kNone && map_.of_use[u ^ 1] == kNone)
+            if (map_.of_use[u] != kNoIndex && map_.of_use[u ^ 1] == kNoIndex)
                 free_.push_back({EdgeId(u / 2), u % 2 == 1});
         }
         for (std::size_t e = 0; e < angle_.size(); ++e) {
-            if (angle_[e] >= kSmooth) sharp_.emplace_back(e);
+            if (angle_[e] >= kCreaseAngle) sharp_.emplace_back(e);
         }
         if (!used_twice_) tally_.emplace(map_, free_loops());
     }
@@ -152,7 +148,7 @@ public:
             }
             std::push_heap(found.begin(), found.end());
         };
-        if (const auto cost = cost_of_no_end()) add({kNone, kNone, *cost});
+        if (const auto cost = cost_of_no_end()) add({kNoIndex, kNoIndex, *cost});
         if (free_.empty()) {
             if (!after) find_stepped();
             for (const Reading& reading : with_steps_) add(reading);
@@ -160,7 +156,7 @@ public:
         for (std::size_t a = 0; a < map_.patches.size(); ++a) {
             check_cancelled(context_);
             if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
-                add({a, kNone, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
+                add({a, kNoIndex, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
         }
         // Patches that may be combined with the most others first.
         std::vector<std::size_t> order(map_.patches.size());
@@ -190,23 +186,23 @@ public:
     [[nodiscard]] bool holds(const Reading& reading)
     {
         check_cancelled(context_);
-        if (reading.source == kNone || reading.step != kNone) return true; // checked with its cost
+        if (reading.source == kNoIndex || reading.step != kNoIndex) return true; // checked with its cost
         if (flat_alone_ && has_fans(reading)) return false;
         windows_ = 0;
         const std::vector<WallPart> parts = wall_parts(reading);
         const SmoothPatch& source = map_.patches[reading.source];
-        std::vector<std::size_t> served(source.rims.size(), kNone);
+        std::vector<std::size_t> served(source.rims.size(), kNoIndex);
         std::size_t before_gap = 0, behind_gap = 0;
         for (const WallPart& part : parts) {
-            if (part.several || (part.source_rim == kNone && part.target_rim == kNone)) return false;
-            if (part.source_rim == kNone || part.target_rim == kNone) {
+            if (part.several || (part.source_rim == kNoIndex && part.target_rim == kNoIndex)) return false;
+            if (part.source_rim == kNoIndex || part.target_rim == kNoIndex) {
                 // A ring to a free loop: towards the missing end, or towards a missing ring of the walls.
                 if (part.rims != 2 || part.euler != 0) return false;
-                if (part.source_rim == kNone) {
+                if (part.source_rim == kNoIndex) {
                     ++behind_gap;
                     continue;
                 }
-                if (served[part.source_rim] != kNone) return false;
+                if (served[part.source_rim] != kNoIndex) return false;
                 served[part.source_rim] = kGap;
                 ++before_gap;
                 continue;
@@ -214,10 +210,10 @@ public:
             // Walls with a handle are no ring, whatever closes the missing faces.
             if (part.euler != 2 - static_cast<long>(part.rims)) return false;
             std::size_t& now = served[part.source_rim];
-            if (now != kNone && now != part.target_rim) return false;
+            if (now != kNoIndex && now != part.target_rim) return false;
             now = part.target_rim;
         }
-        return reading.target == kNone || before_gap == behind_gap;
+        return reading.target == kNoIndex || before_gap == behind_gap;
     }
 
     /// A candidate with all its data. @pre holds()
@@ -225,7 +221,7 @@ public:
     {
         RoleCandidate result;
         result.cost = reading.cost;
-        if (reading.source != kNone) result.irregular = irregular(reading);
+        if (reading.source != kNoIndex) result.irregular = irregular(reading);
         const std::array<std::vector<FaceId>*, 3> lists{&result.roles.walls, &result.roles.source,
                                                         &result.roles.target};
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
@@ -241,8 +237,8 @@ public:
     /// @pre holds() was called for it last
     [[nodiscard]] double cost_of_walls(const Reading& reading)
     {
-        if (reading.source == kNone) return 0;
-        const std::size_t windows = reading.target == kNone || reading.step != kNone ? 0 : windows_;
+        if (reading.source == kNoIndex) return 0;
+        const std::size_t windows = reading.target == kNoIndex || reading.step != kNoIndex ? 0 : windows_;
         return cost_of_facing_along(reading) + cost_of_loose_edges(reading) + cost_of_steps(reading) +
                kLoose * static_cast<double>(windows);
     }
@@ -252,7 +248,7 @@ private:
     [[nodiscard]] double cost_of_facing_along(const Reading& reading) const
     {
         const SmoothPatch& source = map_.patches[reading.source];
-        const Vec3 way = reading.target == kNone || reading.step != kNone
+        const Vec3 way = reading.target == kNoIndex || reading.step != kNoIndex
                              ? source.normal
                              : (map_.patches[reading.target].centre - source.centre).stableNormalized();
         double along = 0, area = 0;
@@ -266,7 +262,7 @@ private:
 
     [[nodiscard]] double cost_of_steps(const Reading& reading) const
     {
-        if (reading.step == kNone) return 0;
+        if (reading.step == kNoIndex) return 0;
         const SteppedEnds& ends = stepped_[reading.step];
         const auto patches = static_cast<double>(ends.source.size() + ends.target.size());
         return kStep * std::log2(patches - 1) + (ends.source.size() > 1 ? kBothSteps : 0);
@@ -293,10 +289,10 @@ private:
             }
         }
         // The walls of a step run from one part of an end to another.
-        const bool steps = reading.step != kNone;
+        const bool steps = reading.step != kNoIndex;
         const unsigned wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1U : 0U) |
                                             (stepped_[reading.step].target.size() > 1 ? 2U : 0U)
-                                      : (reading.target == kNone ? 1U : 3U);
+                                      : (reading.target == kNoIndex ? 1U : 3U);
         double cost = 0;
         for (const auto& [root, ends] : touched)
             cost += (steps ? (ends & wanted) != 0 : (ends & wanted) == wanted) ? 0 : kLoose;
@@ -306,7 +302,7 @@ private:
     /// The end of a candidate that a patch belongs to: 1 the source, 2 the target; 0: it is a wall.
     [[nodiscard]] unsigned end_of(std::size_t p, const Reading& reading) const
     {
-        if (reading.step == kNone) return p == reading.source ? 1 : p == reading.target ? 2 : 0;
+        if (reading.step == kNoIndex) return p == reading.source ? 1 : p == reading.target ? 2 : 0;
         const SteppedEnds& ends = stepped_[reading.step]; // both ascending
         return std::ranges::binary_search(ends.source, p)   ? 1
                : std::ranges::binary_search(ends.target, p) ? 2
@@ -327,7 +323,7 @@ private:
     {
         std::vector<std::size_t> flat;
         for (std::size_t p = 0; p < map_.patches.size(); ++p) {
-            if (map_.patches[p].flatness > 1 - kOneWay && !map_.patches[p].rims.empty()) flat.push_back(p);
+            if (map_.patches[p].flatness > 1 - kFlatShare && !map_.patches[p].rims.empty()) flat.push_back(p);
         }
         Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
         double area = 0;
@@ -340,9 +336,9 @@ private:
             double ends = 0;
             for (const std::size_t p : flat) {
                 const double facing = map_.patches[p].normal.dot(way);
-                if (facing > 1 - kOneWay) ahead.push_back(p);
-                if (facing < kOneWay - 1) same.push_back(p);
-                if (std::abs(facing) > 1 - kOneWay) ends += map_.patches[p].area;
+                if (facing > 1 - kFlatShare) ahead.push_back(p);
+                if (facing < kFlatShare - 1) same.push_back(p);
+                if (std::abs(facing) > 1 - kFlatShare) ends += map_.patches[p].area;
                 if (!same.empty() && same.front() < source) break;
             }
             if (ahead.empty() || same.size() + ahead.size() < 3) continue;
@@ -377,7 +373,7 @@ private:
             for (const Loop& loop : model_[face].loops) {
                 for (std::size_t i = 0; i < loop.uses.size(); ++i) {
                     std::size_t& patch = map_.of_use[number_of(loop.uses[i])];
-                    used_twice_ = used_twice_ || patch != kNone;
+                    used_twice_ = used_twice_ || patch != kNoIndex;
                     patch = p;
                     map_.next[number_of(loop.uses[i])] = loop.uses[(i + 1) % loop.uses.size()];
                 }
@@ -488,7 +484,7 @@ private:
     [[nodiscard]] bool has_fans(const Reading& reading) const
     {
         const auto is_wall = [&](std::size_t p) {
-            return p != kNone && p != reading.source && p != reading.target;
+            return p != kNoIndex && p != reading.source && p != reading.target;
         };
         std::vector<char> leaving(model_.vertices.size(), 0);
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
@@ -499,8 +495,8 @@ private:
                 leaving[v.index()] = static_cast<char>(std::min(leaving[v.index()] + 1, 2));
         }
         const auto fans = [&](std::size_t end) {
-            return end != kNone && std::ranges::any_of(map_.patches[end].vertices,
-                                                       [&](VertexId v) { return leaving[v.index()] > 1; });
+            return end != kNoIndex && std::ranges::any_of(map_.patches[end].vertices,
+                                                          [&](VertexId v) { return leaving[v.index()] > 1; });
         };
         return fans(reading.source) || fans(reading.target);
     }
@@ -511,25 +507,25 @@ private:
     [[nodiscard]] bool on_wall(EdgeUse use) const
     {
         const std::size_t patch = map_.of_use[number_of(use)];
-        return patch != kNone && part_of_[patch] != kNone;
+        return patch != kNoIndex && part_of_[patch] != kNoIndex;
     }
 
     [[nodiscard]] std::vector<WallPart> wall_parts(const Reading& reading)
     {
-        constexpr std::size_t unseen = kNone - 1;
+        constexpr std::size_t unseen = kNoIndex - 1;
         std::fill(part_of_.begin(), part_of_.end(), unseen);
-        part_of_[reading.source] = kNone;
-        if (reading.target != kNone) part_of_[reading.target] = kNone;
+        part_of_[reading.source] = kNoIndex;
+        if (reading.target != kNoIndex) part_of_[reading.target] = kNoIndex;
         std::vector<WallPart> parts;
         for (std::size_t start = 0; start < map_.patches.size(); ++start) {
             if (part_of_[start] != unseen) continue;
             part_of_[start] = parts.size();
-            parts.push_back({flood(start, unseen), 0, kNone, kNone, false});
+            parts.push_back({flood(start, unseen), 0, kNoIndex, kNoIndex, false});
         }
         use_seen_.clear();
         for (const EdgeUse use : free_) count_rim(use, parts);
         touch(reading.source, &WallPart::source_rim, parts);
-        if (reading.target != kNone) touch(reading.target, &WallPart::target_rim, parts);
+        if (reading.target != kNoIndex) touch(reading.target, &WallPart::target_rim, parts);
         return parts;
     }
 
@@ -549,7 +545,7 @@ private:
                 --euler;
                 for (const std::size_t use : {2 * e.index(), 2 * e.index() + 1}) {
                     const std::size_t other = map_.of_use[use];
-                    if (other == kNone || part_of_[other] != unseen) continue;
+                    if (other == kNoIndex || part_of_[other] != unseen) continue;
                     part_of_[other] = part_of_[start];
                     front.push_back(other);
                 }
@@ -566,7 +562,7 @@ private:
         ++parts[part_of_[map_.of_use[number_of(use)]]].rims;
         bool free = true;
         while (use_seen_.add(number_of(use))) {
-            free = free && map_.of_use[number_of(opposite(use))] == kNone;
+            free = free && map_.of_use[number_of(opposite(use))] == kNoIndex;
             use = map_.next[number_of(use)];
             for (std::size_t turns = 0; on_wall(opposite(use)) && turns <= map_.next.size(); ++turns)
                 use = map_.next[number_of(opposite(use))];
@@ -583,7 +579,7 @@ private:
                 if (!on_wall(opposite(use))) continue;
                 count_rim(opposite(use), parts);
                 WallPart& part = parts[part_of_[map_.of_use[number_of(opposite(use))]]];
-                part.several = part.several || (part.*rim != kNone && part.*rim != r);
+                part.several = part.several || (part.*rim != kNoIndex && part.*rim != r);
                 part.*rim = r;
             }
         }
@@ -609,8 +605,8 @@ private:
     [[nodiscard]] VolumeClass class_of(const Reading& reading) const
     {
         if (free_.empty()) return VolumeClass::closed;
-        if (reading.source == kNone) return VolumeClass::V;
-        if (reading.target == kNone) return VolumeClass::IV;
+        if (reading.source == kNoIndex) return VolumeClass::V;
+        if (reading.target == kNoIndex) return VolumeClass::IV;
         if (map_.patches.size() == 2) return VolumeClass::I;
         const bool both_bare = !walled_in(reading.source, reading) && !walled_in(reading.target, reading);
         return both_bare ? VolumeClass::II : VolumeClass::III;
@@ -620,23 +616,23 @@ private:
     {
         const std::vector<NamedEntity> source = entities_of(model_, roles.source),
                                        target = entities_of(model_, roles.target);
-        if (reading.source == kNone) {
+        if (reading.source == kNoIndex) {
             const std::size_t tubes = connected_parts(model_, roles.walls).size();
             return {formatted("all faces form {} tube{} with a free loop at either side: source and target "
                               "are missing",
                               tubes, tubes == 1 ? "" : "s")};
         }
-        if (reading.target == kNone) {
+        if (reading.target == kNoIndex) {
             return {formatted("{} has walls on its whole rim, and each ring of walls ends in one free loop: "
                               "the target is missing",
                               source)};
         }
-        if (reading.step != kNone && roles.source.size() > 1) {
+        if (reading.step != kNoIndex && roles.source.size() > 1) {
             return {formatted("flat faces with the same normal, {}, are one end, and the opposite faces {} "
                               "are the other: both at several heights",
                               source, target)};
         }
-        if (reading.step != kNone) {
+        if (reading.step != kNoIndex) {
             return {formatted("the flat faces opposite {} are the other end, at several heights: {}", source,
                               target)};
         }
@@ -655,7 +651,7 @@ private:
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< by stepped candidate
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
-    std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNone`: an end
+    std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNoIndex`: an end
     std::size_t windows_ = 0;          ///< of the candidate last checked
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;
@@ -685,7 +681,7 @@ std::vector<RoleCandidate> candidates_of(const Model& part, bool flat_alone, con
 {
     Readings readings(part, flat_alone, context);
     std::vector<Reading> held;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     // The cost of the ends is a lower bound: the walls only add to it.
     std::optional<Reading> last;
     for (bool more = true; more;) {

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/auto_walls.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -21,12 +22,6 @@ namespace {
 
 /// Steps of the search for choices; a hundred sheets that meet in threes take about as many.
 constexpr std::size_t kMostSteps = 100000;
-/// Free lengths that differ by less than this share of the diagonal are equal.
-constexpr double kSameLength = 1e-6;
-/// Volumes that differ by less than this share of the larger are equal. Rule of thumb.
-constexpr double kSameVolume = 0.01;
-/// Normals within a degree count as equal, as for the ends of role_candidates().
-constexpr double kFacesAsEnd = 2e-4;
 
 /// Every face connected to some faces over shared edges without crossing the excluded ones.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
@@ -256,7 +251,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     orient_consistently(oriented);
     const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
     const auto faces_as_end = [&](FaceId face) { // and is flat
-        return face_area_vector(oriented, face).dot(way) > (1 - kFacesAsEnd) * face_area(oriented, face);
+        return face_area_vector(oriented, face).dot(way) > (1 - kFlatShare) * face_area(oriented, face);
     };
     if (!std::ranges::all_of(end, faces_as_end)) return result;
     std::vector<FaceId> across = result.walls;
@@ -289,7 +284,7 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     if (choices && (source.empty() || target.empty()))
         std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
     if (!choices || choices->empty()) return {reached, {}, {}, false, {}};
-    const double same = kSameLength * model.diagonal;
+    const double same = kFileAccuracy * model.diagonal;
     const double least = std::ranges::min_element(*choices, {}, &Choice::free_length)->free_length;
     std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });
     std::ranges::stable_sort(*choices, {}, &Choice::volume);

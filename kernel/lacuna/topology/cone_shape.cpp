@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/cone_shape.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/spread.h>
 
 #include <Eigen/Dense>
@@ -14,10 +15,6 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Share of the largest radius, as in `round_shape()` for cylinders and spheres.
-constexpr double kMostOff = 0.01;
-/// Sines of half angles beyond which a cone is a cylinder or a plane: 1° and 89°. Rule of thumb.
-constexpr double kLeastLean = 0.0175, kMostLean = 0.99985;
 /// Normals that spread less than this (squared) about their mean define no axis: a turn of some degrees. Rule
 /// of thumb.
 constexpr double kLeastSpread = 1e-3;
@@ -52,11 +49,11 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.size() < 4) return {};
     const geometry::Spread spread = geometry::spread_of(normals, areas);
-    if (spread.square[0] > kMostOff || spread.square[1] < kLeastSpread) return {};
+    if (spread.square[0] > kOffShape || spread.square[1] < kLeastSpread) return {};
     ConeShape cone;
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
-    if (lean < kLeastLean || lean > kMostLean) return {};
+    if (lean < kParallel || lean > 1 - kFlatShare) return {}; // a cylinder or a plane
     // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the other
     // unknowns for the slope s of the normals. Facets are chords, so the slope is fitted again about that
     // axis.
@@ -79,10 +76,10 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     const Vec2 centre = found.head<2>();
     const Eigen::VectorXd radius = ((left.leftCols<2>() / 2).rowwise() - centre.transpose()).rowwise().norm();
     const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(radius);
-    if (!(std::abs(fit[0]) > kLeastLean)) return {};
+    if (!(std::abs(fit[0]) > kParallel)) return {};
     cone.least_radius = radius.minCoeff();
     cone.largest_radius = radius.maxCoeff();
-    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kMostOff * cone.largest_radius)) return {};
+    if (!((line * fit - radius).cwiseAbs().maxCoeff() <= kOffShape * cone.largest_radius)) return {};
     cone.half_angle = std::atan(std::abs(fit[0])) * 180 / std::numbers::pi;
     cone.apex = origin + across * centre - fit[1] / fit[0] * cone.axis;
     if (fit[0] < 0) cone.axis = -cone.axis;

@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/hollows.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -97,7 +97,7 @@ std::set<EdgeId> edges_of(const std::vector<Rim>& rims)
 /// Extent of faces along a direction.
 double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
 {
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     for (const FaceId face : faces)
         for (const Triangle& t : model[face].triangles)
             for (const Index p : t) most = std::max(most, way.dot(model.at(p)));
@@ -131,7 +131,7 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
         const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
-        double brim = std::numeric_limits<double>::infinity();
+        double brim = kInfinity;
         for (const Vec3& p : mouth) brim = std::min(brim, out.dot(p));
         std::erase_if(parts,
                       [&](const auto& part) { return !(reach(model, part, out) < brim - model.tolerance); });
@@ -158,7 +158,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
         for (const FaceId face : shell) hang.unite_least(shell.front().index(), face.index());
     for (std::size_t e = 0; e < fold.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
-        if (uses.size() == 2 && fold[e] < kSmooth)
+        if (uses.size() == 2 && fold[e] < kCreaseAngle)
             hang.unite_least(uses[0].face.index(), uses[1].face.index());
     }
     std::map<std::size_t, std::vector<FaceId>> by_root;

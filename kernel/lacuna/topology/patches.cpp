@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/patches.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -170,7 +171,7 @@ std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<do
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
-        if (angle[e] < kSmooth) smooth.unite_least(uses[0].face.index(), uses[1].face.index());
+        if (angle[e] < kCreaseAngle) smooth.unite_least(uses[0].face.index(), uses[1].face.index());
     }
     std::map<std::size_t, SmoothPatch> by_root;
     for (std::size_t f = 0; f < model.faces.size(); ++f) by_root[smooth.find(f)].faces.emplace_back(f);

@@ -12,10 +12,10 @@ WallTally::WallTally(const PatchMap& map, std::size_t free_loops) : map_(map), t
     geometry::UnionFind hang(map_.patches.size());
     for (std::size_t u = 0; u < map_.of_use.size(); ++u) {
         const std::size_t p = map_.of_use[u], q = map_.of_use[u ^ 1];
-        if (p == PatchMap::kNone) continue;
-        if (u % 2 == 0 || q == PatchMap::kNone) whole_.edges += 1;
-        if (q == PatchMap::kNone || (q == p && u % 2 == 0)) ++taken_[p].edges;
-        if (q == PatchMap::kNone || q == p) continue;
+        if (p == kNoIndex) continue;
+        if (u % 2 == 0 || q == kNoIndex) whole_.edges += 1;
+        if (q == kNoIndex || (q == p && u % 2 == 0)) ++taken_[p].edges;
+        if (q == kNoIndex || q == p) continue;
         ++taken_[p].contacts;
         hang.unite_least(p, q);
     }
@@ -38,17 +38,17 @@ void WallTally::count_fans()
 {
     // A corner is identified by the use that leaves it. The next one round its vertex is across that use.
     const auto next = [&](std::size_t use) {
-        return map_.of_use[use ^ 1] == PatchMap::kNone ? PatchMap::kNone : number_of(map_.next[use ^ 1]);
+        return map_.of_use[use ^ 1] == kNoIndex ? kNoIndex : number_of(map_.next[use ^ 1]);
     };
     std::vector<bool> has_before(map_.of_use.size(), false), seen(map_.of_use.size(), false);
     for (std::size_t u = 0; u < map_.of_use.size(); ++u)
-        if (map_.of_use[u] != PatchMap::kNone && next(u) != PatchMap::kNone) has_before[next(u)] = true;
+        if (map_.of_use[u] != kNoIndex && next(u) != kNoIndex) has_before[next(u)] = true;
     std::vector<std::size_t> run; // the patches of a fan's corners, adjacent repeats dropped
     const auto count_fan = [&](std::size_t first) {
         ++whole_.fans;
         run.clear();
         std::size_t corner = first;
-        while (corner != PatchMap::kNone && !seen[corner]) {
+        while (corner != kNoIndex && !seen[corner]) {
             seen[corner] = true;
             if (run.empty() || run.back() != map_.of_use[corner]) run.push_back(map_.of_use[corner]);
             corner = next(corner);
@@ -72,7 +72,7 @@ void WallTally::count_fans()
     };
     for (const bool open : {true, false}) {
         for (std::size_t u = 0; u < map_.of_use.size(); ++u)
-            if (map_.of_use[u] != PatchMap::kNone && !seen[u] && has_before[u] != open) count_fan(u);
+            if (map_.of_use[u] != kNoIndex && !seen[u] && has_before[u] != open) count_fan(u);
     }
 }
 

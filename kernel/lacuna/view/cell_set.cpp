@@ -117,17 +117,17 @@ std::vector<double> quality_of(const ListedCells& region, const RunContext& cont
     const std::vector<double> found = quality::metric_values(region.nodes, measured,
                                                              quality::Metric::scaled_jacobian, context);
     for (std::size_t i = 0; i < found.size(); ++i) values[place[i]] = found[i];
-    constexpr std::size_t kGrain = 256; // as for swept meshes
-    parallel_for(context, region.curved.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const std::span<const Index> own = region.curved[c].all();
-            if (own.empty()) continue;
-            std::array<Vec3, 27> places;
-            for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
-            const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
-            if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
-        }
-    });
+    parallel_for(context, region.curved.size(), quality::kCurvedGrain,
+                 [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t c = begin; c < end; ++c) {
+                         const std::span<const Index> own = region.curved[c].all();
+                         if (own.empty()) continue;
+                         std::array<Vec3, 27> places;
+                         for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
+                         const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
+                         if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
+                     }
+                 });
     return values;
 }
 

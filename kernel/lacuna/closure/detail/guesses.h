@@ -41,10 +41,6 @@ FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
 /// The error "topology.shape_open" about such a hole, without a remedy.
 Message guess_of_hole(const topology::Model& model, FaceId face);
 
-/// Share of the volume above which an assumption is reported as such: as much as a mesh may lose of the
-/// sealed volume.
-constexpr double kMatters = 0.02;
-
 /// Add a note about an assumption; it is listed as an assumption if it changes the volume enough.
 /// @param share  relative change of the volume under the alternative
 void assume(Closure& closure, const char* code, std::string text, double share);

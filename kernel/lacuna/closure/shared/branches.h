@@ -9,6 +9,10 @@
 
 namespace lacuna::closure {
 
+/// A direction runs along a body's axis if the sine between them is below this (6°). A lower value accepts
+/// branches that leave almost along the axis, whose cuts are ill-defined.
+inline constexpr double kAlongAxis = 0.1;
+
 /// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls separates
 /// the skin into a side with two ends, given or missing, and a side that has an end too or is deeper than
 /// half its width.

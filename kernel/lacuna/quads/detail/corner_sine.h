@@ -3,17 +3,15 @@
 
 /// The sine of the corners of planar quads, the quality measure of this folder.
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/plane.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace lacuna::quads {
 
 using geometry::cross;
 using geometry::turn_between;
-
-inline constexpr double kRightAngle = std::numbers::pi / 2;
 
 /// Number of quads that suit an angle, at least one.
 inline int quads_in(double angle) { return std::max(1, static_cast<int>(angle / kRightAngle + 0.5)); }

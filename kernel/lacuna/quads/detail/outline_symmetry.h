@@ -12,6 +12,10 @@
 
 namespace lacuna::quads {
 
+/// Angles of symmetries that differ by less are equal: far above the accuracy of nodes, far below the angle
+/// between two symmetries [radian].
+inline constexpr double kSameAngle = 1e-5;
+
 /// A rotation about a centre. If `mirrors`, a reflection in the first axis comes before it.
 struct Isometry {
     Vec2 centre;

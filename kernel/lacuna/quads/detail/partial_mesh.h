@@ -13,13 +13,6 @@
 
 namespace lacuna::quads::paving {
 
-/// A boundary node with a smaller angle is a corner with one quad: half way between a right and a straight
-/// angle.
-inline constexpr double kCornerBelow = 1.5 * kRightAngle;
-/// With a larger angle the outline turns inward: half way between a straight angle and a corner of three
-/// quads.
-inline constexpr double kBentAbove = 2.5 * kRightAngle;
-
 /// Weights of the terms of a cut's cost. No weights are best for all outlines, so small regions are cut with
 /// several.
 struct CutWeights {

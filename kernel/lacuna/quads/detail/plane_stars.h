@@ -3,12 +3,12 @@
 
 /// The quads around each point of a mesh with fixed connections; for connections that change see `QuadNet`.
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/types.h>
 #include <lacuna/quads/detail/corner_sine.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -72,7 +72,7 @@ inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> st
 /// The shortest side at a point if it were at `x`.
 inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
-    double squared = std::numeric_limits<double>::infinity();
+    double squared = kInfinity;
     for (const Spoke& spoke : star) {
         squared = std::min({squared, (points[index(spoke.next)] - x).squaredNorm(),
                             (points[index(spoke.before)] - x).squaredNorm()});
@@ -112,8 +112,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
         // Without a square root or a division: clearly below.
-        constexpr double kClearly = 1 - 1e-12;
-        const double squared = kClearly * floor * floor;
+        const double squared = (1 - kRoundoff) * floor * floor;
         const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
                                           ac * ac < squared * aa * cc || db * db < squared * dd * bb);
         if (!below) {
@@ -131,7 +130,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
 inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     std::size_t first = 0;
-    return least_sine_above(points, star, x, -std::numeric_limits<double>::infinity(), first);
+    return least_sine_above(points, star, x, -kInfinity, first);
 }
 
 } // namespace lacuna::quads

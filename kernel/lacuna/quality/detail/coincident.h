@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/types.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +20,7 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
 /// Points closer than this coincide: 1e-9 of the diagonal.
 inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
 {
-    return 1e-9 * bounds.diagonal().norm();
+    return kSamePlace * bounds.diagonal().norm();
 }
 
 /// Find two points within `tolerance` of each other; the same pair for any number of threads. O(points).

@@ -5,10 +5,14 @@
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quality/quality.h>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace lacuna::quality {
+
+/// Curved cells that a thread takes at a time: each takes a few microseconds.
+inline constexpr std::size_t kCurvedGrain = 256;
 
 /// Validity and quality of a hexahedron of order 2.
 struct CurvedCell {

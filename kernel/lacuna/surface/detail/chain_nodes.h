@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 #include <vector>
 
 namespace lacuna::surface {
-
-/// Running lengths closer than this, as a share of the chain, are equal: far below any side, far above
-/// rounding.
-constexpr double kSamePlace = 1e-9;
 
 /// A point of the model on a chain.
 struct ChainNode {

@@ -70,9 +70,6 @@ struct RimRows {
     [[nodiscard]] const Part* part_at(EdgeId edge, double fraction) const;
 };
 
-/// Inner angle in degrees below which rows end on the side beyond, and above which on a side of their own.
-inline constexpr double kRowsEnd = 135, kRowsBreak = 225;
-
 /// Find the parts of the source's rim with rows from the linking surfaces, and where the rows end.
 ///
 /// A wall that touches only the target's rim applies to the part of the source's rim that is swept there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/patches.h>
 
 #include <span>
@@ -12,10 +13,8 @@ namespace lacuna::topology {
 
 /// The patches of a model, indexed for role candidates.
 struct PatchMap {
-    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
     std::vector<SmoothPatch> patches;
-    std::vector<std::size_t> of_use;            ///< `kNone` for a use without a face
+    std::vector<std::size_t> of_use;            ///< `kNoIndex` for a use without a face
     std::vector<EdgeUse> next;                  ///< next use in the face's loop
     std::vector<std::vector<std::size_t>> at{}; ///< patches by vertex
 };

@@ -18,6 +18,10 @@ FacetNormals facet_normals(const Model& model, FaceId face);
 /// The corners of a face's facets, ascending.
 std::vector<Index> corner_points(const Face& face);
 
+/// A face lies on a cylinder, sphere or cone if it is off by less than this share of the radius: well above
+/// the rounding of files, below the deviation of other shapes.
+inline constexpr double kOffShape = 0.01;
+
 /// The cone that a face lies on.
 struct ConeShape {
     double half_angle = 0;     ///< between axis and surface, in (0, 90) [degrees]

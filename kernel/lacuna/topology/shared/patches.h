@@ -8,7 +8,7 @@
 
 namespace lacuna::topology {
 
-/// Faces that meet smoothly: a candidate for an end of a sweep.
+/// Faces that meet at less than `kCreaseAngle`: a candidate for an end of a sweep.
 struct SmoothPatch {
     std::vector<FaceId> faces; ///< in the model's order
     std::vector<Rim> rims;
@@ -23,10 +23,6 @@ struct SmoothPatch {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); ///< sum of area n nᵀ over the facets
     long corners = 0; ///< of its rims, in quarter turns: 4 for a rectangle, 0 for a disc
 };
-
-/// Faces that meet at less than this angle are one patch: a divided skin, not an end and a wall [degrees].
-/// Rule of thumb: a chamfer of 45° still separates two patches.
-inline constexpr double kSmooth = 30;
 
 /// Mean angle between the two faces at each edge by their normals, negative at concave edges [degrees]; 0 if
 /// they meet smoothly or are not two. Near linear in the number of facets.
