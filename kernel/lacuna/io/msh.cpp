@@ -4,7 +4,7 @@
 // entity; elements are written entity by entity. In partitioned files $Entities lists the entities of the
 // whole mesh; $PartitionedEntities has one for each part of each of them, and nodes and elements refer to
 // these.
-#include <lacuna/io/detail/msh_file.h>
+#include <lacuna/io/detail/format_table.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
@@ -20,6 +20,9 @@
 #include <set>
 
 namespace lacuna::io {
+
+WriteView msh_file;
+
 namespace {
 
 using mesh::MeshView;
@@ -183,8 +186,7 @@ struct PartEntity {
 
 class MshFile {
 public:
-    MshFile(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
-            const ViewParts* parts)
+    MshFile(const View& view, const DeckFileOptions& options, const ViewParts* parts)
         : view_(view), numbers_{options.binary}, parts_(parts)
     {
         rows_ = rows_of(nullptr);
@@ -620,7 +622,7 @@ private:
         return std::move(file_);
     }
 
-    std::shared_ptr<const MeshView> view_;
+    View view_;
     MshNumbers numbers_;
     const ViewParts* parts_;
     std::vector<Row> rows_, part_rows_;
@@ -638,8 +640,7 @@ private:
 
 } // namespace
 
-DeckFile msh_file(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
-                  const ViewParts* parts)
+DeckFile msh_file(const View& view, const DeckFileOptions& options, const ViewParts* parts)
 {
     MshFile file(view, options, parts);
     return options.msh_version == 2.2 ? file.write_22() : file.write_41();
