@@ -215,13 +215,6 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"groups", read_groups},
 };
 
-io::DeckFileOptions file_options(const WriteArguments& arguments)
-{
-    return {.binary = arguments.msh.binary,
-            .msh_version = arguments.msh.version,
-            .all_groups = arguments.msh.all_groups};
-}
-
 /// The decks that models were read from as one; `merged` holds it where there are several.
 const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, const RunContext& context)
 {
@@ -281,7 +274,7 @@ void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::O
     WriteArguments all = arguments;
     all.deck.format = format.deck;
     const JoinedMesh one{&mesh, arguments.deck.material};
-    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, file_options(arguments));
+    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, arguments.msh);
 }
 
 /// An option that was given and that the format does not have; null: none.
@@ -402,8 +395,7 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!arguments.with.empty()) {
         arguments.deck.format = format.deck;
-        return io::write_deck(joined_deck(state, arguments, context), format, path, context,
-                              file_options(arguments));
+        return io::write_deck(joined_deck(state, arguments, context), format, path, context, arguments.msh);
     }
     std::vector<mesh::LayeredPart> parts;
     for (std::size_t p = 0; p < state.regions.size(); ++p)

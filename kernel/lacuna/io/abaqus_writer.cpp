@@ -291,7 +291,7 @@ private:
 
 } // namespace
 
-DeckFile abaqus_file(const View& view, const DeckFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile abaqus_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     return AbaqusWriter(view).write();
 }

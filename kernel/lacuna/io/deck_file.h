@@ -99,32 +99,4 @@ struct MergeOptions {
 Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options = {},
                  const RunContext& context = {});
 
-struct DeckFileOptions {
-    bool binary = true;       ///< of .msh and .vtk
-    double msh_version = 4.1; ///< or 2.2
-    bool all_groups = false;  ///< of .msh: as `MeshFileOptions::all_groups`
-};
-
-/// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK: the
-/// complete file or none.
-///
-/// Numbers, sets and element types are kept; text of the same format is copied verbatim. Coordinates are in
-/// the basic frame, as accurate as the format allows: 16 characters in Nastran (11 to 15 digits), 20 in
-/// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
-/// nodes, elements, regions and sets; the log lists omitted content.
-///
-/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
-/// In .msh a region is a physical group, and a set of elements where these have no region; with `all_groups`
-/// all regions and sets of elements are. In .vtk and .vtu elements that are in the same
-/// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
-/// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
-/// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.
-/// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
-///                     "io.folder" and the like as `WholeFile`.
-/// @throw BackendError  as `WholeFile`.
-void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
-                const RunContext& context = {}, const DeckFileOptions& options = {});
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
-                const DeckFileOptions& options = {});
-
 } // namespace lacuna::io

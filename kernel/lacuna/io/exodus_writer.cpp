@@ -480,7 +480,7 @@ private:
 
 } // namespace
 
-DeckFile exodus_file(const View& view, const DeckFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile exodus_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     check_numbers(*view, std::numeric_limits<std::int32_t>::max(), "an Exodus file",
                   "give first_node and first_cell");

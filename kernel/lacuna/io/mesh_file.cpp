@@ -20,20 +20,6 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
     for (const std::string& note : notes) log_line(context, formatted("note: {}: {}", path.text(), note));
 }
 
-/// Clear `all_groups` if the format cannot hold it, and log that.
-DeckFileOptions options_for(const Format& format, DeckFileOptions options, const OutputPath& path,
-                            const RunContext& context)
-{
-    if (options.all_groups && options.msh_version == 2.2 && format.has_option("version")) {
-        options.all_groups = false;
-        tell({"MSH 2.2 holds one group an element, so groups = \"all\" is not "
-              "followed; version = 4.1 holds "
-              "all"},
-             path, context);
-    }
-    return options;
-}
-
 void check_version(const Format& format, const MeshFileOptions& options)
 {
     if (!format.has_option("version")) return;
@@ -49,16 +35,16 @@ void check_version(const Format& format, const MeshFileOptions& options)
 /// Write a view.
 /// @param parts  of a partition; null: the mesh is not divided
 /// @param notes  to be logged after those of the writer
-void write_view(const FormatRow& format, const View& view, const mesh::ViewParts* parts, int ghosts,
-                const std::vector<std::string>& notes, const DeckFileOptions& options, const OutputPath& path,
+void write_view(const FormatRow& format, const View& view, const mesh::ViewParts* parts,
+                const std::vector<std::string>& notes, const MeshFileOptions& options, const OutputPath& path,
                 const RunContext& context, const Team* team)
 {
     if (format.write == nullptr) {
         tell(notes, path, context, team);
         if (format.is_folder) return format.write_folder(*view, path, context);
-        return write_pieces(view, *parts, ghosts, path, context, team);
+        return write_pieces(view, *parts, options.partition.ghosts, path, context, team);
     }
-    const DeckFile file = format.write(view, options_for(format, options, path, context), parts);
+    const DeckFile file = format.write(view, options, parts);
     tell(file.notes, path, context, team);
     tell(notes, path, context, team);
     if (!file.changed.empty()) tell({file.changed}, path, context, team);
@@ -75,9 +61,7 @@ void write_divided(const FormatRow& format, const View& view, const PartsOf& par
     const bool pieces = format.write == nullptr && !format.is_folder;
     const bool divided = pieces || (options.partition.parts > 0 && format.has_option("partitions"));
     if (divided) parts = parts_of_view();
-    write_view(format, view, divided ? &parts : nullptr, options.partition.ghosts, {},
-               {.binary = options.binary, .msh_version = options.version, .all_groups = options.all_groups},
-               path, context, team);
+    write_view(format, view, divided ? &parts : nullptr, {}, options, path, context, team);
 }
 
 /// Write swept meshes with the regions and sets of a deck.
@@ -176,7 +160,7 @@ void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts,
 }
 
 void write_deck(const Deck& deck, const Format& format, const OutputPath& path, const RunContext& context,
-                const DeckFileOptions& options)
+                const MeshFileOptions& options)
 {
     if (const std::size_t lines = deck.element_count(1); lines > 0 && !format.has_lines) {
         log_line(context, formatted("{}: {} lines are not written", path.text(), lines));
@@ -200,11 +184,11 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     if (format.deck != deck.format && texts)
         notes.push_back(formatted(
             "materials, loads and other cards of {} are of another format and not carried over", deck.path));
-    write_view(row, view, nullptr, 0, notes, options, path, context, nullptr);
+    write_view(row, view, nullptr, notes, options, path, context, nullptr);
 }
 
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
-                const DeckFileOptions& options)
+                const MeshFileOptions& options)
 {
     write_deck(deck, format_of(format), path, context, options);
 }

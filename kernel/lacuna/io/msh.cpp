@@ -186,7 +186,7 @@ struct PartEntity {
 
 class MshFile {
 public:
-    MshFile(const View& view, const DeckFileOptions& options, const ViewParts* parts)
+    MshFile(const View& view, const MeshFileOptions& options, const ViewParts* parts)
         : view_(view), numbers_{options.binary}, parts_(parts)
     {
         rows_ = rows_of(nullptr);
@@ -194,7 +194,11 @@ public:
         used_.assign(view->entities.size(), 0);
         for (const Row& row : rows_) used_[row.entity] = 1;
         number_cells();
-        name_groups(options.all_groups);
+        const bool can_overlap = options.version != 2.2;
+        if (options.all_groups && !can_overlap)
+            file_.notes.emplace_back("MSH 2.2 holds one group an element, so groups = \"all\" is not "
+                                     "followed; version = 4.1 holds all");
+        name_groups(options.all_groups && can_overlap);
         if (view->point_tags.given() && view->points > 0)
             nodes_ = view->point_tags.bounds(view->points);
         else if (view->points > 0)
@@ -640,10 +644,10 @@ private:
 
 } // namespace
 
-DeckFile msh_file(const View& view, const DeckFileOptions& options, const ViewParts* parts)
+DeckFile msh_file(const View& view, const MeshFileOptions& options, const ViewParts* parts)
 {
     MshFile file(view, options, parts);
-    return options.msh_version == 2.2 ? file.write_22() : file.write_41();
+    return options.version == 2.2 ? file.write_22() : file.write_41();
 }
 
 } // namespace lacuna::io

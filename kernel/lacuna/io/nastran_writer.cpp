@@ -205,7 +205,7 @@ std::string property_text(const MeshView& view)
 
 } // namespace
 
-DeckFile nastran_file(const View& view, const DeckFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile nastran_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     MeshView::KeptText kept{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
     if (view->kept) kept = *view->kept;

@@ -107,7 +107,7 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 
 } // namespace
 
-DeckFile unv_file(const View& view, const DeckFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     constexpr DeckTag kMost = 9'999'999'999; // in ten characters: others would run into the number before
     check_numbers(*view, kMost, "a universal file", "write another format");

@@ -456,13 +456,13 @@ void refuse_unknown(const MeshView& view)
 
 } // namespace
 
-DeckFile vtu_file(const View& view, const DeckFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile vtu_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
     return {.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
 }
 
-DeckFile vtk_file(const View& view, const DeckFileOptions& options, const mesh::ViewParts* /*parts*/)
+DeckFile vtk_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
     return {.sections = vtk_sections(view, options.binary),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/formats.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/mesh/shared/mesh_view.h>
 
 #include <span>
@@ -18,7 +18,7 @@ class DeckBuilder;
 
 /// The writer of a file, one for each format: swept meshes, decks and meshes that are created while they are
 /// written are all views. @param parts  of .msh 4.1; null: the mesh is not divided
-using WriteView = DeckFile(const View& view, const DeckFileOptions& options, const mesh::ViewParts* parts);
+using WriteView = DeckFile(const View& view, const MeshFileOptions& options, const mesh::ViewParts* parts);
 
 struct FormatRow : Format {
     void (*read)(Cursor&, DeckBuilder&) = nullptr;
