@@ -5,23 +5,23 @@
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
 
-#include <lacuna/io/deck_file.h>
+#include <lacuna/io/mesh_file.h>
 
 namespace lacuna::lua {
 
 namespace {
 
-void read_version(lua_State* L, int index, const Where& where, io::DeckFileOptions& options)
+void read_version(lua_State* L, int index, const Where& where, io::MeshFileOptions& options)
 {
-    options.msh_version = read_number(L, index, where);
-    if (options.msh_version != 4.1 && options.msh_version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
+    options.version = read_number(L, index, where);
+    if (options.version != 4.1 && options.version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
 }
 
 const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
 
-const Option<io::DeckFileOptions> kOptions[] = {{"version", read_version},
-                                                {"binary", boolean<&io::DeckFileOptions::binary>},
-                                                {"groups", word<&io::DeckFileOptions::all_groups, kGroups>}};
+const Option<io::MeshFileOptions> kOptions[] = {{"version", read_version},
+                                                {"binary", boolean<&io::MeshFileOptions::binary>},
+                                                {"groups", word<&io::MeshFileOptions::all_groups, kGroups>}};
 
 /// { nodes =, elements = } = lacuna.convert(from, to [, options])
 int convert(lua_State* L)
@@ -29,7 +29,7 @@ int convert(lua_State* L)
     lua_settop(L, 3);
     const char* from = read_string(L, 1, {"convert", nullptr});
     const io::OutputPath& to = push_output_path(L, 2, "convert");
-    io::DeckFileOptions options;
+    auto& options = temporary<io::MeshFileOptions>(L);
     read_options(L, 3, "convert", kOptions, options);
     RunContext& context = push_context(L);
     const Host& lent = host(L);

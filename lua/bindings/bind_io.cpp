@@ -215,13 +215,6 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"groups", read_groups},
 };
 
-io::DeckFileOptions file_options(const WriteArguments& arguments)
-{
-    return {.binary = arguments.msh.binary,
-            .msh_version = arguments.msh.version,
-            .all_groups = arguments.msh.all_groups};
-}
-
 /// The decks that models were read from as one; `merged` holds it where there are several.
 const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, const RunContext& context)
 {
@@ -281,7 +274,7 @@ void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::O
     WriteArguments all = arguments;
     all.deck.format = format.deck;
     const JoinedMesh one{&mesh, arguments.deck.material};
-    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, file_options(arguments));
+    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, arguments.msh);
 }
 
 /// An option that was given and that the format does not have; null: none.
@@ -378,19 +371,10 @@ int write(lua_State* L)
     return 0;
 }
 
-std::vector<mesh::MeshPart> parts_of(const fill::FilledParts& state)
+/// The deck of an assembly's mesh with the decks that it fills voids of.
+io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& arguments,
+                     const RunContext& context)
 {
-    std::vector<mesh::MeshPart> parts;
-    for (std::size_t p = 0; p < state.regions.size(); ++p)
-        parts.push_back({&state.swept.parts[p].mesh, state.swept.number[p]});
-    return parts;
-}
-
-/// The parts of an assembly's mesh in one deck, or with the decks they fill voids of.
-io::Deck deck_of_parts(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
-{
-    io::MeshDeckOptions& options = arguments.deck;
-    if (arguments.with.empty()) return io::deck_of(parts_of(state), options, arguments.interfaces, context);
     for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
     std::vector<JoinedMesh> meshes;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
@@ -409,19 +393,15 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                                   .all_groups = arguments.msh.all_groups},
                                  crew, context);
     const io::Format& format = io::needed_mesh_format("write", path.text());
-    arguments.deck.format = format.deck;
-    const io::Deck deck = deck_of_parts(state, arguments, context);
-    io::DeckFileOptions options = file_options(arguments);
-    io::DeckPartition partition;
-    if (arguments.partition.parts > 0) {
-        if (arguments.msh.version != 4.1)
-            throw InvalidInput(Message("io.partition_version", "parts are written in MSH version 4.1 alone")
-                                   .remedy("leave out the version"));
-        partition = io::partition_of(deck, parts_of(state), arguments.partition);
-        options.partition = &partition;
+    if (!arguments.with.empty()) {
+        arguments.deck.format = format.deck;
+        return io::write_deck(joined_deck(state, arguments, context), format, path, context, arguments.msh);
     }
-    if (is_pieces(format)) return io::write_pvtu(deck, partition, arguments.partition.ghosts, path, context);
-    io::write_deck(deck, format, path, context, options);
+    std::vector<mesh::LayeredPart> parts;
+    for (std::size_t p = 0; p < state.regions.size(); ++p)
+        parts.push_back({state.swept.parts[p].mesh, nullptr, state.swept.numbering[p]});
+    arguments.msh.interfaces = arguments.interfaces;
+    io::write_parts(format, parts, path, arguments.msh, arguments.deck, context);
 }
 
 /// assembly_mesh:write(path [, options])

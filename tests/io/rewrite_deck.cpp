@@ -5,7 +5,7 @@
 // What is not carried over is said, a line each. With - for OUT nothing is written, and the seconds of the
 // reading and the counts of nodes and elements are said, for benchmarks.
 #include <lacuna/core/error.h>
-#include <lacuna/io/deck_file.h>
+#include <lacuna/io/mesh_file.h>
 
 #include <chrono>
 #include <cstdio>
@@ -15,12 +15,12 @@ int main(int count, char** arguments)
 {
     using namespace lacuna;
     if (count < 3) return std::fputs("usage: rewrite_deck IN OUT [2.2] [text]\n", stderr), 2;
-    io::DeckFileOptions options;
+    io::MeshFileOptions options;
     for (int i = 3; i < count; ++i) {
-        if (arguments[i] == std::string_view("2.2")) options.msh_version = 2.2;
+        if (arguments[i] == std::string_view("2.2")) options.version = 2.2;
         if (arguments[i] == std::string_view("text")) options.binary = false;
     }
-    options.all_groups = options.msh_version != 2.2;
+    options.all_groups = options.version != 2.2;
     try {
         const auto begin = std::chrono::steady_clock::now();
         const io::Deck deck = io::read_deck(arguments[1]);

@@ -2,7 +2,7 @@
 #include "folder.h"
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/deck_file.h>
+#include <lacuna/io/mesh_file.h>
 
 #include <doctest/doctest.h>
 

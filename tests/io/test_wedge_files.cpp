@@ -90,12 +90,51 @@ TEST_CASE("hexahedra and wedges come back from every format, the skin's triangle
         }
         io::write_vtu(mesh, folder.file("a.vtu"), {.fields = {field}});
         check_deck(io::read_deck(folder.file("a.vtu")), mesh, true);
-        for (const std::string name : {"a.inp", "a.bdf", "a.unv"}) {
+        for (const std::string name : {"a.inp", "a.bdf", "a.unv", "a.exo"}) {
             CAPTURE(name);
             const io::Format& format = io::needed_mesh_format("write", name);
             io::write_mesh(format, mesh, folder.file(name));
             check_deck(io::read_deck(folder.file(name)), mesh, format.deck == io::DeckFormat::unv);
         }
+    }
+}
+
+TEST_CASE("meshes with common nodes are one mesh in every format, numbered from the first numbers asked for")
+{
+    const mesh::HexMesh low = test::with_wedges(test::block({.columns = 3, .rows = 2, .layers = 2}), 2);
+    const Index row = low.nodes_per_layer, top = low.layers * row;
+    mesh::HexMesh high = low;
+    for (Vec3& node : high.nodes) node += low.nodes[index(top)] - low.nodes[0];
+    std::vector<std::pair<Index, Index>> known;
+    for (Index n = 0; n < row; ++n) known.emplace_back(n, top + n);
+    const auto count = static_cast<Index>(low.nodes.size());
+    const mesh::NodeNumbers below(0, {}, low.nodes.size()), above(count, known, high.nodes.size());
+    const std::vector<mesh::LayeredPart> parts{{low, nullptr, below}, {high, nullptr, above}};
+    std::multiset<Hex> expected;
+    for (const mesh::LayeredPart& part : parts)
+        for (std::size_t c = 0; c < part.mesh.cell_count(); ++c) {
+            Hex hex = part.mesh.hex(c);
+            for (Index& node : hex) node = part.numbers.of(node);
+            expected.insert(hex);
+        }
+    for (const std::string name : {"a.msh", "a.vtu", "a.vtk", "a.inp", "a.bdf", "a.unv", "a.exo"}) {
+        CAPTURE(name);
+        const test::Folder folder;
+        const io::Format& format = io::needed_mesh_format("write", name);
+        io::MeshDeckOptions options;
+        if (format.is_numbered) options.first_node = 101, options.first_cell = 1001;
+        io::write_parts(format, parts, folder.file(name), {}, options);
+        const io::Deck deck = io::read_deck(folder.file(name));
+        REQUIRE(deck.points.size() == low.nodes.size() + high.nodes.size() - index(row));
+        std::vector<Hex> cells = cells_of(deck, io::DeckShape::hex8);
+        const std::vector<Hex> wedges = cells_of(deck, io::DeckShape::wedge6);
+        cells.insert(cells.end(), wedges.begin(), wedges.end());
+        CHECK(std::multiset<Hex>(cells.begin(), cells.end()) == expected);
+        CHECK_FALSE(test::prove_cells(deck.points, cells).finding);
+        if (!format.is_numbered) continue;
+        CHECK(deck.point_tags.front() == 101);
+        CHECK(deck.point_tags.back() == 100 + static_cast<io::DeckTag>(deck.points.size()));
+        CHECK(deck.blocks.front().tags.front() == 1001);
     }
 }
 

@@ -23,6 +23,7 @@ enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj, ex
 
 using DeckShape = mesh::CellShape;
 using DeckShapeInfo = mesh::CellShapeInfo;
+using DeckSide = mesh::CellSide;
 inline constexpr std::size_t kDeckShapes = mesh::kCellShapes;
 using mesh::face_corners;
 using mesh::find_shape;
@@ -58,17 +59,9 @@ struct DeckRegion {
     std::string part{};   ///< its instance or part in an Abaqus deck
 };
 
-/// A side of an element as in surfaces: 1, 2, … is a face (of a shell in 3D, an edge) in the numbering of the
-/// format; 0 is the side to which a shell's normal points, -1 the other.
-struct DeckSide {
-    DeckTag element = 0;
-    int side = 0;
-    friend constexpr auto operator<=>(const DeckSide&, const DeckSide&) = default;
-};
-
 /// A named set. Nested sets and ranges are resolved.
 struct DeckSet {
-    enum class Kind : std::uint8_t { nodes, elements, sides };
+    using Kind = mesh::SetKind;
     Kind kind = Kind::elements;
     int tag = 0; ///< number of the group, if the format has one
     std::string name;

@@ -4,10 +4,8 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/formats.h>
-#include <lacuna/io/partition.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/mesh/hex_mesh.h>
-#include <lacuna/mesh/mesh_part.h>
 #include <lacuna/topology/model.h>
 
 #include <cstddef>
@@ -31,30 +29,6 @@ struct MeshDeckOptions {
     std::string material{};
 };
 
-/// Convert a swept mesh to a deck of a format. Hexahedra form one region, named after the first of the
-/// volume's groups, with property 1. Groups of the skin become sets:
-///
-/// | format | a group is |
-/// |---|---|
-/// | abaqus | a set of nodes, one of the cells behind the faces, and a surface of their sides |
-/// | exodus | a set of nodes and one of sides |
-/// | nastran | a set of nodes |
-/// | unv, msh, vtk, vtu | a set of quads, which are elements behind the hexahedra |
-///
-/// Names in Abaqus consist of letters, digits, - and _ : other characters become _ .
-/// @throw InvalidInput "io.element"       `element` is not a hexahedron with as many nodes as the mesh's.
-///                     "io.no_such_element"  the mesh is of hex27, which Nastran, Abaqus and UNV do not have.
-///                     "io.number_taken"  a first number is below 1, or the last would be too high.
-/// @note  O(nodes + cells).
-Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context = {});
-
-/// The same for several swept meshes with common nodes: one region each, with groups named like theirs.
-/// @param interfaces  if groups are sets of quads: quads shared by two of the meshes become elements too, one
-///                    for both. Otherwise the quads are the skin of the whole.
-/// @throw  as `deck_of()`.
-Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces = false,
-             const RunContext& context = {});
-
 /// Indices of sets in a deck, by their kind and the group that they hold.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
@@ -68,7 +42,7 @@ struct JoinedBefore {
 /// A skin node that coincides with a node of the deck is that node; middle nodes are those of the deck's
 /// sides.
 ///
-/// Groups of the skin become sets as in `deck_of()`, of nodes in UNV too. The new region gets the next
+/// Groups of the skin become sets as in `write_mesh()`, of nodes in UNV too. The new region gets the next
 /// property above all others. Where nodes of the deck coincide, the skin uses the node of the elements whose
 /// face it shares or, failing that, whose side.
 ///
@@ -92,7 +66,7 @@ struct JoinedBefore {
 ///                     "io.no_material"    the deck has no material named `material`; lists its materials.
 ///                     "io.mixed_order"    elements next to the void have another order than the mesh, or
 ///                                         nodes in the middle of quads where it has none.
-///                     as `deck_of()`.
+///                     "io.element", "io.no_such_element", "io.number_taken"  as `write_mesh()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
                const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
@@ -124,39 +98,5 @@ struct MergeOptions {
 /// @note  O(n log n).
 Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options = {},
                  const RunContext& context = {});
-
-struct DeckFileOptions {
-    bool binary = true;                       ///< of .msh and .vtk
-    double msh_version = 4.1;                 ///< or 2.2
-    const DeckPartition* partition = nullptr; ///< of .msh 4.1: the part of each element; null: one part
-    bool all_groups = false;                  ///< of .msh: as `MeshFileOptions::all_groups`
-};
-
-/// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK: the
-/// complete file or none.
-///
-/// Numbers, sets and element types are kept; text of the same format is copied verbatim. Coordinates are in
-/// the basic frame, as accurate as the format allows: 16 characters in Nastran (11 to 15 digits), 20 in
-/// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
-/// nodes, elements, regions and sets; the log lists omitted content.
-///
-/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
-/// In .msh a region is a physical group, and a set of elements where these have no region; with `all_groups`
-/// all regions and sets of elements are. In .vtk and .vtu elements that are in the same
-/// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
-/// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
-/// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.
-/// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
-///                     "io.folder" and the like as `WholeFile`.
-/// @throw BackendError  as `WholeFile`.
-void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
-                const RunContext& context = {}, const DeckFileOptions& options = {});
-void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
-                const DeckFileOptions& options = {});
-
-/// Write the parts of a deck as pieces, as `write_mesh()` does, with the arrays of its VTU file.
-/// @throw  as `write_deck()`
-void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
-                const RunContext& context = {});
 
 } // namespace lacuna::io

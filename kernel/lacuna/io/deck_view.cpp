@@ -2,10 +2,13 @@
 #include <lacuna/io/detail/deck_view.h>
 
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -14,12 +17,138 @@ namespace lacuna::io {
 namespace {
 
 using mesh::MeshView;
+using mesh::Numbers;
+using mesh::Ranges;
+
+/// The kind of the cells of a block of solids, as in `SweptCells`: hexahedra or wedges.
+std::size_t kind_of(DeckShape shape) { return shape_info(shape).corners == 8 ? 0 : 1; }
+
+/// Meshes that are not stored in the deck; their blocks there are empty.
+struct Bulk {
+    explicit Bulk(std::span<const BulkPart> own) : parts(own)
+    {
+        for (const BulkPart& part : parts) points += own_points(part);
+    }
+
+    /// Number of cells of a shape before each part; last the total.
+    [[nodiscard]] std::vector<std::size_t> cells_before(DeckShape shape) const
+    {
+        const std::size_t kind = kind_of(shape);
+        std::vector<std::size_t> before{0};
+        for (const BulkPart& part : parts)
+            before.push_back(before.back() +
+                             (part.cells.shapes()[kind] == shape ? part.cells.count[kind] : 0));
+        return before;
+    }
+
+    /// Number of nodes that no earlier part has.
+    static std::size_t own_points(const BulkPart& part)
+    {
+        return part.numbers != nullptr ? part.numbers->fresh() : part.nodes->count();
+    }
+
+    /// Deliver the points [begin, end) for which a part is the first to have them, counted from 0.
+    static void each_own_point(const BulkPart& part, std::size_t begin, std::size_t end,
+                               const MeshView::TakePoints& take)
+    {
+        if (part.numbers == nullptr || part.numbers->known().empty())
+            return part.nodes->each_span(begin, end, take);
+        std::size_t node = part.numbers->fresh_node(begin);
+        const auto& known = part.numbers->known();
+        auto next = std::ranges::lower_bound(known, static_cast<Index>(node), {},
+                                             &std::pair<Index, Index>::first);
+        const auto take_fresh = [&](std::span<const Vec3> nodes) {
+            while (!nodes.empty()) {
+                const bool is_last = next == known.end() || index(next->first) - node >= nodes.size();
+                const std::size_t run = is_last ? nodes.size() : index(next->first) - node;
+                if (run > 0) take(nodes.first(run));
+                if (!is_last) ++next; // and pass over the known node
+                const std::size_t passed = is_last ? run : run + 1;
+                node += passed;
+                nodes = nodes.subspan(passed);
+            }
+        };
+        part.nodes->each_span(node, part.numbers->fresh_node(end - 1) + 1, take_fresh);
+    }
+
+    void each_point(std::size_t begin, std::size_t end, const MeshView::TakePoints& take) const
+    {
+        for (const BulkPart& part : parts) {
+            const std::size_t first = part.numbers != nullptr ? index(part.numbers->first()) : 0;
+            const std::size_t low = std::max(begin, first), high = std::min(end, first + own_points(part));
+            if (low < high) each_own_point(part, low - first, high - first, take);
+        }
+    }
+
+    /// Write the nodes of the cells [begin, end) of a shape. @param before  as `cells_before()`
+    void put_nodes(DeckShape shape, const std::vector<std::size_t>& before, std::size_t begin,
+                   std::size_t end, Index* out) const
+    {
+        auto p = static_cast<std::size_t>(std::ranges::upper_bound(before, begin) - before.begin()) - 1;
+        for (; begin < end; ++p) {
+            const std::size_t stop = std::min(end, before[p + 1]);
+            Index* const last = parts[p].cells.put_nodes(kind_of(shape), begin - before[p], stop - before[p],
+                                                         out);
+            if (const mesh::NodeNumbers* const numbers = parts[p].numbers)
+                std::transform(out, last, out, [&](Index node) { return numbers->of(node); });
+            out = last;
+            begin = stop;
+        }
+    }
+
+    [[nodiscard]] Numbers tags(DeckShape shape) const
+    {
+        const std::size_t kind = kind_of(shape);
+        Ranges tags;
+        for (const BulkPart& part : parts) {
+            if (part.cells.shapes()[kind] != shape) continue;
+            const std::size_t in_layer = part.cells.in_layer(kind);
+            for (std::size_t i = 0; i < part.cells.count[kind]; i += in_layer) {
+                const std::size_t tag = static_cast<std::size_t>(part.place.first_cell) +
+                                        part.cells.cell(kind, i);
+                tags.add(tag, tag + in_layer);
+            }
+        }
+        return Numbers(std::move(tags));
+    }
+
+    /// Number of the parts' cells in a set of the deck.
+    [[nodiscard]] std::size_t cells_in(std::size_t set) const
+    {
+        std::size_t sum = 0;
+        for (const BulkPart& part : parts)
+            if (std::ranges::binary_search(part.place.sets, set)) sum += part.mesh.cell_count();
+        return sum;
+    }
+
+    /// The members of a set of the deck, rising: those that it stores and all cells of some parts.
+    [[nodiscard]] Numbers members(const DeckSet& set, std::size_t number) const
+    {
+        if (cells_in(number) == 0) return Numbers(set.members);
+        Ranges all;
+        auto held = set.members.begin();
+        const auto take_held = [&](DeckTag below) {
+            for (; held != set.members.end() && *held < below; ++held)
+                all.add(static_cast<std::size_t>(*held), static_cast<std::size_t>(*held) + 1);
+        };
+        for (const BulkPart& part : parts) {
+            if (!std::ranges::binary_search(part.place.sets, number)) continue;
+            take_held(part.place.first_cell);
+            const auto first = static_cast<std::size_t>(part.place.first_cell);
+            all.add(first, first + part.mesh.cell_count());
+        }
+        take_held(std::numeric_limits<DeckTag>::max());
+        return Numbers(std::move(all));
+    }
+
+    std::span<const BulkPart> parts;
+    std::size_t points = 0;
+};
 
 /// Groups the elements of a deck into entities.
 class EntityFinder {
 public:
-    EntityFinder(const Deck& deck, const BulkReader& bulk, MeshView& view)
-        : deck_(deck), bulk_(bulk), view_(view)
+    EntityFinder(const Deck& deck, const Bulk& bulk, MeshView& view) : deck_(deck), bulk_(bulk), view_(view)
     {
     }
 
@@ -45,9 +174,10 @@ private:
     /// Groups of an MSH file keep their tags.
     void keep_tags(const TagPlaces& places)
     {
-        for (const DeckSet& set : deck_.sets) {
-            if (set.kind != DeckSet::Kind::elements || bulk_.count(set) == 0) continue;
-            const DeckTag first = bulk_.member(set, 0);
+        for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
+            const DeckSet& set = deck_.sets[s];
+            if (set.kind != DeckSet::Kind::elements || view_.sets[s].count == 0) continue;
+            const DeckTag first = view_.sets[s].members[0];
             if (set.members.empty() || first != set.members.front())
                 view_.group_tags.push_back({3, set.name, set.tag}); // a cell created on writing
             else if (const Index e = places.find(first); e >= 0)
@@ -78,17 +208,21 @@ private:
     void find_runs()
     {
         // All created cells of a part are in the same sets.
-        std::map<const BulkPart*, int> list_of_part;
+        std::vector<int> list_of_part(bulk_.parts.size(), 0);
         for (std::size_t s = 0; s < deck_.sets.size(); ++s)
-            for (const BulkPart* part : bulk_.parts_of(deck_.sets[s]))
-                list_of_part[part] = lists_.extended(list_of_part[part], static_cast<int>(s));
+            for (std::size_t p = 0; p < list_of_part.size(); ++p)
+                if (std::ranges::binary_search(bulk_.parts[p].place.sets, s))
+                    list_of_part[p] = lists_.extended(list_of_part[p], static_cast<int>(s));
         std::size_t e = 0;
         for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
             const DeckBlock& block = deck_.blocks[b];
             mesh::Runs& runs = view_.blocks[b].entities;
             const int dimension = shape_info(block.shape).dimension;
-            for (const BulkReader::MadeRun& run : bulk_.made_runs(block))
-                mesh::add_run(runs, run.end, entity_of(dimension, run.region, list_of_part[run.part]));
+            const std::vector<std::size_t> before = bulk_.cells_before(block.shape);
+            for (std::size_t p = 0; dimension == 3 && p < list_of_part.size(); ++p)
+                if (before[p] < before[p + 1])
+                    mesh::add_run(runs, before[p + 1],
+                                  entity_of(dimension, bulk_.parts[p].place.region, list_of_part[p]));
             std::pair<Index, int> last{-2, 0};
             Index entity = 0;
             for (std::size_t k = 0; k < block.count(); ++k, ++e) {
@@ -139,7 +273,7 @@ private:
     }
 
     const Deck& deck_;
-    const BulkReader& bulk_;
+    const Bulk& bulk_;
     MeshView& view_;
     SetLists lists_;
     std::vector<int> list_, dimension_; ///< for each element
@@ -147,25 +281,45 @@ private:
     std::vector<Index> place_of_region_; ///< for each entity
 };
 
-MeshView::Block block_of(const DeckBlock& block, const BulkReader& bulk)
+MeshView::Block block_of(const DeckBlock& block, const std::shared_ptr<const Bulk>& bulk)
 {
     MeshView::Block own;
     own.shape = block.shape;
     own.type = block.type;
-    own.count = bulk.count(block);
-    own.tags = bulk.tag_ranges(block);
-    own.nodes = [&block, bulk](std::size_t begin, std::size_t end, Index* out) {
+    if (!bulk->parts.empty() && shape_info(block.shape).dimension == 3) {
+        const std::vector<std::size_t> before = bulk->cells_before(block.shape);
+        own.count = before.back();
+        own.tags = bulk->tags(block.shape);
+        for (std::size_t p = 0; p < bulk->parts.size(); ++p)
+            mesh::add_run(own.regions, before[p + 1], bulk->parts[p].place.region);
+        own.nodes = [bulk, before, shape = block.shape](std::size_t begin, std::size_t end, Index* out) {
+            bulk->put_nodes(shape, before, begin, end, out);
+        };
+        return own;
+    }
+    own.count = block.count();
+    own.tags = Numbers(block.tags);
+    own.nodes = [&block](std::size_t begin, std::size_t end, Index* out) {
         const auto size = static_cast<std::size_t>(shape_info(block.shape).nodes);
-        if (!bulk.is_made(block)) {
-            std::copy_n(block.nodes.data() + begin * size, (end - begin) * size, out);
-            return;
-        }
-        for (std::size_t e = begin; e < end; ++e)
-            bulk.element(block, e, [&](DeckTag, Index, std::span<const Index> nodes) {
-                out = std::ranges::copy(nodes, out).out;
-            });
+        std::copy_n(block.nodes.data() + begin * size, (end - begin) * size, out);
     };
+    for (std::size_t e = 0; e < block.count(); ++e) mesh::add_run(own.regions, e + 1, block.regions[e]);
     return own;
+}
+
+std::optional<MeshView::KeptText> kept_text(const Deck& deck, DeckFormat format)
+{
+    // Names of several instances would not be valid in a deck of one mesh.
+    if (deck.format != format || deck.instances.size() > 1) return {};
+    MeshView::KeptText kept;
+    kept.head = text_at(deck, DeckText::Place::head);
+    kept.cards = text_at(deck, DeckText::Place::cards);
+    kept.tail = text_at(deck, DeckText::Place::tail);
+    if (!deck.instances.empty()) kept.instance = deck.instances.front().name;
+    if (format == DeckFormat::nastran) kept.highest_set = static_cast<int>(numbers_in_text(deck).set);
+    kept.points = deck.point_more;
+    for (const DeckBlock& block : deck.blocks) kept.cells.emplace_back(block.more);
+    return kept;
 }
 
 } // namespace
@@ -180,73 +334,54 @@ int SetLists::extended(int list, int set)
     return found->second;
 }
 
-std::shared_ptr<MeshView> view_of(const Deck& deck, const BulkReader& bulk)
+std::shared_ptr<const MeshView> view_of(const Deck& deck, const Format& format,
+                                        std::span<const BulkPart> parts)
 {
+    const auto bulk = std::make_shared<const Bulk>(parts);
     auto view = std::make_shared<MeshView>();
     view->is_deck = true;
     view->source = deck.path;
-    view->points = bulk.points();
-    view->point_tags = mesh::Numbers(deck.point_tags);
-    view->each_point = [&deck, bulk](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
-        if (begin < end && end <= deck.points.size())
-            return take(std::span(deck.points).subspan(begin, end - begin));
-        std::array<Vec3, 512> room; // 12 kB, which fits into the first-level cache
-        std::size_t count = 0;
-        const auto hand_over = [&] { take(std::span<const Vec3>(room).first(std::exchange(count, 0))); };
-        bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
-            room[count++] = point;
-            if (count == room.size()) hand_over();
-        });
-        if (count > 0) hand_over();
-    };
+    if (bulk->parts.empty()) {
+        view->points = deck.points.size();
+        view->point_tags = Numbers(deck.point_tags);
+        view->each_point = [&deck](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
+            take(std::span(deck.points).subspan(begin, end - begin));
+        };
+    } else {
+        view->points = bulk->points;
+        view->point_tags = Numbers(static_cast<std::size_t>(bulk->parts.front().place.first_node));
+        view->each_point = [bulk](std::size_t begin, std::size_t end, const MeshView::TakePoints& take) {
+            bulk->each_point(begin, end, take);
+        };
+    }
     for (const DeckBlock& block : deck.blocks) view->blocks.push_back(block_of(block, bulk));
-    EntityFinder(deck, bulk, *view).find();
+    for (const DeckRegion& region : deck.regions) view->regions.push_back({region.tag, region.name});
+    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
+        const DeckSet& set = deck.sets[s];
+        MeshView::Set& own = view->sets.emplace_back(MeshView::Set{set.kind, set.tag, set.name});
+        own.sides = set.sides;
+        own.listed = set.listed;
+        own.members = bulk->members(set, s);
+        own.count = set.members.size() + bulk->cells_in(s);
+    }
+    view->kept = kept_text(deck, format.deck);
+    if (format.is_numbered) return view;
+    EntityFinder(deck, *bulk, *view).find();
     if (deck.format != DeckFormat::msh) view->unnamed = "elements";
     view->boxes = [&deck, bulk, count = view->entities.size()] {
         Eigen::AlignedBox3d box;
         for (const Vec3& point : deck.points) box.extend(point);
-        bulk.each_on_skin([&](const Vec3& point) { box.extend(point); });
+        for (const BulkPart& part : bulk->parts) {
+            if (part.nodes->are_stored())
+                part.nodes->each(0, part.nodes->count(),
+                                 [&](std::size_t, const Vec3& point) { box.extend(point); });
+            else
+                for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
+                    for (const Index node : skin_nodes(part.mesh, i)) box.extend(part.nodes->on_skin(node));
+        }
         return std::vector<Eigen::AlignedBox3d>(count, box);
     };
     return view;
-}
-
-mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition)
-{
-    mesh::ViewParts parts;
-    parts.parts = partition.parts;
-    parts.has_ghosts = partition.lists.size() > 1;
-    std::vector<Index> lowest(deck.points.size(),
-                              partition.parts - 1);                                // part that owns a point
-    std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts; // by part and list, block
-    std::vector<std::vector<Index>> used(index(partition.parts));
-    for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
-        const DeckBlock& block = deck.blocks[b];
-        mesh::Runs& runs = parts.of.emplace_back();
-        for (std::size_t e = 0; e < block.count(); ++e) {
-            const Index part = partition.part[b][e], list = partition.ghost_of[b][e];
-            mesh::add_run(runs, e + 1, part);
-            for (const Index node : block.element(e)) {
-                lowest[index(node)] = std::min(lowest[index(node)], part);
-                used[index(part)].push_back(node);
-                for (const int other : partition.lists[index(list)]) used[index(other)].push_back(node);
-            }
-            if (list != 0) ghosts[{part, list}][b].add(e, e + 1);
-        }
-    }
-    for (Index part = 0; part < partition.parts; ++part) {
-        mesh::Ranges own;
-        for (std::size_t p = 0; p < lowest.size(); ++p)
-            if (lowest[p] == part) own.add(p, p + 1);
-        parts.points.emplace_back(part, std::move(own));
-        mesh::Ranges& points = parts.used.emplace_back();
-        tidy(used[index(part)]);
-        for (const Index p : used[index(part)]) points.add(index(p), index(p) + 1);
-    }
-    for (const auto& [key, blocks] : ghosts)
-        for (const auto& [block, cells] : blocks)
-            parts.ghosts.push_back({key.first, partition.lists[index(key.second)], block, cells});
-    return parts;
 }
 
 } // namespace lacuna::io

@@ -297,102 +297,24 @@ void add_model_cards(Deck& deck, const std::string& cards)
     deck.texts.push_back({DeckText::Place::cards, "", cards});
 }
 
-void check_numbers(const Deck& deck, DeckTag most, const std::string& format, const std::string& remedy)
+void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& format,
+                   const std::string& remedy)
 {
-    const auto is_high = [&](DeckTag tag) { return tag > most; };
-    const auto has_high = [&](const DeckBlock& block) { return std::ranges::any_of(block.tags, is_high); };
-    if (std::ranges::any_of(deck.point_tags, is_high) || std::ranges::any_of(deck.blocks, has_high))
+    const auto is_high = [&](const mesh::Numbers& numbers, std::size_t count) {
+        return count > 0 && numbers.bounds(count).second > most;
+    };
+    if (is_high(view.point_tags, view.points) ||
+        std::ranges::any_of(view.blocks, [&](const auto& block) { return is_high(block.tags, block.count); }))
         throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, more than {} holds",
-                                   deck.path, needed(most), format)
+                                   view.source, needed(most), format)
                                .remedy("{}", remedy));
 }
 
-void refuse_element(std::size_t count, std::string_view type, DeckShape shape, std::string_view format,
-                    std::string_view why)
+void refuse_element(const mesh::MeshView::Block& block, std::string_view format, std::string_view why)
 {
-    throw InvalidInput("io.no_such_element", "{} elements {}{}of {} nodes cannot be written as {}: {}", count,
-                       type, type.empty() ? "" : " ", shape_info(shape).nodes, format, why);
-}
-
-LayeredBulk::LayeredBulk(const Deck& deck, std::vector<BulkPart> own)
-    : parts(std::move(own)), sets(deck.sets.size()), parts_of_set(deck.sets.size())
-{
-    for (const BulkPart& part : parts) {
-        points += part.points();
-        hexes.push_back(hexes.back() + part.count(true));
-        wedges.push_back(wedges.back() + part.count(false));
-        for (const std::size_t s : part.place.sets) parts_of_set[s].push_back(&part);
-    }
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-        if (parts_of_set[s].empty()) continue;
-        // Numbers increase: stored members that are lower than a part's cells precede them.
-        auto held = deck.sets[s].members.begin();
-        const auto take_held = [&](DeckTag below) {
-            for (; held != deck.sets[s].members.end() && *held < below; ++held)
-                sets[s].add(static_cast<std::size_t>(*held), static_cast<std::size_t>(*held) + 1);
-        };
-        for (const BulkPart* part : parts_of_set[s]) {
-            take_held(part->place.first_cell);
-            const auto first = static_cast<std::size_t>(part->place.first_cell);
-            sets[s].add(first, first + part->mesh.cell_count());
-        }
-        take_held(std::numeric_limits<DeckTag>::max());
-    }
-}
-
-std::size_t BulkReader::made_cell(const BulkPart& part, bool hex, std::size_t e) const
-{
-    const auto at = static_cast<std::size_t>(&part - layered_->parts.data());
-    return hex ? part.kinds.cell(e - layered_->hexes[at])
-               : part.kinds.cell(part.kinds.hexes() + (e - layered_->wedges[at]));
-}
-
-std::vector<BulkReader::MadeRun> BulkReader::made_runs(const DeckBlock& block) const
-{
-    std::vector<MadeRun> runs;
-    if (!is_made(block)) return runs;
-    const std::vector<std::size_t>& before = is_of_hexes(block) ? layered_->hexes : layered_->wedges;
-    for (std::size_t p = 0; p < layered_->parts.size(); ++p)
-        if (before[p] < before[p + 1])
-            runs.push_back({before[p], before[p + 1], layered_->parts[p].place.region, &layered_->parts[p]});
-    return runs;
-}
-
-mesh::Numbers BulkReader::tag_ranges(const DeckBlock& block) const
-{
-    if (!is_made(block)) return mesh::Numbers(block.tags);
-    const bool hex = is_of_hexes(block);
-    mesh::Ranges tags;
-    for (const BulkPart& part : layered_->parts) {
-        const std::size_t first = hex ? 0 : part.kinds.hexes(), count = part.count(hex);
-        const std::size_t in_layer = count / std::max<std::size_t>(index(part.mesh.layers), 1);
-        for (std::size_t i = first; i < first + count; i += in_layer) {
-            const auto tag = static_cast<std::size_t>(part.tag(part.kinds.cell(i)));
-            tags.add(tag, tag + in_layer);
-        }
-    }
-    return mesh::Numbers(std::move(tags));
-}
-
-std::vector<const BulkPart*> BulkReader::parts_of(Index region) const
-{
-    std::vector<const BulkPart*> found;
-    if (layered_ == nullptr) return found;
-    for (const BulkPart& part : layered_->parts)
-        if (part.place.region == region) found.push_back(&part);
-    return found;
-}
-
-std::vector<const BulkPart*> BulkReader::parts_of(const DeckSet& set) const
-{
-    if (layered_ == nullptr) return {};
-    return layered_->parts_of_set[place_of(set)];
-}
-
-std::size_t BulkReader::count(const DeckBlock& block) const
-{
-    if (!is_made(block)) return block.count();
-    return is_of_hexes(block) ? layered_->hexes.back() : layered_->wedges.back();
+    throw InvalidInput("io.no_such_element", "{} elements {}{}of {} nodes cannot be written as {}: {}",
+                       block.count, block.type, block.type.empty() ? "" : " ", shape_info(block.shape).nodes,
+                       format, why);
 }
 
 } // namespace lacuna::io

@@ -3,8 +3,8 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/exodus.h>
+#include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/sections.h>
 
 #include <algorithm>
@@ -15,7 +15,12 @@
 #include <set>
 
 namespace lacuna::io {
+
+WriteView exodus_file;
+
 namespace {
+
+using mesh::MeshView;
 
 enum class NcType : std::int32_t { text = 2, whole = 4, real32 = 5, real = 6 };
 
@@ -200,31 +205,51 @@ char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
 /// Elements of one region and shape.
 struct Block {
     Index region = -1;
-    std::size_t of = 0;                    ///< block of the deck
-    std::vector<std::uint32_t> elements{}; ///< none where they are made
-    std::size_t count = 0;
-    std::size_t first = 0; ///< number of the first, from 0
+    std::size_t of = 0;      ///< block of the view
+    mesh::Ranges elements{}; ///< its cells
+    std::size_t first = 0;   ///< number of the first, from 0
     std::string name{};
     int id = 0;
 };
 
-/// Position in the file of a generated cell.
-Index place_of_cell(const LayeredBulk& layered, std::size_t cell)
-{
-    const mesh::HexMesh& mesh = layered.parts.front().mesh;
-    const std::size_t columns = mesh.quads.size(), hexes = layered.hexes.back();
-    const std::size_t quads = hexes / index(mesh.layers);
-    const std::size_t layer = cell / columns, column = cell % columns;
-    return static_cast<Index>(column < quads ? layer * quads + column
-                                             : hexes + layer * (columns - quads) + (column - quads));
-}
+/// The positions, from 0, of nodes or elements in the file, by their numbers.
+class Places {
+public:
+    /// Add the numbers that follow those added before.
+    void add(const mesh::Numbers& numbers, std::size_t begin, std::size_t end)
+    {
+        numbers.each_range(begin, end, [&](std::size_t first, std::size_t last) {
+            runs_.push_back({first, last, count_});
+            count_ += last - first;
+        });
+    }
+    void sort()
+    {
+        if (!std::ranges::is_sorted(runs_, {}, &Run::first)) std::ranges::stable_sort(runs_, {}, &Run::first);
+    }
+    /// Call `visit(first, last)` for the positions of the numbers [number, end) that are known.
+    template <class Visit>
+    void each(std::size_t number, std::size_t end, const Visit& visit) const
+    {
+        auto run = std::ranges::upper_bound(runs_, number, {}, &Run::first);
+        if (run != runs_.begin()) --run;
+        for (; run != runs_.end() && run->first < end; ++run) {
+            const std::size_t first = std::max(number, run->first), last = std::min(end, run->last);
+            if (first < last) visit(run->place + (first - run->first), run->place + (last - run->first));
+        }
+    }
+
+private:
+    struct Run {
+        std::size_t first, last, place;
+    };
+    std::vector<Run> runs_;
+    std::size_t count_ = 0;
+};
 
 class ExodusWriter {
 public:
-    ExodusWriter(const Deck& deck, const LayeredBulk* layered)
-        : deck_(deck), layered_(layered), bulk_(deck, layered)
-    {
-    }
+    explicit ExodusWriter(const View& view) : view_(view) {}
 
     DeckFile write()
     {
@@ -232,8 +257,8 @@ public:
         name_blocks();
         find_sets();
         std::size_t longest = kLeastName;
-        for (const Block& block : blocks_) longest = std::max(longest, block.name.size());
-        for (const DeckSet& set : deck_.sets) longest = std::max(longest, set.name.size());
+        for (const Block& block : *blocks_) longest = std::max(longest, block.name.size());
+        for (const MeshView::Set& set : view_->sets) longest = std::max(longest, set.name.size());
         nc_.dimension("time_step", 0);
         name_ = nc_.dimension("len_name", longest + 1);
         nc_.dimension("len_string", kLeastName + 1);
@@ -262,33 +287,27 @@ private:
 
     struct Set {
         std::string name;
-        std::shared_ptr<std::vector<std::int32_t>> members, sides; ///< from 1
-        bool all = false;                                          ///< all cells, which are made
+        mesh::Ranges members{};                             ///< from 1
+        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< of each member; null: not a set of sides
     };
 
     void find_blocks()
     {
-        for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
-            const DeckBlock& block = deck_.blocks[b];
+        for (std::size_t b = 0; b < view_->blocks.size(); ++b) {
+            const MeshView::Block& block = view_->blocks[b];
             if (*words_of(block.shape).exodus == 0)
                 refuse_element(block, "Exodus", "there is no such element");
-            if (std::ranges::find(block.nodes, -1) != block.nodes.end())
-                refuse_element(block, "Exodus", "some have not all their middle nodes");
-            if (bulk_.is_made(block)) {
-                blocks_.push_back({.region = 0, .of = b, .count = bulk_.count(block)});
-                continue;
-            }
             std::map<Index, std::size_t> of_region;
-            for (std::size_t e = 0; e < block.count(); ++e) {
-                const auto [at, fresh] = of_region.try_emplace(block.regions[e], blocks_.size());
-                if (fresh) blocks_.push_back({.region = block.regions[e], .of = b});
-                blocks_[at->second].elements.push_back(static_cast<std::uint32_t>(e));
-            }
+            mesh::each_run(block.regions, 0, block.count,
+                           [&](std::size_t first, std::size_t last, Index region) {
+                               const auto [at, fresh] = of_region.try_emplace(region, blocks_->size());
+                               if (fresh) blocks_->push_back({.region = region, .of = b});
+                               (*blocks_)[at->second].elements.add(first, last);
+                           });
         }
-        for (Block& block : blocks_) {
-            if (!block.elements.empty()) block.count = block.elements.size();
+        for (Block& block : *blocks_) {
             block.first = elements_;
-            elements_ += block.count;
+            elements_ += block.elements.count();
         }
     }
 
@@ -297,12 +316,12 @@ private:
     {
         std::set<std::string> names;
         std::set<int> ids;
-        int next = highest_tag(deck_.regions);
-        for (Block& block : blocks_) {
-            const int tag = block.region < 0 ? 0 : deck_.regions[index(block.region)].tag;
+        int next = highest_tag(view_->regions);
+        for (Block& block : *blocks_) {
+            const int tag = block.region < 0 ? 0 : view_->regions[index(block.region)].tag;
             block.id = tag > 0 && ids.insert(tag).second ? tag : ++next;
             ids.insert(block.id);
-            const std::string base = block.region < 0 ? "skin" : deck_.regions[index(block.region)].name;
+            const std::string base = block.region < 0 ? "skin" : view_->regions[index(block.region)].name;
             block.name = base;
             for (int i = 2; !block.name.empty() && !names.insert(block.name).second; ++i)
                 block.name = base + "_" + std::to_string(i);
@@ -311,106 +330,115 @@ private:
 
     void find_sets()
     {
-        std::vector<DeckTag> tags;
-        std::vector<std::int32_t> number;
-        std::vector<DeckShape> shapes;
-        for (const Block& block : blocks_)
-            for (const std::uint32_t e : block.elements) {
-                tags.push_back(deck_.blocks[block.of].tags[e]);
-                shapes.push_back(deck_.blocks[block.of].shape);
-            }
-        const TagPlaces held_cells(tags);
-        const TagPlaces held_points(deck_.point_tags);
-        const auto find_cell = [&](DeckTag tag) {
-            return layered_ != nullptr ? place_of_cell(*layered_, static_cast<std::size_t>(tag - 1))
-                                       : held_cells.find(tag);
+        Places points, cells;
+        points.add(view_->point_tags, 0, view_->points);
+        for (const Block& block : *blocks_)
+            block.elements.each(0, block.elements.count(), [&](std::size_t first, std::size_t last) {
+                cells.add(view_->blocks[block.of].tags, first, last);
+            });
+        points.sort();
+        cells.sort();
+        const auto shape = [&](std::size_t place) {
+            const auto next = std::ranges::upper_bound(*blocks_, place, {}, &Block::first);
+            return view_->blocks[std::prev(next)->of].shape;
         };
-        const auto find_point = [&](DeckTag tag) {
-            return layered_ != nullptr ? static_cast<Index>(tag - 1) : held_points.find(tag);
-        };
-        const auto shape = [&](Index at) {
-            if (layered_ == nullptr) return shapes[index(at)];
-            return index(at) < layered_->hexes.back() ? cell_shape(layered_->parts.front().mesh)
-                                                      : DeckShape::wedge6;
-        };
-        for (const DeckSet& set : deck_.sets) {
-            Set found{set.name, std::make_shared<std::vector<std::int32_t>>(), nullptr};
-            if (!bulk_.parts_of(set).empty()) {
-                found.all = true;
-                cells_.push_back(found);
-                continue;
-            }
-            const bool of_nodes = set.kind == DeckSet::Kind::nodes;
-            for (const DeckTag tag : set.members)
-                if (const Index at = of_nodes ? find_point(tag) : find_cell(tag); at >= 0)
-                    found.members->push_back(at + 1);
-            if (set.kind == DeckSet::Kind::sides) {
+        for (const MeshView::Set& set : view_->sets) {
+            const bool of_nodes = set.kind == mesh::SetKind::nodes;
+            Set found{set.name};
+            const auto add = [&](std::size_t first, std::size_t last) {
+                found.members.add(first + 1, last + 1);
+            };
+            set.members.each_range(0, set.count, [&](std::size_t first, std::size_t last) {
+                (of_nodes ? points : cells).each(first, last, add);
+            });
+            if (set.kind == mesh::SetKind::sides) {
                 found.sides = std::make_shared<std::vector<std::int32_t>>();
-                for (const DeckSide& side : set.sides)
-                    if (const Index at = find_cell(side.element); at >= 0) {
-                        found.members->push_back(at + 1);
-                        found.sides->push_back(exodus_side(shape(at), side.side));
-                    }
+                for (const DeckSide& side : set.sides) {
+                    const auto element = static_cast<std::size_t>(side.element);
+                    cells.each(element, element + 1, [&](std::size_t place, std::size_t end) {
+                        add(place, end);
+                        found.sides->push_back(exodus_side(shape(place), side.side));
+                    });
+                }
             }
-            if (found.members->empty()) continue;
-            (of_nodes ? nodes_ : set.kind == DeckSet::Kind::sides ? sides_ : cells_).push_back(found);
+            if (found.members.count() == 0) continue;
+            (of_nodes ? nodes_ : found.sides != nullptr ? sides_ : cells_).push_back(std::move(found));
         }
     }
 
     void add_points()
     {
         const int dimension = nc_.dimension("num_dim", 3);
-        const int nodes = nc_.dimension("num_nodes", bulk_.points());
+        const int nodes = nc_.dimension("num_nodes", view_->points);
         nc_.names("coor_names", {dimension, name_}, {"x", "y", "z"});
         for (const int axis : {0, 1, 2})
             nc_.array(
                 std::string("coord") + "xyz" [axis], NcType::real, { nodes }, 1,
-                [bulk = bulk_, axis](std::size_t begin, std::size_t end, char* out) {
-                    bulk.each_point(begin, end, [&](std::size_t, DeckTag, const Vec3& point) {
-                        out = io::put_big(out, point[axis]);
+                [view = view_, axis](std::size_t begin, std::size_t end, char* out) {
+                    view->each_point(begin, end, [&](std::span<const Vec3> points) {
+                        for (const Vec3& point : points) out = io::put_big(out, point[axis]);
                     });
                     return out;
                 });
-        nc_.wholes("node_num_map", {nodes},
-                   [bulk = bulk_](std::size_t i) { return bulk.point_tag(static_cast<Index>(i)); });
+        nc_.array("node_num_map", NcType::whole, {nodes}, 1,
+                  [view = view_](std::size_t begin, std::size_t end, char* out) {
+                      view->point_tags.each(begin, end,
+                                            [&](std::size_t, DeckTag tag) { out = put_whole(out, tag); });
+                      return out;
+                  });
+    }
+
+    static char* put_whole(char* out, std::int64_t value)
+    {
+        return io::put_big(out, static_cast<std::int32_t>(value));
     }
 
     void add_blocks()
     {
         const int elements = nc_.dimension("num_elem", elements_);
-        const int count = nc_.dimension("num_el_blk", blocks_.size());
+        const int count = nc_.dimension("num_el_blk", blocks_->size());
         std::vector<std::string> names;
         std::vector<int> ids;
-        auto tags = std::make_shared<std::vector<DeckTag>>();
-        for (const Block& block : blocks_) {
+        for (const Block& block : *blocks_) {
             names.push_back(block.name);
             ids.push_back(block.id);
-            for (const std::uint32_t e : block.elements) tags->push_back(deck_.blocks[block.of].tags[e]);
         }
         nc_.wholes("eb_status", {count}, [](std::size_t) { return 1; });
         nc_.wholes("eb_prop1", {count}, [ids](std::size_t i) { return ids[i]; },
                    {text_attribute("name", "ID")});
         nc_.names("eb_names", {count, name_}, names);
-        nc_.wholes("elem_num_map", {elements}, [tags, layered = layered_](std::size_t i) {
-            return layered != nullptr ? static_cast<DeckTag>(layered->parts.front().kinds.cell(i)) + 1
-                                      : (*tags)[i];
-        });
-        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        nc_.array("elem_num_map", NcType::whole, {elements}, 1,
+                  [view = view_, blocks = blocks_](std::size_t begin, std::size_t end, char* out) {
+                      const auto put = [&](std::size_t, DeckTag tag) { out = put_whole(out, tag); };
+                      for (const Block& block : *blocks) {
+                          const std::size_t last = block.first + block.elements.count();
+                          const std::size_t low = std::max(begin, block.first), high = std::min(end, last);
+                          if (low >= high) continue;
+                          block.elements.each(low - block.first, high - block.first,
+                                              [&](std::size_t from, std::size_t to) {
+                                                  view->blocks[block.of].tags.each(from, to, put);
+                                              });
+                      }
+                      return out;
+                  });
+        for (std::size_t b = 0; b < blocks_->size(); ++b) {
             const std::string number = std::to_string(b + 1);
-            auto block = std::make_shared<Block>(blocks_[b]);
-            const DeckBlock& of = deck_.blocks[block->of];
+            const Block& block = (*blocks_)[b];
+            const MeshView::Block& of = view_->blocks[block.of];
             const auto nodes = static_cast<std::size_t>(shape_info(of.shape).nodes);
-            const int rows = nc_.dimension("num_el_in_blk" + number, block->count);
+            const int rows = nc_.dimension("num_el_in_blk" + number, block.elements.count());
             const int columns = nc_.dimension("num_nod_per_el" + number, nodes);
-            nc_.array("connect" + number, NcType::whole, {rows, columns}, nodes,
-                      each([block, &of, bulk = bulk_](std::size_t i, char* out) {
-                          const std::size_t e = block->elements.empty() ? i : block->elements[i];
-                          bulk.element(of, e, [&](DeckTag, Index, std::span<const Index> own) {
-                              out = put_nodes(of.shape, own, out);
-                          });
-                          return out;
-                      }),
-                      {text_attribute("elem_type", words_of(of.shape).exodus)});
+            nc_.array(
+                "connect" + number, NcType::whole, {rows, columns}, nodes,
+                [view = view_, blocks = blocks_, &block, &of](std::size_t begin, std::size_t end, char* out) {
+                    block.elements.each(begin, end, [&](std::size_t first, std::size_t last) {
+                        of.each_cell(first, last, [&](std::size_t, std::span<const Index> own) {
+                            out = put_nodes(of.shape, own, out);
+                        });
+                    });
+                    return out;
+                },
+                {text_attribute("elem_type", words_of(of.shape).exodus)});
         }
     }
 
@@ -427,29 +455,24 @@ private:
         nc_.names(prefix + "_names", {count, name_}, names);
         for (std::size_t s = 0; s < sets.size(); ++s) {
             const std::string number = std::to_string(s + 1);
-            if (sets[s].all) {
-                const int cells = nc_.dimension(length + number, elements_);
-                const auto place = [layered = layered_](std::size_t i) {
-                    return place_of_cell(*layered, i) + 1;
-                };
-                nc_.wholes(list + number, {cells}, place);
-                continue;
-            }
-            const int members = nc_.dimension(length + number, sets[s].members->size());
-            nc_.wholes(list + number, {members},
-                       [all = sets[s].members](std::size_t i) { return (*all)[i]; });
+            const int members = nc_.dimension(length + number, sets[s].members.count());
+            nc_.array(list + number, NcType::whole, {members}, 1,
+                      [all = sets[s].members](std::size_t begin, std::size_t end, char* out) {
+                          all.each(begin, end, [&](std::size_t first, std::size_t last) {
+                              for (; first < last; ++first) out = put_whole(out, std::int64_t(first));
+                          });
+                          return out;
+                      });
             if (sets[s].sides)
                 nc_.wholes("side_ss" + number, {members},
                            [all = sets[s].sides](std::size_t i) { return (*all)[i]; });
         }
     }
 
-    const Deck& deck_;
-    const LayeredBulk* layered_;
-    BulkReader bulk_;
+    View view_;
     DeckFile file_;
     NcFile nc_;
-    std::vector<Block> blocks_;
+    std::shared_ptr<std::vector<Block>> blocks_ = std::make_shared<std::vector<Block>>();
     std::vector<Set> nodes_, cells_, sides_;
     std::size_t elements_ = 0;
     int name_ = 0; ///< dimension of names
@@ -457,11 +480,11 @@ private:
 
 } // namespace
 
-DeckFile exodus_file(const Deck& deck, const LayeredBulk* layered)
+DeckFile exodus_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
-    check_numbers(deck, std::numeric_limits<std::int32_t>::max(), "an Exodus file",
+    check_numbers(*view, std::numeric_limits<std::int32_t>::max(), "an Exodus file",
                   "give first_node and first_cell");
-    return ExodusWriter(deck, layered).write();
+    return ExodusWriter(view).write();
 }
 
 } // namespace lacuna::io

@@ -2,8 +2,8 @@
 #include <lacuna/io/facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/sections.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/skin_groups.h>
 

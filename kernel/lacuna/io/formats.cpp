@@ -3,14 +3,13 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/msh_file.h>
-#include <lacuna/io/detail/vtk_writer.h>
 
 #include <algorithm>
 #include <filesystem>
 
 namespace lacuna::io {
 
+WriteView abaqus_file, exodus_file, msh_file, nastran_file, unv_file, vtk_file, vtu_file;
 /// Write the polyMesh folder of OpenFOAM. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells
 /// with mid-side nodes.
 void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
@@ -28,20 +27,19 @@ FormatRow mesh_format(std::string_view ending, std::string_view name, std::strin
 }
 
 FormatRow view_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck,
-                      std::string_view options, decltype(FormatRow::view_file) write)
+                      std::string_view options, WriteView* write)
 {
     FormatRow row = mesh_format(ending, name, word, deck);
-    row.options = options, row.view_file = write;
+    row.options = options, row.write = write;
     row.streamed = row.streamed_parts = row.has_lines = row.has_hex27 = true;
     return row;
 }
 
 FormatRow deck_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck,
-                      Format::Skin skin, decltype(FormatRow::deck_file) write,
-                      void (*read)(Cursor&, DeckBuilder&))
+                      Format::Skin skin, WriteView* write, void (*read)(Cursor&, DeckBuilder&))
 {
     FormatRow row = mesh_format(ending, name, word, deck);
-    row.options = kDeckOptions, row.skin = skin, row.deck_file = write, row.read = read;
+    row.options = kDeckOptions, row.skin = skin, row.write = write, row.read = read;
     row.is_numbered = row.streamed = row.streamed_parts = true;
     row.numbers_regions = deck != DeckFormat::abaqus;
     return row;
@@ -51,10 +49,6 @@ std::vector<FormatRow> make_table()
 {
     using enum DeckFormat;
     std::vector<FormatRow> table;
-    const auto to_vtu = [](const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions&,
-                           const mesh::ViewParts*) { return vtu_file(view); };
-    const auto to_vtk = [](const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions& options,
-                           const mesh::ViewParts*) { return vtk_file(view, options.binary); };
     constexpr std::string_view kNoSides = "sets of sides are not written: VTK has none";
 
     FormatRow row = view_format(".msh", "an MSH file", "MSH", msh,
@@ -66,14 +60,14 @@ std::vector<FormatRow> make_table()
     row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH are of elements";
     table.push_back(row);
     row = view_format(".vtu", "a VTU file", "VTK", vtu,
-                      "quality with without renumber first_node first_cell interfaces", to_vtu);
+                      "quality with without renumber first_node first_cell interfaces", vtu_file);
     row.read = read_vtu, row.unwritten_sets = kNoSides;
     table.push_back(row);
     row = view_format(".pvtu", "a PVTU file", "VTK", vtu, "quality partitions ghosts interfaces", nullptr);
     row.is_read = row.streamed_parts = false;
     table.push_back(row);
     row = view_format(".vtk", "a legacy VTK file", "VTK", vtk,
-                      "binary quality with without renumber first_node first_cell interfaces", to_vtk);
+                      "binary quality with without renumber first_node first_cell interfaces", vtk_file);
     row.read = read_vtk, row.unwritten_sets = kNoSides;
     table.push_back(row);
     row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
@@ -84,6 +78,7 @@ std::vector<FormatRow> make_table()
         row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
                           read_nastran);
         row.unwritten_sets = "sets of sides are not written: Nastran has none";
+        row.omits_middles = true;
         table.push_back(row);
     }
     row = deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv);
@@ -96,8 +91,8 @@ std::vector<FormatRow> make_table()
         table.push_back(row);
     }
     row = mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh);
-    row.is_folder = true, row.is_read = row.has_hex20 = row.has_node_sets = false;
-    row.options = "with without renumber interfaces", row.view_folder = write_poly_mesh;
+    row.is_folder = true, row.is_read = row.has_node_sets = false;
+    row.options = "with without renumber interfaces", row.write_folder = write_poly_mesh;
     row.unwritten_sets = "sets of nodes or sides are not written: a polyMesh has patches of faces";
     table.push_back(row);
     row = mesh_format(".mesh", "a Medit file", "Medit", medit);

@@ -30,7 +30,7 @@ struct Format {
     /// How the format stores a group of the skin.
     enum class Skin { quads, nodes, nodes_and_sides };
     Skin skin = Skin::quads;
-    bool has_lines = false, has_hex20 = true, has_hex27 = false;
+    bool has_lines = false, has_hex27 = false;
     bool numbers_regions = false;      ///< users know regions by property number
     std::string_view unwritten_sets{}; ///< deck sets that it cannot hold, and why; empty: holds all
     bool has_node_sets = true;         ///< else sets are of sides only

@@ -247,7 +247,7 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
     Joiner joiner(deck, model, scale, mesh);
     const std::vector<Index> points = joiner.points(was_there);
-    AddedMesh added{.points = points, .scale = scale, .joins = true};
+    AddedMesh added{.points = points, .scale = scale};
     added.skin_cells = !format_of(options.format).is_numbered;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
         added.neighbour_material = neighbour->material;

@@ -90,7 +90,7 @@ public:
     /// [-]
     double fill(const DeckSet& old, DeckSet& set, const std::function<bool(const DeckSet&)>& fits)
     {
-        using enum DeckSet::Kind;
+        using enum mesh::SetKind;
         if (old.kind != sides && holds(old.members, old.kind == nodes ? nodes_ : cells_)) {
             if (old.kind == elements && !fits(set)) return 0;
             add(set.members, old.kind == nodes ? added_.nodes : added_.cells);

@@ -5,9 +5,9 @@
 #include <lacuna/io/cell_field.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
-#include <lacuna/io/detail/swept_view.h>
 #include <lacuna/io/detail/texts.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/mesh/mesh_part.h>
@@ -77,13 +77,13 @@ public:
                     .remedy("sweep with order = 2, serendipity = true for those of 20"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
+        first_set_ = deck_.sets.size();
         find_place();
         choose_material();
-        const std::vector<std::size_t> of_all = added_.joins ? sets_of_all(deck_)
-                                                             : std::vector<std::size_t>();
+        const std::vector<std::size_t> of_all = joins() ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
-        if (added_.joins) update_sets(of_all);
+        if (joins()) update_sets(of_all);
         if (abaqus) add_groups(); // surfaces keep their names, element sets are renamed
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
@@ -116,25 +116,29 @@ private:
         if (done % kPolled == 0) check_cancelled(context_);
     }
 
+    [[nodiscard]] bool joins() const { return added_.bulk == nullptr; }
+
     /// The point of the deck for a node of the mesh; for numbered parts, its number.
     [[nodiscard]] Index point(Index node) const
     {
-        if (added_.bulk == nullptr) return point_[index(node)];
+        if (joins()) return point_[index(node)];
         return added_.numbers != nullptr ? added_.numbers->of(node) : node;
     }
     [[nodiscard]] DeckTag point_tag(Index node) const
     {
-        return added_.bulk ? DeckTag(point(node)) + 1 : deck_.point_tags[index(point(node))];
+        return !joins() ? added_.bulk->first_node + point(node) : deck_.point_tags[index(point(node))];
     }
 
     void add_points()
     {
-        if (added_.bulk != nullptr) {
+        if (!joins()) {
             std::vector<DeckTag> none;
-            const std::size_t nodes = mesh::corner_count(mesh_) + mesh::middle_count(mesh_);
             const auto* const of = added_.numbers;
-            free_from(of ? DeckTag(of->first()) + 1 : 1, of ? of->fresh() : nodes, {}, none, 0, "first_node",
-                      "node");
+            const std::size_t fresh = of != nullptr ? of->fresh()
+                                                    : mesh::corner_count(mesh_) + mesh::middle_count(mesh_);
+            DeckTag& first = added_.bulk->first_node;
+            if (options_.first_node != 0) first = options_.first_node;
+            free_from(first + (of != nullptr ? of->first() : 0), fresh, {}, none, 0, "first_node", "node");
             return;
         }
         const std::size_t fresh = static_cast<std::size_t>(std::ranges::count(added_.points, -1));
@@ -163,7 +167,7 @@ private:
         volume_ = volume();
         if (!takes_place()) deck_.regions.push_back({highest + 1, volume_, material_});
         const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
-        if (added_.bulk != nullptr) {
+        if (!joins()) {
             added_.bulk->first_cell = first_cell_;
             added_.bulk->region = region;
         }
@@ -171,7 +175,7 @@ private:
         const auto add = [&](DeckShape shape, std::size_t begin, std::size_t end) {
             if (begin == end) return;
             DeckBlock& block = deck_.blocks[block_of(deck_.blocks, shape, type_of(shape))];
-            for (std::size_t i = begin; i < end && added_.bulk == nullptr; ++i) {
+            for (std::size_t i = begin; i < end && joins(); ++i) {
                 poll(i);
                 const std::size_t c = kinds.cell(i);
                 for (const Index node : cell_nodes(mesh_, c)) block.nodes.push_back(point(node));
@@ -226,12 +230,11 @@ private:
         const bool own = group == volume_;
         DeckSet cells;
         cells.listed = added_.region >= 0; // for several pieces
-        for (std::size_t c = 0; c < mesh_.cell_count() && added_.bulk == nullptr; ++c)
+        for (std::size_t c = 0; c < mesh_.cell_count() && joins(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
         if (own && !takes_place()) region = set.name;
-        if (added_.bulk != nullptr)
-            added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
+        if (!joins()) added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
     }
 
     /// Update the sets of the deck that the mesh joins. @param of_all  `sets_of_all()` before the mesh
@@ -287,6 +290,8 @@ private:
             return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
                 if (other.kind != set.kind || !same_word(other.name, name)) return false;
                 const bool none = other.members.empty() && other.sides.empty();
+                // Without bulk, the sets of all cells are those that this mesh created and that are empty.
+                if (none && !joins()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
                 return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
             });
         };
@@ -317,7 +322,7 @@ private:
     /// Nastran's cards and case control refer to some sets by number, so these sets are not changed.
     void tell_kept_sets() const
     {
-        if (!added_.joins || deck_.format != DeckFormat::nastran) return;
+        if (!joins() || deck_.format != DeckFormat::nastran) return;
         std::vector<std::string> cards;
         for (const DeckText& text : deck_.texts) {
             std::istringstream lines(text.text);
@@ -462,7 +467,7 @@ private:
     void choose_material()
     {
         material_ = options_.material;
-        if (deck_.points.empty()) return; // there is nothing to join
+        if (!joins()) return;
         const std::vector<std::string> known = materials_in_text(deck_);
         const auto find = [&](const std::string& name) {
             return std::ranges::find_if(known, [&](const std::string& of) { return same_word(of, name); });
@@ -531,6 +536,7 @@ private:
     std::map<std::string, std::string> renamed_; ///< groups whose names were in use
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     DeckTag first_cell_ = 1;
+    std::size_t first_set_ = 0;              ///< number of sets before
     std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
     std::vector<int> sides_;                 ///< face number in these cells
     std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that already are elements
@@ -546,145 +552,67 @@ Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, co
 
 namespace {
 
-/// An empty deck of a format.
-Deck empty_deck(DeckFormat format)
-{
-    Deck deck;
-    deck.format = format;
-    if (format == DeckFormat::nastran) {
-        deck.texts.push_back({DeckText::Place::head, "", "BEGIN BULK\n"});
-        deck.texts.push_back({DeckText::Place::tail, "", "ENDDATA\n"});
-    }
-    return deck;
-}
-
-bool has_skin_cells(DeckFormat format) { return format_of(format).skin == Format::Skin::quads; }
-
-} // namespace
-
-Deck deck_of(const mesh::HexMesh& mesh, const MeshDeckOptions& options, const RunContext& context)
-{
-    Deck deck = empty_deck(options.format);
-    const std::vector<Index> points(mesh.node_count(), -1);
-    add_mesh(deck, mesh, {.points = points, .skin_cells = has_skin_cells(options.format)}, options, context);
-    return deck;
-}
-
-Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
-                       const RunContext& context)
-{
-    Deck deck = empty_deck(options.format);
-    add_mesh(deck, mesh, {.points = {}, .skin_cells = has_skin_cells(options.format), .bulk = &place},
-             options, context);
-    return deck;
-}
-
-namespace {
-
 /// Whether another mesh has the same quad, for each quad of each skin.
-/// @param number  `number(mesh, node)`: the number of a node over all meshes
-template <class Number>
-std::vector<std::vector<char>> inner_quads(std::span<const mesh::HexMesh* const> meshes, const Number& number)
+std::vector<std::vector<char>> inner_quads(std::span<const BulkPart> parts)
 {
     struct Place {
         Quad nodes;
-        std::size_t mesh, quad;
+        std::size_t part, quad;
     };
     std::vector<Place> all;
     std::vector<std::vector<char>> inner;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        inner.emplace_back(meshes[m]->skin_count(), 0);
-        for (std::size_t i = 0; i < inner[m].size(); ++i) {
-            Quad quad = skin_quad(*meshes[m], i).nodes;
-            for (Index& n : quad) n = number(m, n);
-            all.push_back({rising(quad), m, i});
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        inner.emplace_back(parts[p].mesh.skin_count(), 0);
+        for (std::size_t i = 0; i < inner[p].size(); ++i) {
+            Quad quad = skin_quad(parts[p].mesh, i).nodes;
+            for (Index& n : quad) n = parts[p].numbers->of(n);
+            all.push_back({rising(quad), p, i});
         }
     }
     std::ranges::sort(all, {}, &Place::nodes);
     for (std::size_t k = 1; k < all.size(); ++k) {
         if (all[k].nodes != all[k - 1].nodes) continue;
-        for (const Place& place : {all[k - 1], all[k]}) inner[place.mesh][place.quad] = 1;
+        for (const Place& place : {all[k - 1], all[k]}) inner[place.part][place.quad] = 1;
     }
     return inner;
 }
 
-/// Merge several meshes into one deck.
-/// @param number     `number(mesh, node)`: the number of a node over all meshes, from 0
-/// @param fill       `fill(mesh, added)`: sets where the nodes and cells of a mesh go
-/// @param was_added  called after each mesh
-template <class Meshes, class Number, class Fill, class Added>
-Deck deck_of_meshes(const Meshes& meshes, const Number& number, const Fill& fill, const Added& was_added,
-                    MeshDeckOptions options, bool interfaces, const RunContext& context)
+} // namespace
+
+Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool interfaces,
+                       const RunContext& context)
 {
-    Deck deck = empty_deck(options.format);
-    const bool cells = has_skin_cells(options.format);
+    Deck deck;
+    deck.format = options.format;
+    if (deck.format == DeckFormat::nastran)
+        deck.texts = {{DeckText::Place::head, "", "BEGIN BULK\n"}, {DeckText::Place::tail, "", "ENDDATA\n"}};
+    const bool cells = format_of(options.format).skin == Format::Skin::quads;
+    const bool several = parts.front().numbers != nullptr;
     GroupSets groups;
-    std::vector<std::vector<char>> inner(meshes.size());
-    if (cells && !interfaces) inner = inner_quads(std::span(meshes), number);
+    std::vector<std::vector<char>> inner(parts.size());
+    if (cells && several && !interfaces) inner = inner_quads(parts);
     std::map<Quad, DeckTag> skin_tags;
     std::map<std::string, Index> regions; // parts of one name form one region
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const mesh::HexMesh& mesh = *meshes[m];
-        AddedMesh added{.points = {}, .skin_cells = cells, .groups = &groups};
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const mesh::HexMesh& mesh = parts[p].mesh;
+        BulkPlace& place = parts[p].place;
+        AddedMesh added{.points = {}, .skin_cells = cells, .bulk = &place, .numbers = parts[p].numbers};
+        if (several) added.groups = &groups;
         if (interfaces) added.skin_tags = &skin_tags;
-        added.inner = std::move(inner[m]);
-        fill(m, added);
+        added.inner = std::move(inner[p]);
+        if (p > 0) {
+            const BulkPart& last = parts[p - 1];
+            place.first_node = last.place.first_node;
+            place.highest = last.place.first_cell + static_cast<DeckTag>(last.mesh.cell_count()) - 1;
+        }
         const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
         if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
-        const Index place = add_mesh(deck, mesh, added, options, context);
-        if (!region.empty()) regions.try_emplace(region, place);
-        was_added(m, deck);
+        add_mesh(deck, mesh, added, options, context);
+        tidy(place.sets);
+        if (!region.empty()) regions.try_emplace(region, place.region);
         options.first_node = options.first_cell = 0;
     }
     return deck;
-}
-
-template <class Parts, class MeshOf>
-std::vector<const mesh::HexMesh*> meshes_of(const Parts& parts, const MeshOf& mesh_of)
-{
-    std::vector<const mesh::HexMesh*> meshes;
-    for (const auto& part : parts) meshes.push_back(mesh_of(part));
-    return meshes;
-}
-
-} // namespace
-
-Deck deck_of(std::span<const mesh::MeshPart> parts, const MeshDeckOptions& options, bool interfaces,
-             const RunContext& context)
-{
-    std::vector<Index> point, points; // for each node of the whole, and of one mesh
-    return deck_of_meshes(
-        meshes_of(parts, [](const mesh::MeshPart& part) { return part.mesh; }),
-        [&](std::size_t m, Index node) { return parts[m].number[index(node)]; },
-        [&](std::size_t m, AddedMesh& added) {
-            points.clear();
-            for (const Index number : parts[m].number)
-                points.push_back(index(number) < point.size() ? point[index(number)] : -1);
-            added.points = points;
-        },
-        [&](std::size_t, const Deck& deck) {
-            while (point.size() < deck.points.size()) point.push_back(static_cast<Index>(point.size()));
-        },
-        options, interfaces, context);
-}
-
-Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
-                       bool interfaces, std::vector<BulkPlace>& places, const RunContext& context)
-{
-    places.assign(parts.size(), {});
-    DeckTag highest = 0;
-    return deck_of_meshes(
-        meshes_of(parts, [](const mesh::LayeredPart& part) { return &part.mesh; }),
-        [&](std::size_t m, Index node) { return parts[m].numbers.of(node); },
-        [&](std::size_t m, AddedMesh& added) {
-            places[m].highest = highest;
-            added.bulk = &places[m];
-            added.numbers = &parts[m].numbers;
-        },
-        [&](std::size_t m, const Deck&) {
-            highest = places[m].first_cell + static_cast<DeckTag>(parts[m].mesh.cell_count()) - 1;
-        },
-        options, interfaces, context);
 }
 
 } // namespace lacuna::io

@@ -6,7 +6,6 @@
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/swept_view.h>
-#include <lacuna/io/detail/vtk_writer.h>
 
 #include <algorithm>
 
@@ -21,20 +20,6 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
     for (const std::string& note : notes) log_line(context, formatted("note: {}: {}", path.text(), note));
 }
 
-/// Clear `all_groups` if the format cannot hold it, and log that.
-DeckFileOptions options_for(const Format& format, DeckFileOptions options, const OutputPath& path,
-                            const RunContext& context)
-{
-    if (options.all_groups && options.msh_version == 2.2 && format.has_option("version")) {
-        options.all_groups = false;
-        tell({"MSH 2.2 holds one group an element, so groups = \"all\" is not "
-              "followed; version = 4.1 holds "
-              "all"},
-             path, context);
-    }
-    return options;
-}
-
 void check_version(const Format& format, const MeshFileOptions& options)
 {
     if (!format.has_option("version")) return;
@@ -47,32 +32,65 @@ void check_version(const Format& format, const MeshFileOptions& options)
                                .remedy("leave out the version"));
 }
 
-/// Write a swept mesh in a format other than a deck.
-void write_view(const FormatRow& format, const mesh::HexMesh& mesh, const NodeReader& nodes,
-                const std::vector<FieldReader>& fields, const OutputPath& path,
-                const MeshFileOptions& options, const RunContext& context, const Team* team = nullptr)
+/// Write a view.
+/// @param parts  of a partition; null: the mesh is not divided
+/// @param notes  to be logged after those of the writer
+void write_view(const FormatRow& format, const View& view, const mesh::ViewParts* parts,
+                const std::vector<std::string>& notes, const MeshFileOptions& options, const OutputPath& path,
+                const RunContext& context, const Team* team)
 {
-    const auto view = view_of(mesh, nodes, fields);
-    if (format.view_folder != nullptr) return format.view_folder(*view, path, context);
-    mesh::ViewParts parts;
-    const bool pieces = format.view_file == nullptr, parted = pieces || options.partition.parts > 0;
-    if (parted) parts = parts_of(mesh, options.partition);
-    if (pieces) return write_pieces(view, parts, options.partition.ghosts, path, context, team);
-    const DeckFileOptions file_options = options_for(
-        format, {.binary = options.binary, .msh_version = options.version, .all_groups = options.all_groups},
-        path, context);
-    const DeckFile file = format.view_file(view, file_options, parted ? &parts : nullptr);
+    if (format.write == nullptr) {
+        tell(notes, path, context, team);
+        if (format.is_folder) return format.write_folder(*view, path, context);
+        return write_pieces(view, *parts, options.partition.ghosts, path, context, team);
+    }
+    const DeckFile file = format.write(view, options, parts);
+    tell(file.notes, path, context, team);
+    tell(notes, path, context, team);
+    if (!file.changed.empty()) tell({file.changed}, path, context, team);
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// View a deck for a format other than a deck. @param bulk  reader of this deck
-std::shared_ptr<const mesh::MeshView> view_for(const FormatRow& format, const Deck& deck,
-                                               const BulkReader& bulk)
+/// Write the view of swept meshes, in parts where these are asked for or the format has only pieces.
+template <class PartsOf>
+void write_divided(const FormatRow& format, const View& view, const PartsOf& parts_of_view,
+                   const MeshFileOptions& options, const OutputPath& path, const RunContext& context,
+                   const Team* team)
 {
-    for (const DeckBlock& block : deck.blocks)
-        if (std::ranges::find(block.nodes, -1) != block.nodes.end())
-            refuse_element(block, format.word, "some have not all their middle nodes");
-    return view_of(deck, bulk);
+    mesh::ViewParts parts;
+    const bool pieces = format.write == nullptr && !format.is_folder;
+    const bool divided = pieces || (options.partition.parts > 0 && format.has_option("partitions"));
+    if (divided) parts = parts_of_view();
+    write_view(format, view, divided ? &parts : nullptr, {}, options, path, context, team);
+}
+
+/// Write swept meshes with the regions and sets of a deck.
+void write_as_deck(const Format& format, std::span<BulkPart> parts, const OutputPath& path,
+                   const MeshFileOptions& options, MeshDeckOptions deck_options, const RunContext& context,
+                   const Team* team)
+{
+    deck_options.format = format.deck;
+    const Deck deck = deck_without_bulk(parts, deck_options, options.interfaces, context);
+    const View view = view_of(deck, format, parts);
+    write_divided(
+        row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, options, path,
+        context, team);
+}
+
+/// Write a swept mesh. @param readers  makes the readers of its fields, which decks have not
+template <class Readers>
+void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_ptr<const NodeReader> nodes,
+                 const Readers& readers, const OutputPath& path, const MeshFileOptions& options,
+                 const MeshDeckOptions& deck, const RunContext& context, const Team* team)
+{
+    if (format.is_numbered) {
+        BulkPart part{mesh, std::move(nodes), nullptr};
+        return write_as_deck(format, {&part, 1}, path, options, deck, context, team);
+    }
+    const std::vector<FieldReader> fields = readers();
+    write_divided(
+        row_of(format), view_of(mesh, *nodes, fields), [&] { return parts_of(mesh, options.partition); },
+        options, path, context, team);
 }
 
 void note_sets(const Format& format, const Deck& deck, std::vector<std::string>& notes)
@@ -83,31 +101,6 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
                (set.kind == DeckSet::Kind::nodes && !format.has_node_sets);
     });
     if (unwritten > 0) notes.push_back(formatted("{} {}", unwritten, format.unwritten_sets));
-}
-
-DeckFile file_of(const FormatRow& format, const Deck& deck, const DeckFileOptions& options,
-                 const LayeredBulk* layered = nullptr)
-{
-    DeckFile file;
-    mesh::ViewParts parts;
-    if (options.partition != nullptr) parts = parts_of(deck, *options.partition);
-    if (format.deck_file != nullptr)
-        file = format.deck_file(deck, layered);
-    else
-        file = format.view_file(view_for(format, deck, {deck, layered}), options,
-                                options.partition != nullptr ? &parts : nullptr);
-    note_sets(format, deck, file.notes);
-    return file;
-}
-
-void write_bulk(const Format& format, const Deck& deck, std::vector<BulkPart> parts,
-                const DeckFileOptions& options, const OutputPath& path, const RunContext& context,
-                const Team* team)
-{
-    const LayeredBulk bulk(deck, std::move(parts));
-    const DeckFile file = file_of(row_of(format), deck, options_for(format, options, path, context), &bulk);
-    tell(file.notes, path, context, team);
-    write_file(path, file.sections, file.sizes, context, team);
 }
 
 /// A copy of the deck without line elements, also removed from sets.
@@ -136,12 +129,9 @@ void write_mesh(const Format& format, const mesh::HexMesh& mesh, const OutputPat
                 const MeshFileOptions& options, const MeshDeckOptions& deck, const RunContext& context)
 {
     check_version(format, options);
-    if (!format.is_numbered)
-        return write_view(row_of(format), mesh, NodeReader(mesh), readers_of(mesh, options.fields), path,
-                          options, context);
-    MeshDeckOptions own = deck;
-    own.format = format.deck;
-    write_deck(deck_of(mesh, own, context), format, path, context);
+    write_swept(
+        format, mesh, std::make_unique<NodeReader>(mesh), [&] { return readers_of(mesh, options.fields); },
+        path, options, deck, context, nullptr);
 }
 
 void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const OutputPath& path,
@@ -149,71 +139,58 @@ void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const Ou
                 const std::vector<LayeredField>& fields, const RunContext& context, const Team* team)
 {
     check_version(format, options);
-    auto nodes = std::make_unique<NodeReader>(layered, context);
-    if (!format.is_numbered)
-        return write_view(row_of(format), layered.mesh, *nodes, readers_of(layered, fields, context, team),
-                          path, options, context, team);
-    MeshDeckOptions own = deck;
-    own.format = format.deck;
-    BulkPlace place;
-    const Deck bulk = deck_without_bulk(layered.mesh, own, place, context);
-    std::vector<BulkPart> parts;
-    parts.push_back({layered.mesh, std::move(nodes), nullptr, std::move(place)});
-    write_bulk(format, bulk, std::move(parts), {}, path, context, team);
+    write_swept(
+        format, layered.mesh, std::make_unique<NodeReader>(layered, context),
+        [&] { return readers_of(layered, fields, context, team); }, path, options, deck, context, team);
 }
 
 void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts, const OutputPath& path,
-                 const DeckFileOptions& file, const RunContext& context, const Team* team)
+                 const MeshFileOptions& options, const MeshDeckOptions& deck, const RunContext& context,
+                 const Team* team)
 {
-    std::vector<BulkPlace> places;
-    const Deck deck = deck_without_bulk(parts, {.format = format.deck}, false, places, context);
+    check_version(format, options);
     std::vector<BulkPart> bulk;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        const mesh::HexMesh& mesh = parts[p].mesh;
-        auto nodes = parts[p].nodes != nullptr
-                         ? std::make_unique<NodeReader>(mesh::LayeredMesh{mesh, *parts[p].nodes}, context)
-                         : std::make_unique<NodeReader>(mesh);
-        bulk.push_back({mesh, std::move(nodes), &parts[p].numbers, std::move(places[p])});
+    for (const mesh::LayeredPart& part : parts) {
+        auto nodes = part.nodes != nullptr
+                         ? std::make_unique<NodeReader>(mesh::LayeredMesh{part.mesh, *part.nodes}, context)
+                         : std::make_unique<NodeReader>(part.mesh);
+        bulk.push_back({part.mesh, std::move(nodes), &part.numbers});
     }
-    write_bulk(format, deck, std::move(bulk), file, path, context, team);
+    write_as_deck(format, bulk, path, options, deck, context, team);
 }
 
 void write_deck(const Deck& deck, const Format& format, const OutputPath& path, const RunContext& context,
-                const DeckFileOptions& options)
+                const MeshFileOptions& options)
 {
     if (const std::size_t lines = deck.element_count(1); lines > 0 && !format.has_lines) {
         log_line(context, formatted("{}: {} lines are not written", path.text(), lines));
         return write_deck(without_lines(deck), format, path, context, options);
     }
     const FormatRow& row = row_of(format);
-    DeckFile file;
-    if (row.view_folder == nullptr)
-        file = file_of(row, deck, options_for(format, options, path, context));
-    else
-        note_sets(format, deck, file.notes);
+    const View view = view_of(deck, format);
+    for (std::size_t b = 0; b < deck.blocks.size(); ++b)
+        if (!row.omits_middles && std::ranges::find(deck.blocks[b].nodes, -1) != deck.blocks[b].nodes.end())
+            refuse_element(view->blocks[b], format.word, "some have not all their middle nodes");
+    if (deck.format == DeckFormat::abaqus && deck.instances.size() > 1 && !deck.texts.empty() &&
+        format.deck == DeckFormat::abaqus)
+        tell({formatted("the {} instances become one mesh, sets are named instance_set, and cards are not "
+                        "carried over: they name nodes by their instances",
+                        deck.instances.size())},
+             path, context);
+    std::vector<std::string> notes;
+    note_sets(format, deck, notes);
     const bool texts = std::ranges::any_of(
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format.deck != deck.format && texts)
-        file.notes.push_back(formatted(
+        notes.push_back(formatted(
             "materials, loads and other cards of {} are of another format and not carried over", deck.path));
-    if (!file.changed.empty()) file.notes.push_back(file.changed);
-    tell(file.notes, path, context);
-    if (row.view_folder != nullptr)
-        return row.view_folder(*view_for(row, deck, {deck, nullptr}), path, context);
-    write_file(path, file.sections, file.sizes, context);
+    write_view(row, view, nullptr, notes, options, path, context, nullptr);
 }
 
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,
-                const DeckFileOptions& options)
+                const MeshFileOptions& options)
 {
     write_deck(deck, format_of(format), path, context, options);
-}
-
-void write_pvtu(const Deck& deck, const DeckPartition& partition, int ghosts, const OutputPath& path,
-                const RunContext& context)
-{
-    const auto view = view_for(row_of(format_of(DeckFormat::vtu)), deck, {deck, nullptr});
-    write_pieces(view, parts_of(deck, partition), ghosts, path, context);
 }
 
 } // namespace lacuna::io

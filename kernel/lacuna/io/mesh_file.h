@@ -22,7 +22,7 @@ struct Team;
 
 namespace lacuna::io {
 
-/// Options for writing a mesh. Options that the format does not support are ignored.
+/// Options for writing a mesh or deck. Options that the format does not support are ignored.
 struct MeshFileOptions {
     bool binary = true;              ///< .msh and .vtk only
     double version = 4.1;            ///< .msh only: 4.1, or 2.2 for readers without 4.1
@@ -33,10 +33,23 @@ struct MeshFileOptions {
     /// .msh only: write cells into all their groups, which then overlap. Otherwise each cell is in one group,
     /// as solvers with a single mark per cell require. Version 2.2 always writes one.
     bool all_groups = false;
+    /// Of several meshes, in formats where the skin is elements: quads shared by two of them are written too.
+    bool interfaces = false;
 };
 
-/// Write hexahedra, wedges and their skin, with a group for each entity: the complete file or none. For decks
-/// this is `write_deck()` applied to `deck_of()` the mesh.
+/// Write hexahedra, wedges and their skin, with a group for each entity: the complete file or none.
+///
+/// In decks the hexahedra form one region, named after the first of the volume's groups, with property 1; a
+/// group of the skin is
+///
+/// | format | a group is |
+/// |---|---|
+/// | Abaqus | a set of nodes, one of the cells behind the faces, and a surface of their sides |
+/// | Exodus | a set of nodes and one of sides |
+/// | Nastran | a set of nodes |
+/// | UNV | a set of quads, which are elements behind the hexahedra |
+///
+/// Names in Abaqus consist of letters, digits, - and _ : other characters become _ .
 ///
 /// In VTK the cell array "entity" holds the tag of the skin patch, and 0 for solids. A field array
 /// for each group, with the name of the group, lists its entities. A .pvtu "mesh.pvtu" refers to its pieces
@@ -46,8 +59,11 @@ struct MeshFileOptions {
 /// other pieces and for points that another piece owns.
 /// @param deck  options for formats that are decks, with the material; `deck.format` is ignored.
 /// @throw InvalidInput  the folder does not exist, a skin quad belongs to no patch, the version is unknown,
-///                      as `check_fields()`, `layer_parts()` and `deck_of()`; "io.partition_version"  parts
-///                      of another version than 4.1.
+///                      as `check_fields()` and `layer_parts()`; "io.partition_version"  parts of another
+///                      version than 4.1; "io.element"  `deck.element` is not a hexahedron with as many
+///                      nodes as the mesh's; "io.no_such_element"  the mesh is of hex27, which Nastran,
+///                      Abaqus and UNV do not have; "io.number_taken"  a first number is below 1, or the
+///                      last would be too high.
 /// @throw BackendError  the disk is full or the file cannot be written; nothing is left behind.
 void write_mesh(const Format& format, const mesh::HexMesh& mesh, const OutputPath& path,
                 const MeshFileOptions& options = {}, const MeshDeckOptions& deck = {},
@@ -64,7 +80,6 @@ struct LayeredField {
 /// not depend on the number of layers, apart from that for the skin. Exodus stores x, y and z in separate
 /// arrays, so nodes are computed three times.
 /// @param options  without fields; these are given separately.
-/// @param deck     without first numbers.
 /// @param team  processes that each write their share of the file, or some of the pieces, to the path of rank
 ///              0; null: this process alone.
 /// @pre  the format is streamed
@@ -73,12 +88,36 @@ void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const Ou
                 const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                 const Team* team = nullptr);
 
-/// `write_deck()` applied to `deck_of()` several meshes with shared nodes: the same bytes, and memory as
-/// above. Parts may hold their nodes in memory.
+/// The same for several meshes with shared nodes, stored or not: one region for each name, with groups named
+/// like those of the meshes. With a partition, whole volumes are parts, with numbers of cells as even as
+/// possible, if there are at least as many volumes as parts; otherwise each volume is one or several parts by
+/// its layers. Quads belong to the part of their cell.
+/// @param options  without fields
 /// @param team  processes that each write their share of the file; each must have all parts.
-/// @pre  the format streams parts, `options` has no partition, and all meshes are of order 1.
 void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts, const OutputPath& path,
-                 const DeckFileOptions& file = {}, const RunContext& context = {},
-                 const Team* team = nullptr);
+                 const MeshFileOptions& options = {}, const MeshDeckOptions& deck = {},
+                 const RunContext& context = {}, const Team* team = nullptr);
+
+/// Write a deck as Nastran bulk data, Abaqus input, a universal file, an Exodus file, or for Gmsh or VTK: the
+/// complete file or none.
+///
+/// Numbers, sets and element types are kept; text of the same format is copied verbatim. Coordinates are in
+/// the basic frame, as accurate as the format allows: 16 characters in Nastran (11 to 15 digits), 20 in
+/// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
+/// nodes, elements, regions and sets; the log lists omitted content.
+///
+/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
+/// In .msh a region is a physical group, and a set of elements where these have no region; with `all_groups`
+/// all regions and sets of elements are. In .vtk and .vtu elements that are in the same
+/// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
+/// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
+/// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.
+/// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
+///                     "io.folder" and the like as `WholeFile`.
+/// @throw BackendError  as `WholeFile`.
+void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
+                const RunContext& context = {}, const MeshFileOptions& options = {});
+void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context = {},
+                const MeshFileOptions& options = {});
 
 } // namespace lacuna::io

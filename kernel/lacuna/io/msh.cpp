@@ -4,7 +4,7 @@
 // entity; elements are written entity by entity. In partitioned files $Entities lists the entities of the
 // whole mesh; $PartitionedEntities has one for each part of each of them, and nodes and elements refer to
 // these.
-#include <lacuna/io/detail/msh_file.h>
+#include <lacuna/io/detail/format_table.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
@@ -20,6 +20,9 @@
 #include <set>
 
 namespace lacuna::io {
+
+WriteView msh_file;
+
 namespace {
 
 using mesh::MeshView;
@@ -183,8 +186,7 @@ struct PartEntity {
 
 class MshFile {
 public:
-    MshFile(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
-            const ViewParts* parts)
+    MshFile(const View& view, const MeshFileOptions& options, const ViewParts* parts)
         : view_(view), numbers_{options.binary}, parts_(parts)
     {
         rows_ = rows_of(nullptr);
@@ -192,7 +194,11 @@ public:
         used_.assign(view->entities.size(), 0);
         for (const Row& row : rows_) used_[row.entity] = 1;
         number_cells();
-        name_groups(options.all_groups);
+        const bool can_overlap = options.version != 2.2;
+        if (options.all_groups && !can_overlap)
+            file_.notes.emplace_back("MSH 2.2 holds one group an element, so groups = \"all\" is not "
+                                     "followed; version = 4.1 holds all");
+        name_groups(options.all_groups && can_overlap);
         if (view->point_tags.given() && view->points > 0)
             nodes_ = view->point_tags.bounds(view->points);
         else if (view->points > 0)
@@ -620,7 +626,7 @@ private:
         return std::move(file_);
     }
 
-    std::shared_ptr<const MeshView> view_;
+    View view_;
     MshNumbers numbers_;
     const ViewParts* parts_;
     std::vector<Row> rows_, part_rows_;
@@ -638,11 +644,10 @@ private:
 
 } // namespace
 
-DeckFile msh_file(const std::shared_ptr<const MeshView>& view, const DeckFileOptions& options,
-                  const ViewParts* parts)
+DeckFile msh_file(const View& view, const MeshFileOptions& options, const ViewParts* parts)
 {
     MshFile file(view, options, parts);
-    return options.msh_version == 2.2 ? file.write_22() : file.write_41();
+    return options.version == 2.2 ? file.write_22() : file.write_41();
 }
 
 } // namespace lacuna::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/exodus.h>
+#include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
@@ -11,7 +11,12 @@
 // card brought along keep their text, if need be in free fields.
 
 namespace lacuna::io {
+
+WriteView nastran_file;
+
 namespace {
+
+using mesh::MeshView;
 
 constexpr std::size_t kSmall = 8, kLarge = 16; // characters of a field
 constexpr std::size_t kNumber = 20;            // characters of a tag, at most
@@ -43,10 +48,6 @@ public:
             add(text.substr(0, end));
             text.remove_prefix(std::min(end + 1, text.size()));
         }
-    }
-    void fill_to(std::size_t count)
-    {
-        while (fields_.size() < count) add({});
     }
     char* put(char* out, std::string_view name, bool large = false)
     {
@@ -100,54 +101,52 @@ private:
     std::size_t used_ = 0;
 };
 
-using Further = std::vector<std::pair<std::size_t, std::string>>;
-
 /// Bytes that the longest text takes as fields.
-std::size_t room_of(const Further& further)
+std::size_t room_of(MeshView::TextByIndex more)
 {
     std::size_t room = 0;
-    for (const auto& [at, text] : further) {
+    for (const auto& [at, text] : more) {
         const auto fields = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
         room = std::max(room, CardWriter::room(fields, text.size()));
     }
     return room;
 }
 
-std::string_view text_of_place(const Further& further, std::size_t place)
+std::string_view text_of_place(MeshView::TextByIndex more, std::size_t place)
 {
-    const auto at = std::ranges::lower_bound(further, place, {}, &Further::value_type::first);
-    return at != further.end() && at->first == place ? std::string_view(at->second) : std::string_view();
+    const auto at = std::ranges::lower_bound(more, place, {}, &MeshView::TextByIndex::value_type::first);
+    return at != more.end() && at->first == place ? std::string_view(at->second) : std::string_view();
 }
 
-void add_nodes(const Deck& deck, const BulkReader& bulk, bool same, DeckFile& file)
+void add_nodes(const View& view, DeckFile& file)
 {
-    const std::size_t more = same ? room_of(deck.point_more) : 0;
-    const auto put = [&deck, same, card = CardWriter()](std::size_t p, DeckTag tag, const Vec3& point,
-                                                        char* out) mutable {
+    const MeshView::TextByIndex more = view->kept ? view->kept->points : MeshView::TextByIndex();
+    const auto put = [more, card = CardWriter()](std::size_t p, DeckTag tag, const Vec3& point,
+                                                 char* out) mutable {
         card.begin();
         card.add_number(tag);
         card.add({});
         for (const double x : point) card.add_real(x);
-        if (same) card.add_text(text_of_place(deck.point_more, p));
+        card.add_text(text_of_place(more, p));
         return card.put(out, "GRID", true);
     };
-    file.sections.push_back(section_of_points({}, bulk, CardWriter::room(5, kLarge) + more, put));
+    file.sections.push_back(section_of_points({}, view, CardWriter::room(5, kLarge) + room_of(more), put));
 }
 
-void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, bool same, DeckFile& file)
+void add_elements(const View& view, std::size_t b, DeckFile& file)
 {
-    const std::string_view name = same && !block.type.empty() ? std::string_view(block.type)
-                                                              : words_of(block.shape).nastran;
+    const MeshView::Block& block = view->blocks[b];
+    const std::string_view name = view->kept && !block.type.empty() ? std::string_view(block.type)
+                                                                    : words_of(block.shape).nastran;
     if (name.empty()) refuse_element(block, "Nastran", "there is no such card");
     const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
     const auto places = exodus_places(block.shape); // which Nastran has too
-    const std::size_t more = same ? room_of(block.more) : 0;
-    const auto put = [=, &deck, &block, card = CardWriter()](std::size_t e, DeckTag tag, Index region,
-                                                             std::span<const Index> element,
-                                                             char* out) mutable {
+    const MeshView::TextByIndex more = view->kept ? view->kept->cells[b] : MeshView::TextByIndex();
+    const auto put = [=, card = CardWriter()](std::size_t e, DeckTag tag, Index region,
+                                              std::span<const Index> element, char* out) mutable {
         card.begin();
         card.add_number(tag);
-        const int property = region < 0 ? 0 : deck.regions[index(region)].tag;
+        const int property = region < 0 ? 0 : view->regions[index(region)].tag;
         if (property > 0)
             card.add_number(property);
         else
@@ -157,22 +156,23 @@ void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& blo
             if (node < 0)
                 card.add({});
             else
-                card.add_number(bulk.point_tag(node));
+                card.add_number(view->point_tags[index(node)]);
         }
-        if (same) card.add_text(text_of_place(block.more, e));
+        card.add_text(text_of_place(more, e));
         return card.put(out, name);
     };
     file.sections.push_back(
-        section_of_elements(bulk, block, CardWriter::room(nodes + 2, kNumber) + more, put));
+        section_of_cells(view, b, CardWriter::room(nodes + 2, kNumber) + room_of(more), put));
 }
 
 /// SET1, which names no kind: a comment does.
-std::string set_text(const DeckSet& set, int number)
+std::string set_text(const MeshView::Set& set, int number)
 {
     CardWriter card;
     const std::string id = std::to_string(number);
     std::vector<std::string> members;
-    for (const DeckTag member : set.members) members.push_back(std::to_string(member));
+    set.members.each(0, set.count,
+                     [&](std::size_t, DeckTag member) { members.push_back(std::to_string(member)); });
     card.begin();
     card.add(id);
     std::size_t longest = id.size();
@@ -182,22 +182,22 @@ std::string set_text(const DeckSet& set, int number)
     }
     std::string text(CardWriter::room(members.size() + 1, longest), '\0');
     text.resize(static_cast<std::size_t>(card.put(text.data(), "SET1") - text.data()));
-    return "$ " + std::string(set.kind == DeckSet::Kind::nodes ? "nodes" : "elements") + " of " + set.name +
+    return "$ " + std::string(set.kind == mesh::SetKind::nodes ? "nodes" : "elements") + " of " + set.name +
            "\n" + text;
 }
 
 /// Names of the properties of another format's deck, and cards of those that solids have.
-std::string property_text(const Deck& deck)
+std::string property_text(const MeshView& view)
 {
-    std::vector<bool> solid(deck.regions.size(), false);
-    for (const DeckBlock& block : deck.blocks)
+    std::vector<bool> solid(view.regions.size(), false);
+    for (const MeshView::Block& block : view.blocks)
         if (shape_info(block.shape).dimension == 3)
-            for (const Index region : block.regions)
+            for (const auto& [end, region] : block.regions)
                 if (region >= 0) solid[index(region)] = true;
     std::string text;
     for (std::size_t r = 0; r < solid.size(); ++r) {
-        const std::string tag = std::to_string(deck.regions[r].tag);
-        text += "$ property " + tag + " is " + deck.regions[r].name + "\n";
+        const std::string tag = std::to_string(view.regions[r].tag);
+        text += "$ property " + tag + " is " + view.regions[r].name + "\n";
         if (solid[r]) text += "PSOLID," + tag + ",1\n";
     }
     return text;
@@ -205,21 +205,20 @@ std::string property_text(const Deck& deck)
 
 } // namespace
 
-DeckFile nastran_file(const Deck& deck, const LayeredBulk* layered)
+DeckFile nastran_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
-    const BulkReader bulk(deck, layered);
-    const bool same = deck.format == DeckFormat::nastran;
+    MeshView::KeptText kept{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
+    if (view->kept) kept = *view->kept;
     DeckFile file;
-    file.sections.push_back({same ? text_at(deck, DeckText::Place::head) : "BEGIN BULK\n", 0, 0, {}});
-    add_nodes(deck, bulk, same, file);
-    for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, same, file);
-    std::string text = same ? text_at(deck, DeckText::Place::cards) : std::string();
-    int number = static_cast<int>(numbers_in_text(deck).set);
-    for (const DeckSet& set : deck.sets)
-        if (!set.members.empty()) text += set_text(set, ++number);
-    if (!same) text += property_text(deck);
-    const std::string tail = same ? text_at(deck, DeckText::Place::tail) : "ENDDATA\n";
-    file.sections.push_back({text + tail, 0, 0, {}});
+    file.add(kept.head);
+    add_nodes(view, file);
+    for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);
+    std::string text = kept.cards;
+    int number = kept.highest_set;
+    for (const MeshView::Set& set : view->sets)
+        if (set.count > 0) text += set_text(set, ++number);
+    if (!view->kept) text += property_text(*view);
+    file.add(text + kept.tail);
     return file;
 }
 

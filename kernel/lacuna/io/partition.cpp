@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/partition.h>
+#include <lacuna/io/detail/deck_view.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/team.h>
-
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/detail/deck_builder.h>
 
 #include <algorithm>
 #include <map>
@@ -13,6 +13,8 @@
 
 namespace lacuna::io {
 namespace {
+
+using mesh::MeshView;
 
 [[noreturn]] void refuse_parts(int parts, std::size_t layers)
 {
@@ -23,7 +25,7 @@ namespace {
 }
 
 /// Number of parts of each mesh, if there are more parts than meshes: by its cells.
-std::vector<int> parts_of_each(std::span<const mesh::MeshPart> meshes, int parts)
+std::vector<int> parts_of_each(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<int> each(meshes.size(), 1);
     for (auto sum = static_cast<int>(meshes.size()); sum < parts; ++sum) {
@@ -31,9 +33,9 @@ std::vector<int> parts_of_each(std::span<const mesh::MeshPart> meshes, int parts
         double most = 0;
         std::size_t layers = 0;
         for (std::size_t m = 0; m < meshes.size(); ++m) {
-            layers += index(meshes[m].mesh->layers);
-            const double cells = static_cast<double>(meshes[m].mesh->cell_count()) / each[m];
-            if (each[m] >= meshes[m].mesh->layers || cells <= most) continue;
+            layers += index(meshes[m].mesh.layers);
+            const double cells = static_cast<double>(meshes[m].mesh.cell_count()) / each[m];
+            if (each[m] >= meshes[m].mesh.layers || cells <= most) continue;
             largest = m;
             most = cells;
         }
@@ -44,14 +46,14 @@ std::vector<int> parts_of_each(std::span<const mesh::MeshPart> meshes, int parts
 }
 
 /// The part of each layer of each mesh.
-std::vector<std::vector<Index>> parts_of_layers(std::span<const mesh::MeshPart> meshes, int parts)
+std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<std::vector<Index>> all(meshes.size());
     if (meshes.size() < static_cast<std::size_t>(parts)) {
         const std::vector<int> each = parts_of_each(meshes, parts);
         Index next = 0;
         for (std::size_t m = 0; m < meshes.size(); ++m)
-            for (const LayerPart& part : layer_parts(meshes[m].mesh->layers, {each[m]}))
+            for (const LayerPart& part : layer_parts(meshes[m].mesh.layers, {each[m]}))
                 all[m].resize(index(part.last), next++);
         return all;
     }
@@ -59,58 +61,127 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const mesh::MeshPart> 
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::ranges::stable_sort(order, std::greater<>{},
-                             [&](std::size_t m) { return meshes[m].mesh->cell_count(); });
+                             [&](std::size_t m) { return meshes[m].mesh.cell_count(); });
     std::vector<std::size_t> cells(static_cast<std::size_t>(parts), 0);
     for (const std::size_t m : order) {
         const auto least = std::ranges::min_element(cells);
-        *least += meshes[m].mesh->cell_count();
-        all[m].assign(index(meshes[m].mesh->layers), static_cast<Index>(least - cells.begin()));
+        *least += meshes[m].mesh.cell_count();
+        all[m].assign(index(meshes[m].mesh.layers), static_cast<Index>(least - cells.begin()));
     }
     return all;
 }
 
-/// Finds the parts of which elements are ghosts: row by row, those of elements with a common node.
-class GhostFinder {
+/// Divides the elements of a view. A list of parts is numbered; 0: none.
+class Divider {
 public:
-    GhostFinder(const Deck& deck, DeckPartition& partition) : deck_(deck), partition_(partition) {}
-
-    void find(int rows)
+    Divider(const MeshView& view, std::span<const BulkPart> meshes, int parts) : view_(view), meshes_(meshes)
     {
-        for (int p = 0; p < partition_.parts; ++p) alone_.push_back(list_of({p}));
-        for (const DeckBlock& block : deck_.blocks) reached_.emplace_back(block.count(), Index{0});
-        each_solid(
-            [&](std::size_t b, std::size_t e) { reached_[b][e] = alone_[index(partition_.part[b][e])]; });
-        for (int row = 0; row < rows; ++row) {
-            std::vector<Index> at(deck_.points.size(), 0);
-            each_solid([&](std::size_t b, std::size_t e) {
-                for (const Index node : deck_.blocks[b].element(e))
-                    at[index(node)] = joined(at[index(node)], reached_[b][e]);
-            });
-            each_solid([&](std::size_t b, std::size_t e) {
-                for (const Index node : deck_.blocks[b].element(e))
-                    reached_[b][e] = joined(reached_[b][e], at[index(node)]);
-            });
+        parts_.parts = parts;
+        of_layer_ = parts_of_layers(meshes, parts);
+        part_.resize(view.blocks.size());
+        find_solids();
+        find_quads();
+    }
+
+    mesh::ViewParts take(int ghosts)
+    {
+        parts_.has_ghosts = ghosts > 0;
+        if (ghosts > 0) find_ghosts(ghosts);
+        for (std::size_t b = 0; b < part_.size(); ++b) {
+            mesh::Runs& runs = parts_.of.emplace_back();
+            for (std::size_t e = 0; e < part_[b].size(); ++e) mesh::add_run(runs, e + 1, part_[b][e]);
         }
-        each_solid([&](std::size_t b, std::size_t e) {
-            std::vector<int> others = partition_.lists[index(reached_[b][e])];
-            std::erase(others, partition_.part[b][e]);
-            partition_.ghost_of[b][e] = list_of(others);
-        });
+        find_points();
+        for (const auto& [key, blocks] : ghosts_)
+            for (const auto& [block, cells] : blocks)
+                parts_.ghosts.push_back({key.first, lists_[index(key.second)], block, cells});
+        return std::move(parts_);
     }
 
 private:
+    [[nodiscard]] int dimension(std::size_t block) const
+    {
+        return mesh::shape_info(view_.blocks[block].shape).dimension;
+    }
+    [[nodiscard]] Index part_of_cell(std::size_t m, std::size_t cell) const
+    {
+        return of_layer_[m][cell / meshes_[m].mesh.quads.size()];
+    }
+
+    /// Solids lie in their blocks mesh after mesh.
+    void find_solids()
+    {
+        first_.assign(meshes_.size(), 0);
+        for (std::size_t b = 0; b < part_.size(); ++b) {
+            if (dimension(b) != 3) continue;
+            const MeshView::Block& block = view_.blocks[b];
+            const bool hexes = mesh::shape_info(block.shape).corners == 8;
+            for (std::size_t m = 0; m < meshes_.size(); ++m) {
+                const mesh::CellKinds kinds(meshes_[m].mesh);
+                const std::size_t end = hexes ? kinds.hexes() : meshes_[m].mesh.cell_count();
+                for (std::size_t i = hexes ? 0 : kinds.hexes(); i < end; ++i) {
+                    const std::size_t cell = kinds.cell(i);
+                    first_[m] = block.tags[part_[b].size()] - static_cast<std::int64_t>(cell);
+                    part_[b].push_back(part_of_cell(m, cell));
+                }
+            }
+        }
+    }
+
+    /// A mesh numbers its cells, then its skin.
+    void find_quads()
+    {
+        std::vector<std::vector<std::uint32_t>> behind;
+        for (const BulkPart& part : meshes_) behind.push_back(cells_of_skin(part.mesh));
+        for (std::size_t b = 0; b < part_.size(); ++b) {
+            if (dimension(b) != 2) continue;
+            const MeshView::Block& block = view_.blocks[b];
+            block.tags.each(0, block.count, [&](std::size_t, std::int64_t tag) {
+                const auto m = static_cast<std::size_t>(std::ranges::upper_bound(first_, tag) -
+                                                        first_.begin() - 1);
+                const auto quad = static_cast<std::size_t>(tag - first_[m]) - meshes_[m].mesh.cell_count();
+                part_[b].push_back(part_of_cell(m, behind[m][quad]));
+            });
+        }
+    }
+
+    /// Find the parts of which elements are ghosts: row by row, those of elements with a common node.
+    void find_ghosts(int rows)
+    {
+        std::vector<Index> alone;
+        for (int p = 0; p < parts_.parts; ++p) alone.push_back(list_of({p}));
+        std::vector<std::vector<Index>> reached(part_.size()); // of each solid, a list with its own part
+        for (std::size_t b = 0; b < part_.size(); ++b)
+            for (const Index part : part_[b]) reached[b].push_back(alone[index(part)]);
+        for (int row = 0; row < rows; ++row) {
+            std::vector<Index> at(view_.points, 0);
+            each_solid([&](std::size_t b, std::size_t e, std::span<const Index> nodes) {
+                for (const Index node : nodes) at[index(node)] = joined(at[index(node)], reached[b][e]);
+            });
+            each_solid([&](std::size_t b, std::size_t e, std::span<const Index> nodes) {
+                for (const Index node : nodes) reached[b][e] = joined(reached[b][e], at[index(node)]);
+            });
+        }
+        each_solid([&](std::size_t b, std::size_t e, std::span<const Index>) {
+            std::vector<int> others = lists_[index(reached[b][e])];
+            std::erase(others, part_[b][e]);
+            if (!others.empty()) ghosts_[{part_[b][e], list_of(others)}][b].add(e, e + 1);
+        });
+    }
+
     template <class Visit>
     void each_solid(const Visit& visit) const
     {
-        for (std::size_t b = 0; b < deck_.blocks.size(); ++b)
-            for (std::size_t e = 0;
-                 shape_info(deck_.blocks[b].shape).dimension == 3 && e < deck_.blocks[b].count(); ++e)
-                visit(b, e);
+        for (std::size_t b = 0; b < part_.size(); ++b)
+            if (dimension(b) == 3)
+                view_.blocks[b].each_cell(
+                    0, part_[b].size(),
+                    [&](std::size_t e, std::span<const Index> nodes) { visit(b, e, nodes); });
     }
     Index list_of(const std::vector<int>& parts)
     {
-        const auto [at, fresh] = known_.try_emplace(parts, static_cast<Index>(partition_.lists.size()));
-        if (fresh) partition_.lists.push_back(parts);
+        const auto [at, fresh] = known_.try_emplace(parts, static_cast<Index>(lists_.size()));
+        if (fresh) lists_.push_back(parts);
         return at->second;
     }
     /// The union of two lists.
@@ -121,69 +192,62 @@ private:
         const auto [at, fresh] = unions_.try_emplace(std::minmax(a, b), 0);
         if (fresh) {
             std::vector<int> all;
-            std::ranges::set_union(partition_.lists[index(a)], partition_.lists[index(b)],
-                                   std::back_inserter(all));
+            std::ranges::set_union(lists_[index(a)], lists_[index(b)], std::back_inserter(all));
             at->second = list_of(all);
         }
         return at->second;
     }
 
-    const Deck& deck_;
-    DeckPartition& partition_;
-    std::vector<std::vector<Index>> reached_; ///< of each solid, a list with its own part
-    std::vector<Index> alone_;
+    /// Each point is owned by the lowest part that has it.
+    void find_points()
+    {
+        std::vector<Index> lowest(view_.points, parts_.parts - 1);
+        std::vector<std::vector<Index>> used(index(parts_.parts));
+        for (std::size_t b = 0; b < part_.size(); ++b)
+            view_.blocks[b].each_cell(0, part_[b].size(), [&](std::size_t e, std::span<const Index> nodes) {
+                const Index part = part_[b][e];
+                for (const Index node : nodes) lowest[index(node)] = std::min(lowest[index(node)], part);
+                used[index(part)].insert(used[index(part)].end(), nodes.begin(), nodes.end());
+            });
+        for (const auto& [key, blocks] : ghosts_)
+            for (const auto& [block, cells] : blocks)
+                cells.each(0, cells.count(), [&](std::size_t first, std::size_t last) {
+                    view_.blocks[block].each_cell(
+                        first, last, [&](std::size_t, std::span<const Index> nodes) {
+                            for (const int part : lists_[index(key.second)])
+                                used[index(part)].insert(used[index(part)].end(), nodes.begin(), nodes.end());
+                        });
+                });
+        for (Index part = 0; part < parts_.parts; ++part) {
+            mesh::Ranges own;
+            for (std::size_t p = 0; p < lowest.size(); ++p)
+                if (lowest[p] == part) own.add(p, p + 1);
+            parts_.points.emplace_back(part, std::move(own));
+            mesh::Ranges& points = parts_.used.emplace_back();
+            tidy(used[index(part)]);
+            for (const Index p : used[index(part)]) points.add(index(p), index(p) + 1);
+        }
+    }
+
+    const MeshView& view_;
+    std::span<const BulkPart> meshes_;
+    std::vector<std::vector<Index>> of_layer_; ///< part of each layer of each mesh
+    std::vector<DeckTag> first_;               ///< number of the first cell of each mesh
+    std::vector<std::vector<Index>> part_;     ///< of each element of each block
+    /// Ghosts by their part and the list of the parts that have them, then by block.
+    std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts_;
+    std::vector<std::vector<int>> lists_{{}}; ///< of parts, increasing
     std::map<std::vector<int>, Index> known_{{{}, 0}};
     std::map<std::pair<Index, Index>, Index> unions_;
+    mesh::ViewParts parts_;
 };
 
 } // namespace
 
-DeckPartition partition_of(const Deck& deck, std::span<const mesh::MeshPart> meshes,
-                           const PartitionOptions& options)
+mesh::ViewParts parts_of(const MeshView& view, std::span<const BulkPart> parts,
+                         const PartitionOptions& options)
 {
-    DeckPartition partition;
-    partition.parts = std::max(options.parts, 1);
-    const std::vector<std::vector<Index>> of_layer = parts_of_layers(meshes, partition.parts);
-    const auto part_of_cell = [&](std::size_t m, std::size_t cell) {
-        return of_layer[m][cell / meshes[m].mesh->quads.size()];
-    };
-    for (const DeckBlock& block : deck.blocks) {
-        partition.part.emplace_back(block.count(), Index{0});
-        partition.ghost_of.emplace_back(block.count(), Index{0});
-    }
-    // Solids lie in their blocks mesh after mesh; a mesh numbers its cells, then its skin.
-    std::vector<DeckTag> first(meshes.size(), 0);
-    std::vector<std::size_t> next(deck.blocks.size(), 0);
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const mesh::CellKinds kinds(*meshes[m].mesh);
-        const std::size_t cells = meshes[m].mesh->cell_count();
-        for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
-            const DeckShapeInfo& info = shape_info(deck.blocks[b].shape);
-            if (info.dimension != 3) continue;
-            const std::size_t from = info.corners == 8 ? 0 : kinds.hexes();
-            const std::size_t to = info.corners == 8 ? kinds.hexes() : cells;
-            for (std::size_t i = from; i < to; ++i, ++next[b]) {
-                const std::size_t cell = kinds.cell(i);
-                partition.part[b][next[b]] = part_of_cell(m, cell);
-                first[m] = deck.blocks[b].tags[next[b]] - static_cast<DeckTag>(cell);
-            }
-        }
-    }
-    std::vector<std::vector<std::uint32_t>> behind;
-    for (const mesh::MeshPart& part : meshes) behind.push_back(cells_of_skin(*part.mesh));
-    for (std::size_t b = 0; b < deck.blocks.size(); ++b) {
-        const DeckBlock& block = deck.blocks[b];
-        if (shape_info(block.shape).dimension != 2) continue;
-        for (std::size_t e = 0; e < block.count(); ++e) {
-            const auto m = static_cast<std::size_t>(std::ranges::upper_bound(first, block.tags[e]) -
-                                                    first.begin() - 1);
-            const auto quad = static_cast<std::size_t>(block.tags[e] - first[m]) -
-                              meshes[m].mesh->cell_count();
-            partition.part[b][e] = part_of_cell(m, behind[m][quad]);
-        }
-    }
-    if (options.ghosts > 0) GhostFinder(deck, partition).find(options.ghosts);
-    return partition;
+    return Divider(view, parts, std::max(options.parts, 1)).take(options.ghosts);
 }
 
 std::vector<LayerPart> layer_parts(int layers, const PartitionOptions& options)

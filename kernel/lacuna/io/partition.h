@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck.h>
-#include <lacuna/mesh/mesh_part.h>
-
-#include <cstddef>
-#include <span>
 #include <vector>
 
 namespace lacuna::io {
@@ -24,22 +19,5 @@ struct LayerPart {
 /// Consecutive ranges of layers, as even as possible.
 /// @throw InvalidInput "io.too_many_parts"  a part would have no layer.
 std::vector<LayerPart> layer_parts(int layers, const PartitionOptions& options);
-
-/// The part of each element of a deck, and the parts of which it is a ghost.
-struct DeckPartition {
-    int parts = 1;
-    std::vector<std::vector<Index>> part; ///< part from 0, for each element of each block
-    /// For each element of each block, the parts of which it is a ghost, as an index in `lists`; 0: none.
-    std::vector<std::vector<Index>> ghost_of;
-    std::vector<std::vector<int>> lists{{}}; ///< parts, increasing
-};
-/// Divide several connected swept meshes into parts: whole volumes, with numbers of cells as even as
-/// possible, if there are at least as many volumes as parts; otherwise each volume is one or several parts by
-/// its layers. Quads belong to the part of their cell.
-/// @param deck  `deck_of()` the meshes, without requested first numbers.
-/// @throw InvalidInput "io.too_many_parts"  there are fewer layers than parts.
-/// @note  O(nodes of all cells) for each row of ghosts.
-DeckPartition partition_of(const Deck& deck, std::span<const mesh::MeshPart> meshes,
-                           const PartitionOptions& options);
 
 } // namespace lacuna::io

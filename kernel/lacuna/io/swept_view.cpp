@@ -17,65 +17,6 @@ namespace {
 using mesh::MeshView;
 using mesh::Ranges;
 
-/// The cells of a mesh by kind: hexahedra, wedges, quads of the skin, triangles of the skin.
-class SweptCells {
-public:
-    explicit SweptCells(const mesh::HexMesh& own)
-        : mesh(own),
-          kinds(own),
-          triangles(own.triangle_count()),
-          quads(own.quads.size() - triangles),
-          count{kinds.hexes(), own.cell_count() - kinds.hexes(), 2 * quads + rims(own.layers), 2 * triangles}
-    {
-    }
-
-    [[nodiscard]] std::size_t rims(int of) const { return index(of) * mesh.rim.size(); }
-    [[nodiscard]] std::size_t cell(std::size_t k, std::size_t i) const
-    {
-        return kinds.cell(k == 0 ? i : kinds.hexes() + i);
-    }
-    /// The index in the skin of the `i`-th quad, or triangle.
-    [[nodiscard]] std::size_t skin(std::size_t k, std::size_t i) const
-    {
-        return kinds.skin(k == 3 ? kinds.skin_quads() + i : i);
-    }
-    void put_nodes(std::size_t k, std::size_t begin, std::size_t end, Index* out) const
-    {
-        if (k == 0 && mesh.order() == 1) return put_hexes(begin, end, out);
-        for (std::size_t i = begin; i < end; ++i) {
-            const mesh::CellNodes own = k < 2 ? cell_nodes(mesh, cell(k, i)) : skin_nodes(mesh, skin(k, i));
-            out = std::ranges::copy(own.all(), out).out;
-        }
-    }
-    [[nodiscard]] std::array<DeckShape, 4> shapes() const
-    {
-        return {cell_shape(mesh), DeckShape::wedge6, skin_shape(mesh), DeckShape::tri3};
-    }
-    /// The number of cells of a kind in one layer. @pre k < 2
-    [[nodiscard]] std::size_t in_layer(std::size_t k) const { return k == 0 ? quads : triangles; }
-
-    const mesh::HexMesh& mesh;
-    mesh::CellKinds kinds;
-    std::size_t triangles, quads; ///< of the source
-    std::array<std::size_t, 4> count;
-
-private:
-    void put_hexes(std::size_t begin, std::size_t end, Index* out) const
-    {
-        while (begin < end) {
-            const std::size_t layer = begin / quads, stop = std::min(end, (layer + 1) * quads);
-            const Index low = static_cast<Index>(layer) * mesh.nodes_per_layer;
-            const Index high = low + mesh.nodes_per_layer;
-            for (const Quad* quad = mesh.quads.data() + begin % quads; begin < stop;
-                 ++begin, ++quad, out += 8)
-                for (std::size_t k = 0; k < 4; ++k) {
-                    out[k] = low + (*quad)[k];
-                    out[4 + k] = high + (*quad)[k];
-                }
-        }
-    }
-};
-
 /// Add the entities, and for each group the list of its entities.
 void add_entities(const mesh::HexMesh& mesh, MeshView& view)
 {
@@ -161,6 +102,32 @@ Ranges nodes_of_levels(const mesh::HexMesh& mesh, int first, int last, bool belo
 }
 
 } // namespace
+
+Index* SweptCells::put_nodes(std::size_t kind, std::size_t begin, std::size_t end, Index* out) const
+{
+    if (kind == 0 && mesh.order() == 1) return put_hexes(begin, end, out);
+    for (std::size_t i = begin; i < end; ++i) {
+        const mesh::CellNodes own = kind < 2 ? cell_nodes(mesh, cell(kind, i))
+                                             : skin_nodes(mesh, skin(kind, i));
+        out = std::ranges::copy(own.all(), out).out;
+    }
+    return out;
+}
+
+Index* SweptCells::put_hexes(std::size_t begin, std::size_t end, Index* out) const
+{
+    while (begin < end) {
+        const std::size_t layer = begin / quads, stop = std::min(end, (layer + 1) * quads);
+        const Index low = static_cast<Index>(layer) * mesh.nodes_per_layer;
+        const Index high = low + mesh.nodes_per_layer;
+        for (const Quad* quad = mesh.quads.data() + begin % quads; begin < stop; ++begin, ++quad, out += 8)
+            for (std::size_t k = 0; k < 4; ++k) {
+                out[k] = low + (*quad)[k];
+                out[4 + k] = high + (*quad)[k];
+            }
+    }
+    return out;
+}
 
 void check_skin(const mesh::HexMesh& mesh)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_writer.h>
+#include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/unv.h>
 
 #include <lacuna/core/error.h>
@@ -13,7 +13,12 @@
 // numbers D25.16, which is all 17 digits.
 
 namespace lacuna::io {
+
+WriteView unv_file;
+
 namespace {
+
+using mesh::MeshView;
 
 constexpr std::size_t kColumn = 10, kReal = 25; // characters
 constexpr std::size_t kPerLine = 8;             // nodes of a line
@@ -48,7 +53,7 @@ std::string columns(std::initializer_list<long long> numbers)
     return text + "\n";
 }
 
-void add_nodes(const BulkReader& bulk, DeckFile& file)
+void add_nodes(const View& view, DeckFile& file)
 {
     const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
         out = put_column(out, tag);
@@ -58,92 +63,87 @@ void add_nodes(const BulkReader& bulk, DeckFile& file)
         return out;
     };
     file.sections.push_back(
-        section_of_points(std::string(kMark) + "  2411\n", bulk, 5 * kNumberBytes + 3 * kReal, put));
-    file.sections.push_back({std::string(kMark), 0, 0, {}});
+        section_of_points(std::string(kMark) + "  2411\n", view, 5 * kNumberBytes + 3 * kReal, put));
+    file.add(std::string(kMark));
 }
 
-void add_elements(const Deck& deck, const BulkReader& bulk, const DeckBlock& block, DeckFile& file)
+void add_elements(const View& view, std::size_t b, DeckFile& file)
 {
+    const MeshView::Block& block = view->blocks[b];
     long long descriptor = words_of(block.shape).unv;
     if (descriptor == 0) refuse_element(block, "UNV", "there is no such element");
-    if (std::ranges::find(block.nodes, -1) != block.nodes.end())
-        refuse_element(block, "UNV", "some have not all their middle nodes");
-    if (deck.format == DeckFormat::unv)
-        std::from_chars(block.type.data(), block.type.data() + block.type.size(), descriptor);
-    const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+    if (view->kept) std::from_chars(block.type.data(), block.type.data() + block.type.size(), descriptor);
     const auto places = unv_places(block.shape);
-    const auto put = [=, &deck](std::size_t, DeckTag tag, Index region, std::span<const Index> element,
-                                char* out) {
+    const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+    const auto put = [=](std::size_t, DeckTag tag, Index region, std::span<const Index> element, char* out) {
         out = put_column(out, tag);
         out = put_column(out, descriptor);
-        out = put_column(out, region < 0 ? 0 : deck.regions[index(region)].tag);
+        out = put_column(out, region < 0 ? 0 : view->regions[index(region)].tag);
         out = put_words(out, "         1         7");
         out = put_column(out, static_cast<long long>(nodes));
         for (std::size_t k = 0; k < nodes; ++k) {
             if (k % kPerLine == 0) *out++ = '\n';
-            out = put_column(out, bulk.point_tag(element[places.empty() ? k : places[k]]));
+            out = put_column(out, view->point_tags[index(element[places.empty() ? k : places[k]])]);
         }
         *out++ = '\n';
         return out;
     };
-    file.sections.push_back(section_of_elements(bulk, block, (nodes + 7) * kNumberBytes + 4, put));
+    file.sections.push_back(section_of_cells(view, b, (nodes + 7) * kNumberBytes + 4, put));
 }
 
 /// Members of one kind, two to a line.
-void add_members(const DeckSet& set, const BulkReader& bulk, std::string head, DeckFile& file)
+void add_members(const View& view, std::size_t set, std::string head, DeckFile& file)
 {
-    const int kind = set.kind == DeckSet::Kind::nodes ? kUnvNode : kUnvElement;
-    file.sections.push_back({std::move(head), bulk.count(set), 4 * kNumberBytes + 1,
-                             [&set, bulk, kind](std::size_t begin, std::size_t end, char* out) {
-                                 for (std::size_t i = begin; i < end; ++i) {
-                                     out = put_column(out, kind);
-                                     out = put_column(out, bulk.member(set, i));
-                                     out = put_words(out, "         0         0");
-                                     if (i % 2 == 1 || i + 1 == bulk.count(set)) *out++ = '\n';
-                                 }
-                                 return out;
-                             }});
+    const int kind = view->sets[set].kind == mesh::SetKind::nodes ? kUnvNode : kUnvElement;
+    const auto put = [kind, count = view->sets[set].count](std::size_t i, DeckTag tag, char* out) {
+        out = put_column(out, kind);
+        out = put_column(out, tag);
+        out = put_words(out, "         0         0");
+        if (i % 2 == 1 || i + 1 == count) *out++ = '\n';
+        return out;
+    };
+    file.sections.push_back(section_of_members(std::move(head), view, set, 4 * kNumberBytes + 1, put));
 }
 
 } // namespace
 
-DeckFile unv_file(const Deck& deck, const LayeredBulk* layered)
+DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
-    const BulkReader bulk(deck, layered);
     constexpr DeckTag kMost = 9'999'999'999; // in ten characters: others would run into the number before
-    check_numbers(deck, kMost, "a universal file", "write another format");
-    const bool same = deck.format == DeckFormat::unv;
+    check_numbers(*view, kMost, "a universal file", "write another format");
+    const std::vector<MeshView::Set>& sets = view->sets;
     DeckFile file;
-    if (same) file.sections.push_back({text_at(deck, DeckText::Place::cards), 0, 0, {}});
-    add_nodes(bulk, file);
-    file.sections.push_back({std::string(kMark) + "  2412\n", 0, 0, {}});
-    for (const DeckBlock& block : deck.blocks) add_elements(deck, bulk, block, file);
-    file.sections.push_back({std::string(kMark), 0, 0, {}});
-    if (same) file.sections.push_back({text_at(deck, DeckText::Place::tail), 0, 0, {}});
+    if (view->kept) file.add(view->kept->cards);
+    add_nodes(view, file);
+    file.add(std::string(kMark) + "  2412\n");
+    for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);
+    file.add(std::string(kMark));
+    if (view->kept) file.add(view->kept->tail);
     std::string head = std::string(kMark) + "  2467\n";
     bool groups = false;
-    int number = highest_tag(deck.sets);
+    int number = highest_tag(sets);
     std::vector<std::string> names;
-    for (std::size_t s = 0; s < deck.sets.size(); ++s) {
-        const DeckSet& set = deck.sets[s];
-        if (set.kind == DeckSet::Kind::sides || bulk.count(set) == 0) continue;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        const MeshView::Set& set = sets[s];
+        if (set.kind == mesh::SetKind::sides || set.count == 0) continue;
         // Elements and nodes of one group were read as two sets.
-        const bool two = s + 1 < deck.sets.size() && set.tag > 0 && deck.sets[s + 1].tag == set.tag &&
-                         deck.sets[s + 1].name == set.name && deck.sets[s + 1].kind == DeckSet::Kind::nodes;
-        const std::size_t count = bulk.count(set) + (two ? deck.sets[s + 1].members.size() : 0);
+        const bool two = s + 1 < sets.size() && set.tag > 0 && sets[s + 1].tag == set.tag &&
+                         sets[s + 1].name == set.name && sets[s + 1].kind == mesh::SetKind::nodes;
+        const std::size_t count = set.count + (two ? sets[s + 1].count : 0);
         head += columns({set.tag > 0 ? set.tag : ++number, 0, 0, 0, 0, 0, 0, static_cast<long long>(count)});
         const std::string name = free_name(set.name, DeckFormat::unv, [&](const std::string& other) {
-            return !same && std::ranges::any_of(names, [&](const auto& of) { return same_word(of, other); });
+            return !view->kept &&
+                   std::ranges::any_of(names, [&](const auto& of) { return same_word(of, other); });
         });
         if (name != set.name) file.notes.push_back(formatted("the set {} is called {}", set.name, name));
         names.push_back(name);
         head += name + "\n";
-        add_members(set, bulk, std::move(head), file);
+        add_members(view, s, std::move(head), file);
         groups = true;
-        if (two) add_members(deck.sets[++s], bulk, {}, file);
+        if (two) add_members(view, ++s, {}, file);
         head.clear();
     }
-    if (groups) file.sections.push_back({std::string(kMark), 0, 0, {}});
+    if (groups) file.add(std::string(kMark));
     return file;
 }
 

@@ -35,6 +35,7 @@ PieceView piece_of(const std::shared_ptr<const MeshView>& whole, const mesh::Vie
         mesh::Runs& ghosts = result.ghost_cells.emplace_back();
         MeshView::Block& own = view->blocks[b];
         own.entities.clear();
+        own.regions.clear();
         Ranges tags;
         for (const auto& [first, last, ghost] : found) {
             mesh::each_run(from.entities, first, last, [&](std::size_t low, std::size_t high, Index entity) {

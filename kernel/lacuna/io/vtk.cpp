@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/vtk_writer.h>
+#include <lacuna/io/detail/format_table.h>
 
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/team.h>
@@ -16,10 +16,12 @@
 #include <utility>
 
 namespace lacuna::io {
+
+WriteView vtk_file, vtu_file;
+
 namespace {
 
 using mesh::MeshView;
-using View = std::shared_ptr<const MeshView>;
 
 /// The index in a cell of node `k` of VTK, whose wedges have the triangle 0-1-2 facing away from 3-4-5.
 std::size_t place_of_node(DeckShape shape, std::size_t k)
@@ -449,23 +451,23 @@ std::vector<Section> vtk_sections(const View& view, bool binary)
 void refuse_unknown(const MeshView& view)
 {
     for (const MeshView::Block& block : view.blocks)
-        if (words_of(block.shape).vtk == 0)
-            refuse_element(block.count, block.type, block.shape, "VTK", "there is no such cell");
+        if (words_of(block.shape).vtk == 0) refuse_element(block, "VTK", "there is no such cell");
 }
 
 } // namespace
 
-DeckFile vtu_file(const View& view)
+DeckFile vtu_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
     return {.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
 }
 
-DeckFile vtk_file(const View& view, bool binary)
+DeckFile vtk_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
-    return {
-        .sections = vtk_sections(view, binary), .notes = {}, .sizes = binary ? Sizes::exact : Sizes::varying};
+    return {.sections = vtk_sections(view, options.binary),
+            .notes = {},
+            .sizes = options.binary ? Sizes::exact : Sizes::varying};
 }
 
 void write_pieces(const View& view, const mesh::ViewParts& parts, int ghosts, const OutputPath& path,

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/types.h>
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,5 +50,16 @@ bool find_shape(int dimension, int corners, int nodes, CellShape& shape);
 std::span<const std::pair<int, int>> side_corners(CellShape shape);
 /// The corners of each face of a solid, counter-clockwise seen from outside; the fourth is -1 for a triangle.
 std::span<const Quad> face_corners(CellShape shape);
+
+/// A side of a cell as in surfaces: 1, 2, … is a face (of a shell in 3D, an edge) in the numbering of Abaqus;
+/// 0 is the side to which a shell's normal points, -1 the other.
+struct CellSide {
+    std::int64_t element = 0; ///< number of the cell
+    int side = 0;
+    friend constexpr auto operator<=>(const CellSide&, const CellSide&) = default;
+};
+
+/// What a named set lists.
+enum class SetKind : std::uint8_t { nodes, elements, sides };
 
 } // namespace lacuna::mesh

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,15 +66,7 @@ private:
     std::vector<Index> before_; ///< number of shared nodes before each block
 };
 
-/// One of several swept meshes with shared nodes.
-struct MeshPart {
-    const HexMesh* mesh = nullptr;
-    /// Number of each node in the union of the parts, from 0. New nodes are numbered consecutively; shared
-    /// nodes have the number of the earlier part.
-    std::span<const Index> number;
-};
-
-/// As `MeshPart`, for a mesh that may not store its nodes. Holds references only.
+/// One of several swept meshes with shared nodes, which may not store its nodes. Holds references only.
 struct LayeredPart {
     const HexMesh& mesh;
     const LayeredNodes* nodes = nullptr; ///< null: the mesh stores its nodes

@@ -38,7 +38,7 @@ std::pair<std::int64_t, std::int64_t> Numbers::bounds(std::size_t count) const
     };
     for (const std::int64_t number : held_) take(number, number);
     if (!held_.empty()) return all;
-    if (ranges_ == nullptr) return {1, static_cast<std::int64_t>(count)};
+    if (ranges_ == nullptr) return {all.first, all.first + static_cast<std::int64_t>(count) - 1};
     ranges_->each(0, count, [&](std::size_t first, std::size_t last) {
         take(static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) - 1);
     });

@@ -84,7 +84,7 @@ void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath&
                  const LayeredFile& file, const Team* team, const RunContext& context)
 {
     io::write_parts(io::needed_mesh_format("sweep_to", path.text()), parts, path,
-                    {.binary = file.binary, .msh_version = file.version, .all_groups = file.all_groups},
+                    {.binary = file.binary, .version = file.version, .all_groups = file.all_groups}, {},
                     context, team);
 }
 

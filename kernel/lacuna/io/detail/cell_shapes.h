@@ -57,14 +57,5 @@ inline DeckShape skin_shape(const mesh::HexMesh& mesh)
 {
     return mesh.order() == 1 ? DeckShape::quad4 : mesh.middles.full ? DeckShape::quad9 : DeckShape::quad8;
 }
-/// Number of nodes of a cell, and of a quad of the skin.
-inline std::size_t cell_size(const mesh::HexMesh& mesh)
-{
-    return static_cast<std::size_t>(shape_info(cell_shape(mesh)).nodes);
-}
-inline std::size_t skin_size(const mesh::HexMesh& mesh)
-{
-    return static_cast<std::size_t>(shape_info(skin_shape(mesh)).nodes);
-}
 
 } // namespace lacuna::io

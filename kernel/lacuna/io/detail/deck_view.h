@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/detail/deck_writer.h>
-#include <lacuna/io/partition.h>
+#include <lacuna/io/detail/mesh_deck.h>
+#include <lacuna/io/detail/swept_view.h>
+#include <lacuna/io/formats.h>
 #include <lacuna/mesh/shared/mesh_view.h>
 
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,14 +27,40 @@ private:
     std::vector<std::vector<int>> lists_{1};
 };
 
-/// View a deck. An entity is the elements of one dimension and region that are in the same sets; its groups
-/// are these sets and the region. The named lists of the view are those of the groups, where the faces of a
-/// group that also has solids form a list of their own with ":faces" appended to its name, followed by the
-/// node sets, with "nodes:" before their names.
-/// @param deck  must outlive the view, as must the objects that `bulk` refers to.
-/// @note  O(n) in the elements and the members of sets, plus the search for sparse tags.
-std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const BulkReader& bulk);
+/// A mesh whose nodes and cells are not stored in the deck.
+struct BulkPart {
+    const mesh::HexMesh& mesh;
+    std::unique_ptr<const NodeReader> nodes;
+    const mesh::NodeNumbers* numbers; ///< of its nodes, from 0; null: its nodes are those of the whole
+    SweptCells cells{mesh};
+    BulkPlace place{};
+};
+/// Convert swept meshes with shared nodes to a deck of a format, with regions and sets as in `write_mesh()`,
+/// that lacks their nodes and cells; see `AddedMesh::bulk`.
+/// @param parts       get their places
+/// @param interfaces  as `MeshFileOptions::interfaces`
+/// @throw  as `write_parts()`
+/// @note   O(nodes and cells of the skin)
+Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool interfaces,
+                       const RunContext& context);
 
-mesh::ViewParts parts_of(const Deck& deck, const DeckPartition& partition);
+/// View a deck for the writer of a format. Its cells have regions, and its sets are those of the view.
+///
+/// For formats that are no decks, an entity is the elements of one dimension and region that are in the same
+/// sets; its groups are these sets and the region. The named lists of the view are those of the groups, where
+/// the faces of a group that also has solids form a list of their own with ":faces" appended to its name,
+/// followed by the node sets, with "nodes:" before their names.
+/// @param deck   must outlive the view, as must `parts`.
+/// @param parts  meshes that `deck_without_bulk()` omitted; empty: the deck has all.
+/// @note  O(n) in the elements and the members of sets, plus the search for sparse tags.
+std::shared_ptr<const mesh::MeshView> view_of(const Deck& deck, const Format& format,
+                                              std::span<const BulkPart> parts = {});
+
+/// Divide the view of several swept meshes into parts, as `write_parts()` says.
+/// @param parts  of the view, whose skin elements are numbered after the cells of their mesh.
+/// @throw InvalidInput "io.too_many_parts"  there are fewer layers than parts.
+/// @note  O(nodes of all cells) for each row of ghosts.
+mesh::ViewParts parts_of(const mesh::MeshView& view, std::span<const BulkPart> parts,
+                         const PartitionOptions& options);
 
 } // namespace lacuna::io

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/formats.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/mesh/shared/mesh_view.h>
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,14 +16,16 @@ namespace lacuna::io {
 class Cursor;
 class DeckBuilder;
 
+/// The writer of a file, one for each format: swept meshes, decks and meshes that are created while they are
+/// written are all views. @param parts  of .msh 4.1; null: the mesh is not divided
+using WriteView = DeckFile(const View& view, const MeshFileOptions& options, const mesh::ViewParts* parts);
+
 struct FormatRow : Format {
     void (*read)(Cursor&, DeckBuilder&) = nullptr;
-    // At most one writer is set.
-    DeckFile (*deck_file)(const Deck& deck, const LayeredBulk* layered) = nullptr;
-    DeckFile (*view_file)(const std::shared_ptr<const mesh::MeshView>& view, const DeckFileOptions& options,
-                          const mesh::ViewParts* parts) = nullptr;
-    void (*view_folder)(const mesh::MeshView& view, const OutputPath& path,
-                        const RunContext& context) = nullptr;
+    WriteView* write = nullptr;
+    void (*write_folder)(const mesh::MeshView& view, const OutputPath& path,
+                         const RunContext& context) = nullptr; ///< of a folder
+    bool omits_middles = false; ///< elements may lack some of their middle nodes
 };
 std::span<const FormatRow> format_table();
 inline const FormatRow& row_of(const Format& format) { return static_cast<const FormatRow&>(format); }
@@ -33,5 +34,11 @@ inline const FormatRow& row_of(const Format& format) { return static_cast<const 
 /// @param others  file extensions that other readers handle, for the message.
 /// @throw InvalidInput "io.unknown_ending"
 const FormatRow& needed_reader(const std::string& path, std::string_view others);
+
+/// Write the parts as pieces "mesh_0.vtu", "mesh_1.vtu" … and "mesh.pvtu", which refers to them. The view of
+/// a piece is made when that piece is written.
+/// @param ghosts  rows of ghosts round each piece; 0: no ghosts are marked.
+void write_pieces(const View& view, const mesh::ViewParts& parts, int ghosts, const OutputPath& path,
+                  const RunContext& context, const Team* team = nullptr);
 
 } // namespace lacuna::io

@@ -17,16 +17,16 @@ namespace lacuna::io {
 
 /// Position in a deck of the cells of a mesh that it does not store.
 struct BulkPlace {
+    DeckTag first_node = 1;          ///< number of the first node of the whole mesh; the others follow
     DeckTag first_cell = 1;          ///< number of the first; the others follow
     Index region = 0;                ///< of all of them
-    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all of them
+    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all of them, increasing
     DeckTag highest = 0;             ///< highest cell number of earlier meshes
 };
 
 struct AddedMesh {
     std::span<const Index> points; ///< the deck's point for each node of the mesh; -1: a new one
     double scale = 1;              ///< factor from the mesh's coordinates to the deck's
-    bool joins = false;            ///< the deck was read from a file, and its sets are extended
     bool skin_cells = false;       ///< sets of the skin are quads that become elements
     /// Quads of the skin that the deck already has as elements, by their sorted nodes; new ones are added.
     /// Null: quads are not shared.
@@ -34,9 +34,10 @@ struct AddedMesh {
     /// Sets of the meshes added before, by kind and group, which this one's extend; null: there are none.
     GroupSets* groups = nullptr;
     Index region = -1; ///< of the deck, to which the cells are added; -1: a new one
+    /// Null: the deck was read from a file, and its sets are extended.
     /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
-    /// cells' shapes; this gets their position. Points are numbered from 1.
-    /// @pre  the deck contains only such meshes, and no first numbers are requested
+    /// cells' shapes; this gets their position.
+    /// @pre  the deck contains only such meshes, of which later ones have the first node of the whole
     BulkPlace* bulk = nullptr;
     /// In that case, the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;
@@ -49,13 +50,6 @@ struct AddedMesh {
 /// @return  index of the region in the deck.
 Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
                const RunContext& context = {});
-
-/// `deck_of()` without nodes and cells; see `AddedMesh::bulk`.
-Deck deck_without_bulk(const mesh::HexMesh& mesh, const MeshDeckOptions& options, BulkPlace& place,
-                       const RunContext& context);
-/// The same for several meshes. @param places  of each mesh
-Deck deck_without_bulk(std::span<const mesh::LayeredPart> parts, const MeshDeckOptions& options,
-                       bool interfaces, std::vector<BulkPlace>& places, const RunContext& context);
 
 /// The face of a patch of the skin, for messages.
 NamedEntity entity_of(const mesh::SkinPatch& patch);

@@ -57,6 +57,7 @@ public:
     NodeReader& operator=(const NodeReader&) = delete;
 
     [[nodiscard]] std::size_t count() const { return mesh::corner_count(mesh_) + mesh::middle_count(mesh_); }
+    [[nodiscard]] bool are_stored() const { return layers_ == nullptr; }
     /// A node of the skin.
     [[nodiscard]] Vec3 on_skin(Index node) const
     {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -67,10 +68,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The numbers (tags) of nodes or cells by index: from an array, from ranges, or counted from 1.
+/// The numbers (tags) of nodes or cells by index: from an array, from ranges, or counted from a first one.
 class Numbers {
 public:
-    Numbers() = default;
+    Numbers() = default; ///< counted from 1
+    explicit Numbers(std::size_t first) : first_(first) {}
     /// @param held  referenced, not copied
     explicit Numbers(std::span<const std::int64_t> held) : held_(held) {}
     explicit Numbers(Ranges ranges)
@@ -78,11 +80,11 @@ public:
         if (ranges.count() > 0) ranges_ = std::make_shared<const Ranges>(std::move(ranges));
     }
 
-    [[nodiscard]] bool given() const { return !held_.empty() || ranges_ != nullptr; }
+    [[nodiscard]] bool given() const { return !held_.empty() || ranges_ != nullptr || first_ != 1; }
     [[nodiscard]] std::int64_t operator[](std::size_t i) const
     {
         if (!held_.empty()) return held_[i];
-        return static_cast<std::int64_t>(ranges_ != nullptr ? (*ranges_)[i] : i + 1);
+        return static_cast<std::int64_t>(ranges_ != nullptr ? (*ranges_)[i] : i + first_);
     }
     /// Call `visit(i, number)` for the indices [begin, end).
     template <class Visit>
@@ -96,14 +98,28 @@ public:
             for (; first < last; ++first) visit(begin++, static_cast<std::int64_t>(first));
         };
         if (ranges_ != nullptr) return ranges_->each(begin, end, count_up);
-        count_up(begin + 1, end + 1);
+        count_up(begin + first_, end + first_);
     }
     /// The lowest and the highest of the first `count` numbers. @pre count > 0
     [[nodiscard]] std::pair<std::int64_t, std::int64_t> bounds(std::size_t count) const;
+    /// Call `visit(first, last)` for the runs of consecutive numbers of the indices [begin, end).
+    template <class Visit>
+    void each_range(std::size_t begin, std::size_t end, const Visit& visit) const
+    {
+        if (ranges_ != nullptr) return ranges_->each(begin, end, visit);
+        if (held_.empty() && begin < end) return visit(begin + first_, end + first_);
+        while (begin < end) {
+            const auto first = static_cast<std::size_t>(held_[begin++]);
+            std::size_t last = first + 1;
+            for (; begin < end && static_cast<std::size_t>(held_[begin]) == last; ++begin) ++last;
+            visit(first, last);
+        }
+    }
 
 private:
     std::span<const std::int64_t> held_;
     std::shared_ptr<const Ranges> ranges_; ///< copies of the numbers share them
+    std::size_t first_ = 1;
 };
 
 /// Runs of consecutive indices: the end of each run, ascending, and the value that its indices share.
@@ -155,6 +171,7 @@ struct MeshView {
         std::function<void(std::size_t begin, std::size_t end, Index* out)> nodes;
         Numbers tags;  ///< if not given, cells are numbered from 1 in file order
         Runs entities; ///< index of the entity that each cell belongs to
+        Runs regions;  ///< index of the region that each cell belongs to; -1: none
 
         /// Call `visit(i, nodes)` for the cells [begin, end).
         template <class Visit>
@@ -195,6 +212,30 @@ struct MeshView {
         std::string group;
         int tag = 0;
     };
+    /// Cells of one property, section or material.
+    struct Region {
+        int tag = 0;
+        std::string name; ///< may be empty
+    };
+    struct Set {
+        SetKind kind = SetKind::elements;
+        int tag = 0; ///< number of the group; 0: none
+        std::string name;
+        std::size_t count = 0;             ///< of the members
+        Numbers members{};                 ///< of nodes or cells, rising; may name what is in `KeptText`
+        std::span<const CellSide> sides{}; ///< of a set of sides, rising
+        bool listed = false;               ///< has a card of its own, even if it equals a region
+    };
+    /// Text by the index of a node or cell, rising.
+    using TextByIndex = std::span<const std::pair<std::size_t, std::string>>;
+    /// Content of a source file besides the mesh, which is copied verbatim.
+    struct KeptText {
+        std::string head, cards, tail;  ///< before, with and after the mesh
+        std::string instance;           ///< the only instance, whose name precedes names in `cards`
+        int highest_set = 0;            ///< highest number of a set in `cards`
+        TextByIndex points;             ///< fields of a node's card after its coordinates
+        std::vector<TextByIndex> cells; ///< by block: fields of a cell's card after its nodes
+    };
 
     std::size_t points = 0;
     std::function<void(std::size_t begin, std::size_t end, const TakePoints& take)> each_point;
@@ -207,6 +248,9 @@ struct MeshView {
     /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
     std::vector<GroupTag> group_tags; ///< group tags to keep from the source file
+    std::vector<Region> regions;      ///< of a deck
+    std::vector<Set> sets;            ///< of a deck
+    std::optional<KeptText> kept;     ///< if the source file is of the format to be written
     bool is_deck = false; ///< cells have regions, and entities of all dimensions are numbered together
     std::string unnamed;  ///< name for entities without groups; may be empty
     std::string source;   ///< path of the file that some of the mesh was read from; empty: none

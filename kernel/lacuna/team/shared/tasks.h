@@ -35,8 +35,8 @@ struct LayeredFile {
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
 
-/// Write the mesh of an assembly, byte for byte as `io::write_deck()` does for its deck. A process group, if
-/// there is one, shares the work unless a part stores its nodes.
+/// Write the mesh of an assembly. A process group, if there is one, shares the work unless a part stores its
+/// nodes.
 /// @pre  parts of the format are streamed; `file` has no parts, fields or material
 /// @throw  as `write_layered()`
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
