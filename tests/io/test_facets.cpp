@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
+#include "support/folder.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
