@@ -408,8 +408,8 @@ struct Counts {
     test::MembersToRun fine{3}; ///< volumes that are meshed at the finest size too
 };
 
-/// Mesh at up to three sizes: every edge kept, every quad on its face, the volume right and the cells fair; or
-/// refused with words.
+/// Mesh at two or three sizes: every edge kept, every quad on its face, the volume right and the cells fair;
+/// or refused with words.
 /// @param closeness  of the volume: a face with folds of its own is followed by quads across them.
 /// @param least      scaled Jacobian.
 void check_features(const std::string& name, const OpenVolume& volume, Counts& counts,
