@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "made_files.h"
+#include "support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <gmsh.h>
@@ -26,7 +27,7 @@ std::string failure(const std::string& path, const cad::LoadOptions& options = {
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 } // namespace
 

@@ -2,6 +2,8 @@
 // What becomes of the CAD process, and what the host gets to know of it.
 #include "made_files.h"
 #include "support/cancelling.h"
+#include "support/refusal.h"
+#include "support/whole_families.h"
 
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/write_cad.h>
@@ -46,7 +48,7 @@ std::string failure(Work&& work)
     return "no error";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -527,7 +529,9 @@ TEST_CASE("a CAD process that lies does no harm")
     }
     {
         const Fake fake("noise"); // replies with bytes changed, another way every time
-        for (int i = 0; i < 300; ++i) (void)failure([&] { (void)cad::load({path}); });
+        test::MembersToRun run(5);
+        for (int i = 0; i < 300; ++i)
+            if (run.next()) (void)failure([&] { (void)cad::load({path}); });
     }
     CHECK(cad::load({path}).faces.size() == 6);
 }

@@ -19,6 +19,12 @@
 
 namespace lacuna::test {
 
+/// The target and the walls of holes left out.
+inline bool holes_and_target(const Part& part)
+{
+    return part.role == topology::Role::target || (part.role == topology::Role::wall && part.loop > 0);
+}
+
 /// Match where there are two ends, and close.
 inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseOptions& options = {},
                              const matching::MatchOptions& match = {})

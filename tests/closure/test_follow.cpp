@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
+#include "support/whole_families.h"
 
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/follow.h>
@@ -45,11 +46,13 @@ TEST_CASE("left to itself, a pipe's missing wall runs concentric with the given 
 {
     double worst = 0;
     int combinations = 0;
+    test::MembersToRun run(5);
     for (const double bend :
          {10.0, 20.0, 45.0, 60.0, 90.0, 120.0, 150.0, 170.0, 180.0, 200.0, 240.0, 270.0, 330.0}) {
         for (const double bore : {0.3, 0.5, 0.8, 0.9}) {
             for (const double taper : {1.0, 0.7}) {
                 for (const int gone : {0, 1}) {
+                    if (!run.next()) continue;
                     const auto pipe = test::prism(pipe_bend(bend, bore, taper, gone));
                     auto volume = pipe.open();
                     CAPTURE(bend);

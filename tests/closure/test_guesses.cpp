@@ -53,12 +53,6 @@ double moment_beyond(const std::vector<Vec2>& outline)
     return sum;
 }
 
-/// The target and the walls of holes left out.
-bool holes_and_target(const test::Part& part)
-{
-    return part.role == Role::target || (part.role == Role::wall && part.loop > 0);
-}
-
 bool is_upper_wall(const test::Part& part, int side)
 {
     return part.role == Role::wall && part.loop == 0 && part.row == 1 && part.side == side;
@@ -91,7 +85,7 @@ TEST_CASE("a hole without walls is asked about where an end is missing to which 
                                                .bend = bend};
                     const double filled = test::prism(options).facet_volume;
                     options.holes = 1;
-                    options.drop = holes_and_target;
+                    options.drop = test::holes_and_target;
                     Model model = test::prism(options).model;
                     CAPTURE(sides);
                     CAPTURE(hole_sides);

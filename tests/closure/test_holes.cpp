@@ -21,11 +21,6 @@ using closure::Holes;
 
 namespace {
 
-bool holes_and_target(const test::Part& part)
-{
-    return part.role == Role::target || (part.role == Role::wall && part.loop > 0);
-}
-
 bool walls_of_holes(const test::Part& part) { return part.role == Role::wall && part.loop > 0; }
 
 /// Prisms of which holes of the source lack their walls.
@@ -88,7 +83,7 @@ std::vector<double> numbers_behind(const std::string& text, const std::string& w
 
 TEST_CASE("holes of a given end without walls are refused with both volumes, and closed as is asked for")
 {
-    for (const Holed& member : family(holes_and_target)) {
+    for (const Holed& member : family(test::holes_and_target)) {
         const auto prism = test::prism(member.options);
         CAPTURE(member.options.sides);
         CAPTURE(member.options.holes);
@@ -113,7 +108,7 @@ TEST_CASE("holes of a given end without walls are refused with both volumes, and
 
 TEST_CASE("where roles are found holes without walls wait for what becomes of them")
 {
-    for (const Holed& member : family(holes_and_target)) {
+    for (const Holed& member : family(test::holes_and_target)) {
         const auto prism = test::prism(member.options);
         CAPTURE(member.options.sides);
         CAPTURE(member.options.holes);
@@ -135,7 +130,7 @@ TEST_CASE("a guess takes holes of a given end through, which is told where it ma
                                         .hole_sides = 0,
                                         .hole_list = {{{0.1, 0}, radius}},
                                         .cuts = 4,
-                                        .drop = holes_and_target});
+                                        .drop = test::holes_and_target});
         CAPTURE(radius);
         OpenVolume volume = prism.open();
         const closure::Closure made = test::seal(volume, {.take_guess = true});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "closure/sealing_checks.h"
 #include "support/dice.h"
+#include "support/whole_families.h"
 
 #include <cmath>
 #include <numbers>
@@ -49,10 +50,12 @@ int tag_at(const OpenVolume& volume, const Vec3& place)
 TEST_CASE("smooth void edges of a bend without walls run as arcs and close to the volume of the whole")
 {
     int combinations = 0;
+    test::MembersToRun run(5);
     for (const int sides : {0, 3, 4, 6}) {
         for (const int holes : {0, 1, 2}) {
             for (const int hole_sides : {0, 4}) {
                 for (const double bend : {30.0, 60.0, 90.0, 120.0}) {
+                    if (!run.next()) continue;
                     PrismOptions options = bent(sides, bend);
                     options.holes = holes;
                     options.hole_sides = hole_sides;
@@ -81,9 +84,11 @@ TEST_CASE("left to itself, a bend without walls is closed as a bend past 100 deg
           "meant is "
           "said past 20")
 {
+    test::MembersToRun run(5);
     for (const int sides : {0, 4, 6}) {
         for (const int holes : {0, 1}) {
             for (const double bend : {0.0, 10.0, 45.0, 90.0, 110.0, 120.0}) {
+                if (!run.next()) continue;
                 PrismOptions options = bent(sides, bend);
                 options.holes = holes;
                 options.drop = without(false, false, true);

@@ -181,7 +181,7 @@ def killed():
             wholes = {entry.name: [entry.read_bytes()] for entry in path.iterdir()}
             wholes["old.msh"].append(old)
             hits = 0
-            for trial in range(often(10, 200)):
+            for trial in range(often(5, 200)):
                 for entry in path.iterdir():
                     entry.unlink()
                 (path / "old.msh").write_bytes(old)
@@ -277,7 +277,7 @@ m:open_volume { source = "source", target = "target", walls = "auto" }:write_cad
         span = time.monotonic() - begin
         lines = (path / "out.step").read_bytes().count(b"\n")
         hits = errors = 0
-        for trial in range(often(10, 200)):
+        for trial in range(often(6, 200)):
             (path / "out.step").unlink(missing_ok=True)
             what = f"CAD process killed, trial {trial}"
             process = start(path, "caught=" + ("true" if trial % 2 == 0 else "false"))

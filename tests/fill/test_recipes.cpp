@@ -2,6 +2,7 @@
 // fill() makes what a recipe makes, to the bit.
 #include "fill/recipe.h"
 #include "fill/shapes.h"
+#include "support/folder.h"
 
 #include <lacuna/team/shared/tasks.h>
 
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 using namespace lacuna;
 using test::code_of;
@@ -93,12 +92,6 @@ std::string open_options(const Shape& shape, const topology::Model& model, const
     return "source = " + list(shape.roles.source) +
            (shape.roles.target.empty() ? "" : ", target = " + list(shape.roles.target)) +
            ", walls = " + list(walls);
-}
-
-std::string bytes_of(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 } // namespace
@@ -241,8 +234,8 @@ TEST_CASE("layers made as they are written are those of sweep_to")
     team::LayeredFile file;
     file.quality = {quality::Metric::scaled_jacobian};
     team::write_layered({swept.mesh, *swept.layers}, *swept.plan, by_fill, file, nullptr, {});
-    CHECK(bytes_of(by_recipe).size() > 1000);
-    CHECK(bytes_of(by_recipe) == bytes_of(by_fill));
+    CHECK(test::bytes_of(by_recipe).size() > 1000);
+    CHECK(test::bytes_of(by_recipe) == test::bytes_of(by_fill));
     std::filesystem::remove(by_recipe);
     std::filesystem::remove(by_fill);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
+#include "support/folder.h"
+#include "support/refusal.h"
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/load_facets.h>
@@ -19,7 +20,7 @@ namespace {
 
 const std::string kShared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/";
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 std::string failure(const std::string& name, const std::string& bytes)
 {

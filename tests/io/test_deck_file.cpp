@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
+#include "support/folder.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/mesh_file.h>

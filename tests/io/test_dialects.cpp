@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Files as other programs write them beside what manuals show: each says the same as a plain one.
-#include "folder.h"
+#include "support/folder.h"
+#include "support/refusal.h"
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/load_facets.h>
@@ -19,7 +20,7 @@ using namespace lacuna;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 std::string failure(const std::string& name, const std::string& bytes)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
 #include "support/edit_model.h"
+#include "support/folder.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
 #include "msh_cells.h"
 #include "support/blocks.h"
+#include "support/folder.h"
 
 #include <lacuna/io/msh.h>
 

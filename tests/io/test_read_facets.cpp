@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
 #include "support/facet_files.h"
+#include "support/folder.h"
+#include "support/refusal.h"
 
 #include <lacuna/io/load_facets.h>
 
@@ -26,7 +27,7 @@ std::string failure(const std::string& name, const std::string& bytes)
     return "";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 /// Calls `visit(points of a facet, label)` for triangles and quads.
 template <class Visit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
 #include "support/blocks.h"
+#include "support/folder.h"
 #include "support/write_vtk.h"
 
 #include <doctest/doctest.h>

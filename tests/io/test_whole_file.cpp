@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "folder.h"
 #include "support/blocks.h"
+#include "support/folder.h"
 
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/io/msh.h>

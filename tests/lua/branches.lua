@@ -3,7 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
-local params = lacuna.params { members = 60 }
+local params = lacuna.params { members = os.getenv "LACUNA_WHOLE_FAMILIES" and 60 or 32 }
 
 local sides = 24 -- corners of a round mouth
 

@@ -3,7 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
-local params = lacuna.params { members = 16, scratch = "." }
+local params = lacuna.params { members = os.getenv "LACUNA_WHOLE_FAMILIES" and 16 or 8, scratch = "." }
 
 local random = check.random(99)
 

@@ -26,13 +26,6 @@ mesh::HexMesh shaken_block(int n, int layers, double amount)
                         }});
 }
 
-std::vector<Hex> all_hexes(const mesh::HexMesh& mesh)
-{
-    std::vector<Hex> hexes;
-    for (std::size_t i = 0; i < mesh.hex_count(); ++i) hexes.push_back(mesh.hex(i));
-    return hexes;
-}
-
 } // namespace
 
 TEST_CASE("a measured mesh has the least, the mean, the counts and the worst cells of its cells one by one")
@@ -44,7 +37,7 @@ TEST_CASE("a measured mesh has the least, the mean, the counts and the worst cel
             const auto mesh = shaken_block(13, layers, amount);
             std::vector<double> scaled;
             std::size_t uncertified = 0;
-            for (const Hex& hex : all_hexes(mesh)) {
+            for (const Hex& hex : test::all_hexes(mesh)) {
                 std::array<Vec3, 8> corners;
                 for (std::size_t c = 0; c < 8; ++c) corners[c] = mesh.nodes[static_cast<std::size_t>(hex[c])];
                 scaled.push_back(quality::scaled_jacobian(corners));
@@ -83,7 +76,7 @@ TEST_CASE("a measured mesh has the least, the mean, the counts and the worst cel
 TEST_CASE("a mesh is measured the same to the bit for any number of threads, and as a list of cells alike")
 {
     const auto mesh = shaken_block(40, 9, 0.3);
-    const auto hexes = all_hexes(mesh);
+    const auto hexes = test::all_hexes(mesh);
     RunContext one;
     one.threads = 1;
     const auto expected = quality::measure(mesh, one);
@@ -113,7 +106,7 @@ TEST_CASE("a mesh is measured the same to the bit for any number of threads, and
 TEST_CASE("the ten worst of a list of cells without columns are the ten worst of all")
 {
     const auto mesh = shaken_block(6, 30, 0.5);
-    const auto hexes = all_hexes(mesh);
+    const auto hexes = test::all_hexes(mesh);
     std::vector<double> scaled;
     for (const Hex& hex : hexes) {
         std::array<Vec3, 8> corners;

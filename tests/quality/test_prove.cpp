@@ -29,13 +29,6 @@ std::string code_of(const mesh::HexMesh& mesh, double limit = 0)
     return code_of(quality::prove(mesh, limit));
 }
 
-std::vector<Hex> all_hexes(const mesh::HexMesh& mesh)
-{
-    std::vector<Hex> hexes;
-    for (std::size_t i = 0; i < mesh.hex_count(); ++i) hexes.push_back(mesh.hex(i));
-    return hexes;
-}
-
 std::vector<Quad> all_skin(const mesh::HexMesh& mesh)
 {
     std::vector<Quad> skin;
@@ -54,7 +47,7 @@ TEST_CASE("sound meshes are proved, swept or as a list with their skin, and meas
                                return i == j && i % 2 == 1;
                            }})}) {
             CHECK(quality::prove(mesh).quality.volume == quality::measure(mesh).volume);
-            const auto hexes = all_hexes(mesh);
+            const auto hexes = test::all_hexes(mesh);
             CHECK(test::prove_cells(mesh.nodes, hexes).quality.hexes == hexes.size());
             CHECK(test::prove_cells(mesh.nodes, hexes, all_skin(mesh)).quality.hexes == hexes.size());
         }
@@ -198,7 +191,7 @@ TEST_CASE("nodes of two parts in one place are found, to within 1e-9 of the diag
         CHECK(code_of(bent) == (width > 0 ? "" : "quality.coincident_nodes"));
     }
     const auto listed = slit(0);
-    CHECK(code_of(test::prove_cells(listed.nodes, all_hexes(listed))) == "quality.coincident_nodes");
+    CHECK(code_of(test::prove_cells(listed.nodes, test::all_hexes(listed))) == "quality.coincident_nodes");
 }
 
 TEST_CASE("a cell that is invalid between valid corners is refused")
@@ -287,7 +280,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
 {
     const auto mesh = test::block({});
     auto nodes = mesh.nodes;
-    auto hexes = all_hexes(mesh);
+    auto hexes = test::all_hexes(mesh);
     auto skin = all_skin(mesh);
     const auto code = [&] { return code_of(test::prove_cells(nodes, hexes, skin)); };
     REQUIRE(code().empty());
@@ -328,7 +321,7 @@ TEST_CASE("what is wrong with a list of cells is found and called by its name")
     {
         const auto pinched = test::block(
             {.columns = 2, .rows = 2, .leave_out = [](int i, int j) { return i == j; }});
-        CHECK(code_of(test::prove_cells(pinched.nodes, all_hexes(pinched))) == "quality.open_skin");
+        CHECK(code_of(test::prove_cells(pinched.nodes, test::all_hexes(pinched))) == "quality.open_skin");
     }
     SUBCASE("a hanging node")
     {

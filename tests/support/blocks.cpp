@@ -100,4 +100,11 @@ mesh::HexMesh with_wedges(mesh::HexMesh mesh, std::size_t every)
     return mesh;
 }
 
+std::vector<Hex> all_hexes(const mesh::HexMesh& mesh)
+{
+    std::vector<Hex> hexes;
+    for (std::size_t i = 0; i < mesh.hex_count(); ++i) hexes.push_back(mesh.hex(i));
+    return hexes;
+}
+
 } // namespace lacuna::test

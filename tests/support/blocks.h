@@ -4,6 +4,7 @@
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <functional>
+#include <vector>
 
 namespace lacuna::test {
 
@@ -24,5 +25,7 @@ mesh::HexMesh ring(int around, int layers);
 
 /// The same with two wedges for every hexahedron over each `every`-th quad of the source.
 mesh::HexMesh with_wedges(mesh::HexMesh mesh, std::size_t every = 3);
+
+std::vector<Hex> all_hexes(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::test

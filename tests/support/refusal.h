@@ -11,6 +11,11 @@
 
 namespace lacuna::test {
 
+inline bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
 /// The code of the error that work ends with, its message holding all the words; "done" without one.
 inline std::string refusal(const std::function<void()>& work, const std::vector<std::string>& words = {})
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "io/folder.h"
 #include "support/cancelling.h"
+#include "support/folder.h"
 #include "support/volumes.h"
 #include "support/whole_families.h"
 

@@ -208,7 +208,7 @@ Apart apart_by_brute_force(const OpenVolume& volume, const mesh::HexMesh& mesh, 
 TEST_CASE("distances are those to the nearest of all facets and all quads, by any number of threads")
 {
     int compared_faces = 0;
-    test::MembersToRun run(3);
+    test::MembersToRun run(5);
     for (const double bend : {0.0, 90.0}) {
         for (const double taper : {1.0, 0.5}) {
             for (const int cuts : {2, 8}) {
@@ -344,6 +344,7 @@ TEST_CASE("a mesh that cuts off much of the volume is refused, unless that is as
 TEST_CASE("walls that are made lie where they were sealed, as given ones do, at any size")
 {
     int combinations = 0;
+    test::MembersToRun run(5);
     for (const double bend : {40.0, 90.0, 170.0}) {
         for (const double twist : {0.0, 30.0}) {
             for (const int gone : {0, 1}) { // the outer wall, or the bore's
@@ -360,6 +361,7 @@ TEST_CASE("walls that are made lie where they were sealed, as given ones do, at 
                 };
                 const auto volume = test::sealed(shape);
                 for (const double size : {0.25, 0.12}) {
+                    if (!run.next()) continue;
                     const Swept swept = sweep::sweep(volume, layers_of(static_cast<int>(4.5 / size), size));
                     test::check_valid(swept.mesh);
                     CAPTURE(bend);
@@ -468,8 +470,10 @@ TEST_CASE("the least deviation that is allowed depends on the model and the face
 
 TEST_CASE("a pocket that is filled over is refused by the name of its faces, at any size")
 {
+    test::MembersToRun run(2);
     for (const double depth : {0.1, 0.2, 0.5}) {
         for (const double size : {0.1, 0.25, 0.4}) {
+            if (!run.next()) continue;
             const auto volume = box_with_pocket(depth);
             CAPTURE(depth);
             CAPTURE(size);
@@ -493,8 +497,10 @@ TEST_CASE("a pocket that is filled over is refused by the name of its faces, at 
 TEST_CASE("sizes and layers that refusals name lead to a mesh within a few steps")
 {
     int tried = 0;
+    test::MembersToRun run(3);
     for (const double bend : {0.0, 90.0}) {
         for (const double allowed : {0.02, 0.005}) {
+            if (!run.next()) continue;
             const auto volume = test::sealed(
                 {.sides = 0, .height = 5, .cuts = 16, .levels = 64, .bend = bend});
             SweepOptions options = layers_of(4, 0.6);

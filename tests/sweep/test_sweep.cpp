@@ -2,6 +2,7 @@
 #include "layers_of.h"
 #include "support/check_valid.h"
 #include "support/quad_meshers.h"
+#include "support/whole_families.h"
 #include "surface/sealed.h"
 
 #include <lacuna/closure/close.h>
@@ -144,6 +145,7 @@ OpenVolume box_with_bent_target(double height)
 TEST_CASE("every class of prism becomes hexahedra: source quads times layers, proved, of the volume's size")
 {
     int combinations = 0;
+    test::MembersToRun run(5);
     const std::vector<std::pair<const char*, std::function<bool(const Part&)>>> drops{
         {"closed", nullptr},
         {"I", without(false, false, true)},
@@ -158,6 +160,7 @@ TEST_CASE("every class of prism becomes hexahedra: source quads times layers, pr
             for (const int holes : {0, 1, 4}) {
                 for (const int layers : {1, 3}) {
                     for (const double taper : {1.0, 0.6}) {
+                        if (!run.next()) continue;
                         const PrismOptions options{
                             .sides = sides, .holes = holes, .taper = taper, .drop = drop};
                         CAPTURE(name);
@@ -182,6 +185,7 @@ TEST_CASE("curved, twisted and bent volumes of every class become hexahedra")
 {
     int combinations = 0;
     int number = 0;
+    test::MembersToRun run(5);
     for (const auto& drop : std::vector<std::function<bool(const Part&)>>{
              nullptr, without(false, false, true), without(false, false, false, {0}),
              without(false, false, false, {0, 1}), without(false, true, false), without(true, true, false)}) {
@@ -191,6 +195,7 @@ TEST_CASE("curved, twisted and bent volumes of every class become hexahedra")
                 for (const double twist : {0.0, 20.0}) {
                     for (const double bend : {0.0, 60.0}) {
                         for (const End end : {End::planar, End::tilted}) {
+                            if (!run.next()) continue;
                             const PrismOptions options{.sides = sides,
                                                        .height = 4,
                                                        .holes = holes,
@@ -221,12 +226,14 @@ TEST_CASE("curved, twisted and bent volumes of every class become hexahedra")
 TEST_CASE("bends with any of their walls missing are filled well, left to themselves and told to follow")
 {
     int combinations = 0;
+    test::MembersToRun run(5);
     for (const double bend : {40.0, 90.0, 150.0}) {
         for (const double taper : {1.0, 0.6}) {
             for (const auto& gone :
                  std::vector<std::vector<int>>{{0, 1, 2}, {1, 2, 3}, {1, 2}, {0, 3}, {0, 2}, {1}}) {
                 for (const auto shape : {closure::EdgeShape::automatic, closure::EdgeShape::follow}) {
                     for (const End end : {End::planar, End::bowed}) {
+                        if (!run.next()) continue;
                         const PrismOptions options{.sides = 4,
                                                    .height = 4,
                                                    .cuts = 4,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/folder.h"
+#include "support/folder.h"
 #include "support/quad_meshers.h"
 #include "surface/sealed.h"
 #include "sweep/layers_of.h"
