@@ -138,16 +138,15 @@ FaceId face_near(const topology::Model& model, const Vec3& centre)
 /// From the faces to the hexes; every step proves what it made.
 void check_sweeps(const topology::Model& model, const topology::Roles& roles, double volume, double error)
 {
-    topology::OpenVolume open = topology::open_volume(model, roles);
+    const topology::OpenVolume open = topology::open_volume(model, roles);
     const topology::VolumeClass value = topology::classify(open).value;
     const bool two_ends = value != topology::VolumeClass::IV && value != topology::VolumeClass::V;
-    const closure::Closure closed = closure::close(open,
-                                                   two_ends ? matching::match(open) : matching::Match{});
-    CHECK(closed.watertight);
-    CHECK(closure::enclosed_volume(open) == doctest::Approx(volume).epsilon(error));
+    const closure::Closed closed = closure::close(open, two_ends ? matching::match(open) : matching::Match{});
+    CHECK(closed.closure.watertight);
+    CHECK(closure::enclosed_volume(closed.volume) == doctest::Approx(volume).epsilon(error));
     sweep::SweepOptions options;
     options.layers.count = 4;
-    test::check_valid(sweep::sweep(open, options).mesh);
+    test::check_valid(sweep::sweep(closed.volume, options).mesh);
 }
 
 } // namespace

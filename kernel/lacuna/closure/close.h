@@ -67,12 +67,17 @@ struct Closure {
     std::vector<Assumption> assumptions; ///< the notes that change the volume by more than 2 %
 };
 
-/// Seal the volume: add void edges and faces with their geometry, and give every face its role.
+/// A sealed volume: the given faces, then the void ones; and how it was sealed.
+struct Closed {
+    topology::OpenVolume volume;
+    Closure closure;
+};
+
+/// Seal a volume: add void edges and faces with their geometry, and give every face its role.
 ///
 /// Algorithms 2–6 and one of 8–11 for the class. Classes IV and V start without a target and end with both
 /// ends. Departure: where walls cover only part of the height, a void edge joins the remaining gap of each
 /// matched pair; the paper joins only vertices that are on no wall.
-/// @param volume  out: with the void entities added.
 /// @param match   of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
@@ -83,8 +88,8 @@ struct Closure {
 ///         apply to the volume.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
-Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
-              const RunContext& context = {});
+Closed close(const topology::OpenVolume& volume, const matching::Match& match,
+             const CloseOptions& options = {}, const RunContext& context = {});
 
 /// Log a closure's notes, assumptions as `note: … [code]`, as close() does.
 void log_notes(const Closure& closure, const RunContext& context);

@@ -117,7 +117,9 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     if (closure.value == VolumeClass::III) note(closure, "Algorithm 9");
     turn_target_to_source(volume, match);
     if (closure.value != VolumeClass::III) {
-        matching::apply_splits(volume, match);
+        matching::Matched split = matching::apply_splits(std::move(volume), std::move(match));
+        volume = std::move(split.volume);
+        match = std::move(split.match);
         check_matched(volume, match);
     }
     const bool smooth = tools.way.edges == EdgeShape::smooth;
@@ -182,8 +184,10 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     }
     if (tools.way.planes) {
         if (auto filled = fill_missing_end(volume, tools.context)) {
-            closure.void_edges = std::move(filled->void_edges);
-            std::ranges::copy(filled->void_faces, std::back_inserter(closure.void_faces));
+            volume.model = std::move(filled->volume.model);
+            volume.role = std::move(filled->volume.role);
+            closure.void_edges = std::move(filled->closure.void_edges);
+            std::ranges::copy(filled->closure.void_faces, std::back_inserter(closure.void_faces));
             note(closure, "Algorithm 4");
             return;
         }

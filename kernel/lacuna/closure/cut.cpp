@@ -348,7 +348,6 @@ private:
 /// The volume closed as a whole; empty if that fails.
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
-    OpenVolume result = volume;
     if (classify(volume).value == VolumeClass::V && !no_tube(volume).empty()) {
         auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
         if (!filled) return std::nullopt;
@@ -358,13 +357,12 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
         matching::Match match;
         if (!volume.faces(Role::source).empty() && !volume.faces(Role::target).empty())
             match = matching::match(volume, {}, context);
-        close(result, match, {}, context);
+        return close(volume, match, {}, context).volume;
     } catch (const Cancelled&) {
         throw;
     } catch (const Error&) {
         return std::nullopt;
     }
-    return result;
 }
 
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane,

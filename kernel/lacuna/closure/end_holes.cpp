@@ -58,11 +58,7 @@ HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, 
         CloseOptions asked = options;
         asked.holes = holes;
         asked.take_guess = true;
-        return unless_refused([&] {
-            OpenVolume sealed = volume;
-            close(sealed, {}, asked, quiet);
-            return enclosed_volume(sealed);
-        });
+        return unless_refused([&] { return enclosed_volume(close(volume, {}, asked, quiet).volume); });
     };
     return {encloses(Holes::cover), encloses(Holes::through)};
 }

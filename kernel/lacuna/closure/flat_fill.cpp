@@ -199,7 +199,7 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     return filled;
 }
 
-std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& context)
+std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)
 {
     if (std::ranges::any_of(free_loops(volume),
                             [&](const Rim& rim) { return lies_on_round_face(volume.model, rim); }))
@@ -213,9 +213,7 @@ std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& co
     std::ranges::copy(volume.role, filled->volume.role.begin());
     part_end_from_walls(*filled, source);
     if (!can_be_swept_to(filled->volume, source)) return std::nullopt;
-    volume.model = std::move(filled->volume.model);
-    volume.role = std::move(filled->volume.role);
-    return std::move(filled->closure);
+    return filled;
 }
 
 } // namespace lacuna::closure

@@ -136,7 +136,7 @@ public:
         return result;
     }
 
-    [[nodiscard]] OpenVolume& volume() { return volume_; }
+    [[nodiscard]] const OpenVolume& volume() const { return volume_; }
     [[nodiscard]] FaceId made() const { return made_; }
     [[nodiscard]] bool has_bare_rim() const
     {
@@ -427,9 +427,8 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const std::vector<std::
     if (stop) return std::nullopt;
     return unless_refused([&] {
         mover.move(context);
-        MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
-        const matching::Match match = matching::match(result.volume, {}, context);
-        result.closure = close_trial(result.volume, match, context);
+        const matching::Match match = matching::match(mover.volume(), {}, context);
+        MovedEnd result{close_trial(mover.volume(), match, context), end};
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());

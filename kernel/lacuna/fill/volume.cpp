@@ -110,7 +110,10 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
         return volume;
     }
     asked.take_guess = volume.take_guess;
-    volume.closure = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked, context);
+    closure::Closed closed = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked,
+                                            context);
+    volume.volume = std::move(closed.volume);
+    volume.closure = std::move(closed.closure);
     return volume;
 }
 

@@ -69,9 +69,15 @@ struct Match {
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {},
             const RunContext& context = {});
 
-/// Make the splits of a match by topology::split_edge(). Its pairs and loops are then complete and `splits`
-/// is empty. A split on an edge with a wall is skipped, with a note.
+/// A volume and its match, whose pairs and loops are complete: `splits` is empty.
+struct Matched {
+    topology::OpenVolume volume;
+    Match match;
+};
+
+/// Make the splits of a match by topology::split_edge(). A split on an edge with a wall is skipped, with a
+/// note.
 /// @pre the match is of this volume.
-void apply_splits(topology::OpenVolume& volume, Match& match);
+Matched apply_splits(topology::OpenVolume volume, Match match);
 
 } // namespace lacuna::matching

@@ -71,9 +71,9 @@ Split split_at(VertexId vertex, bool on_target, const Rim& rim, const LoopShape&
     return {vertex, on_target, rim.uses[i].edge, rim.uses[i].reversed ? 1 - along : along};
 }
 
-void apply_splits(OpenVolume& volume, Match& match)
+Matched apply_splits(OpenVolume volume, Match match)
 {
-    if (match.splits.empty()) return;
+    if (match.splits.empty()) return {std::move(volume), std::move(match)};
     Model& model = volume.model;
     const auto uses = edge_uses(model);
     // Split each edge from its end, so that the part before a split keeps the edge's id.
@@ -106,6 +106,7 @@ void apply_splits(OpenVolume& volume, Match& match)
         match.hard.push_back(false);
     }
     sort_pairs(model, match);
+    return {std::move(volume), std::move(match)};
 }
 
 } // namespace lacuna::matching
