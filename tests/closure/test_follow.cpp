@@ -289,9 +289,8 @@ TEST_CASE("what else a loop without walls may enclose is said where it bulges as
         const auto open = barrel.open();
         const auto [volume, closure] = closure::close(open, matching::match(open));
         CAPTURE(belly);
-        const bool said = std::ranges::any_of(closure.notes, [](const std::string& note) {
-            return note.find("straight") != std::string::npos && note.find("encloses") != std::string::npos;
-        });
+        const bool said = std::ranges::find(closure.notes, "closure.straight_assumed", &Message::code) !=
+                          closure.notes.end();
         CHECK(said == (belly != 1.0));
         CHECK(closure::enclosed_volume(volume) == doctest::Approx(barrel.facet_volume).epsilon(0.02));
     }

@@ -130,7 +130,7 @@ bool asks_for_shape(const CloseOptions& options)
 
 /// Note an assumption about walls missing next to a missing end. It matters if a face that bulges over their
 /// rims by a quarter of their width, 4 area / perimeter, would change the volume enough.
-void assume_walls(const OpenVolume& sealed, const char* code, const std::string& text, Closure& closure)
+void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
     double open = 0;
@@ -141,7 +141,7 @@ void assume_walls(const OpenVolume& sealed, const char* code, const std::string&
         if (sealed.role[face.index()] == Role::wall)
             open += std::pow(face_area(sealed.model, face), 2) / perimeter;
     }
-    assume(closure, code, formatted("{}; this encloses {:.4g}", text, taken), open / taken);
+    assume(closure, {note.code(), "{}; this encloses {:.4g}", note.parts(), taken}, open / taken);
 }
 
 /// For each edge of the source's rims, the share of its length without a wall.
@@ -265,10 +265,11 @@ private:
                                             ? formatted("encloses {:.4g} instead of {:.4g}", *instead, taken)
                                             : "is the alternative";
         assume(closure,
-               follows   ? "closure.loop_follows"
-               : leads() ? "closure.straight_assumed"
-                         : "closure.bend_assumed",
-               formatted("{}; close{{ edge_shape = \"{}\" }} {}", text, word(other), alternative), share);
+               {follows   ? "closure.loop_follows"
+                : leads() ? "closure.straight_assumed"
+                          : "closure.bend_assumed",
+                "{}; close{{ edge_shape = \"{}\" }} {}", text, word(other), alternative},
+               share);
     }
 
     /// Note a missing end with missing walls that was closed by several flat faces, void faces whose rim does
@@ -277,9 +278,10 @@ private:
     {
         auto& [sealed, closure] = closed;
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
-            assume_walls(sealed, "closure.walls_filled",
-                         "walls next to the missing target end below it; flat faces that meet in "
-                         "straight edges continue them",
+            assume_walls(sealed,
+                         {"closure.walls_filled",
+                          "walls next to the missing target end below it; flat faces that meet in "
+                          "straight edges continue them"},
                          closure);
         note_open_rims(sealed, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
@@ -316,7 +318,7 @@ private:
     {
         const auto otherwise = [&]() -> Message {
             if (!failed.remedy().empty()) return failed;
-            return Message(failed).remedy("give the missing face, or another wall");
+            return failed.remedy("give the missing face, or another wall");
         };
         if (!has_two_ends(value_)) return otherwise();
         if (options_.edge_shape != EdgeShape::automatic) {
@@ -324,7 +326,7 @@ private:
             for (const EdgeShape shape : {EdgeShape::straight, EdgeShape::follow, EdgeShape::smooth}) {
                 if (shape == options_.edge_shape || (shape == EdgeShape::follow && !leads())) continue;
                 if (volume_sealed_as({shape}, match))
-                    return Message(failed).remedy("close{{ edge_shape = \"{}\" }} seals it", word(shape));
+                    return failed.remedy("close{{ edge_shape = \"{}\" }} seals it", word(shape));
             }
         }
         matching::MatchOptions turned;
@@ -334,7 +336,7 @@ private:
             const matching::Match other = matching::match(volume_, turned, context_);
             for (const Way& way : wanted(other)) {
                 if (volume_sealed_as(way, other))
-                    return Message(failed).remedy(
+                    return failed.remedy(
                         "match{{ flip = {{ {} }} }} seals it",
                         full_list(turned.flip, [](int loop) { return formatted("{}", loop + 1); }));
             }
@@ -403,10 +405,11 @@ std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const Close
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
     const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
     if (without > std::ssize(holes_without_walls(volume)))
-        assume_walls(moved->volume, "closure.end_moved",
-                     formatted("the target and walls next to it are missing; the target is assumed to have "
-                               "the shape of the source {}, moved onto the tops of the given walls",
-                               entity_of(volume.model, moved->from)),
+        assume_walls(moved->volume,
+                     {"closure.end_moved",
+                      "the target and walls next to it are missing; the target is assumed to have the shape "
+                      "of the source {}, moved onto the tops of the given walls",
+                      entity_of(volume.model, moved->from)},
                      closure);
     return std::move(*moved);
 }
@@ -491,8 +494,9 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
         throw NotClosed(holes_message(volume.model, holes, *volumes));
     Closed closed = close_rest(volume, match, whole, options, context);
     if (volumes)
-        assume(closed.closure, "closure.hole_through",
-               formatted("{}; here they are extended", holes_message(volume.model, holes, *volumes).text()),
+        assume(closed.closure,
+               {"closure.hole_through", "{}; here they are extended",
+                holes_message(volume.model, holes, *volumes).parts()},
                share_between(enclosed_volume(closed.volume), volumes->covered));
     return closed;
 }
@@ -501,9 +505,10 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    closure.notes.push_back(formatted("an end meets {} smoothly; meshed as part of that end, not as walls",
-                                      entities_of(model, walls)));
-    closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
+    closure.assumptions.push_back(closure.notes.size());
+    closure.notes.push_back({"closure.end_extended",
+                             "an end meets {} smoothly; meshed as part of that end, not as walls",
+                             entities_of(model, walls)});
 }
 
 } // namespace
@@ -541,11 +546,10 @@ Closed close_trial(const OpenVolume& volume, const matching::Match& match, const
 
 void log_notes(const Closure& closure, const RunContext& context)
 {
-    for (const std::string& note : closure.notes) {
-        const auto assumed = std::ranges::find(closure.assumptions, note, &Assumption::text);
-        log_line(context, assumed == closure.assumptions.end()
-                              ? note
-                              : formatted("note: {} [{}]", note, assumed->code));
+    for (std::size_t n = 0; n < closure.notes.size(); ++n) {
+        const Message& note = closure.notes[n];
+        const bool assumed = std::ranges::find(closure.assumptions, n) != closure.assumptions.end();
+        log_line(context, assumed ? formatted("note: {} [{}]", note.text(), note.code()) : note.text());
     }
 }
 

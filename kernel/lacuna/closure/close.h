@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,12 +51,6 @@ struct CloseOptions {
     bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
 };
 
-/// An assumption of the closing that changes the volume by more than 2 %.
-struct Assumption {
-    std::string code; ///< stable code for programs: "closure.end_moved"
-    std::string text; ///< one of the closure's notes
-};
-
 /// The void entities added to seal the volume, and how they were made.
 struct Closure {
     topology::VolumeClass value = topology::VolumeClass::closed;
@@ -63,8 +59,8 @@ struct Closure {
     std::vector<std::string> algorithms; ///< names as in the paper, in the order used: "Algorithm 8",
                                          ///< "Algorithm 4", …
     bool watertight = false;
-    std::vector<std::string> notes;      ///< assumptions and alternatives, one sentence each
-    std::vector<Assumption> assumptions; ///< the notes that change the volume by more than 2 %
+    std::vector<Message> notes;           ///< assumptions and alternatives, one sentence each
+    std::vector<std::size_t> assumptions; ///< indices of the notes that change the volume by more than 2 %
 };
 
 /// A sealed volume: the given faces, then the void ones; and how it was sealed.

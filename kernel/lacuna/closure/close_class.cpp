@@ -207,9 +207,9 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
         add_face(volume, closure, end, role, tools);
         for (const FaceId floor : floors) {
             volume.role[floor.index()] = role;
-            closure.notes.push_back(formatted("{} lies in the plane of the {} and becomes part of it",
-                                              entity_of(volume.model, floor),
-                                              role == Role::source ? "source" : "target"));
+            closure.notes.push_back(
+                {"closure.floor_in_end", "{} lies in the plane of the {} and becomes part of it",
+                 entity_of(volume.model, floor), role == Role::source ? "source" : "target"});
         }
     }
 }

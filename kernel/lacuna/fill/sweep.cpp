@@ -65,12 +65,12 @@ void report_closure(const Volume& volume, std::vector<std::string>& report, cons
     report_left_out(volume, report);
     if (!volume.closure) return;
     if (volume.match && !volume.closure->void_edges.empty()) {
-        for (const std::string& note : volume.match->notes) {
-            report.push_back("match: " + note);
+        for (const Message& note : volume.match->notes) {
+            report.push_back("match: " + note.text());
             if (context.log) context.log(report.back());
         }
     }
-    for (const std::string& note : volume.closure->notes) report.push_back("closed: " + note);
+    for (const Message& note : volume.closure->notes) report.push_back("closed: " + note.text());
 }
 
 Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunContext& context)

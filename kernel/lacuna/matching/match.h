@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/side_lines.h>
 #include <lacuna/topology/open_volume.h>
@@ -47,7 +48,7 @@ struct Match {
     std::vector<Split> splits; ///< vertices still to be created by apply_splits()
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 if there was only one possibility
-    std::vector<std::string> notes;
+    std::vector<Message> notes;
     /// side_lines() of the volume when it was matched; empty if match() did not make this match.
     std::optional<std::vector<SideLine>> side_lines;
 };

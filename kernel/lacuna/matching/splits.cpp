@@ -92,11 +92,11 @@ Matched apply_splits(OpenVolume volume, Match match)
                                  return !model[use.face].given_quads.empty();
                              });
         if (on_wall || at_end || no_node) {
-            match.notes.push_back(formatted("{} has no partner: its position is on {}, {}",
-                                            entity_of(model, split.vertex), entity_of(model, split.edge),
-                                            on_wall  ? "which has a wall"
-                                            : at_end ? "at an end that has another partner"
-                                                     : "inside a quad side of a given mesh"));
+            match.notes.push_back({"matching.no_partner", "{} has no partner: its position is on {}, {}",
+                                   entity_of(model, split.vertex), entity_of(model, split.edge),
+                                   on_wall  ? "which has a wall"
+                                   : at_end ? "at an end that has another partner"
+                                            : "inside a quad side of a given mesh"});
             continue;
         }
         const EdgeSplit made = split_edge(model, split.edge, wanted / in_front);

@@ -124,7 +124,7 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
     if (proof.finding && quality::can_be_improved(proof.finding->fault)) {
         Message& message = proof.finding->message;
-        std::move(message).attempt({message.code(), "{}", in_words(improved)});
+        message = message.attempt({message.code(), "{}", in_words(improved)});
     }
     return proof;
 }

@@ -47,7 +47,7 @@ constexpr double kMatters = 0.02;
 
 /// Add a note about an assumption; it is listed as an assumption if it changes the volume enough.
 /// @param share  relative change of the volume under the alternative
-void assume(Closure& closure, const char* code, std::string text, double share);
+void assume(Closure& closure, Message note, double share);
 
 /// Note holes of given faces that void walls close in their planes, because an entirely missing pocket leaves
 /// no other trace. It is an assumption if a pocket as deep as its mouth is wide would change the volume
