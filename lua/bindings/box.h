@@ -33,8 +33,8 @@ inline constexpr const char* kClassName = nullptr;
 
 // --- raising ----------------------------------------------------------------------------------------
 
-// Every error of the bindings is a table { message, code, entities, attempts, file, line }. It prints as one sentence
-// and answers to the methods of strings, so that a recipe may use it as the text it once was.
+// Every error of the bindings is a table { message, code, entities, attempts, file, line }. It prints as one
+// sentence and answers to the methods of strings, so that a recipe may use it as the text it once was.
 
 /// Raise the message on top of the stack, a string, with the recipe's file and line.
 [[noreturn]] void raise(lua_State* L, const char* code);

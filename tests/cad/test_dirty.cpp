@@ -41,7 +41,7 @@ void check_unfolded(const topology::Model& model)
 
 void check_same_skin(topology::Model model, const topology::Model& whole, const healing::StitchReport& report)
 {
-    for (const std::string& note : report.notes) MESSAGE(note);
+    for (const Message& note : report.notes) MESSAGE(note.text());
     CHECK(report.notes.empty());
     test::check_model(model);
     check_unfolded(model);
@@ -164,8 +164,8 @@ TEST_CASE("a block of loose, shifted, divided, repeated and turned faces is swep
         CHECK(model.vertices.size() == 10);
         for (const int uses : test::uses_of_edges(model)) CHECK(uses == 2);
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].find("face 3") != std::string::npos);
-        CHECK(model.notes[0].find("face 4") < model.notes[0].find("face 3"));
+        CHECK(model.notes[0].text().find("face 3") != std::string::npos);
+        CHECK(model.notes[0].text().find("face 4") < model.notes[0].text().find("face 3"));
 
         const std::vector<Vec3> walls{{1, 0, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}, {2, 0.5, 0.5}};
         for (std::size_t missing = 0; missing <= walls.size(); ++missing) {
@@ -230,7 +230,7 @@ TEST_CASE("edges that part between their ends are not sewn in silence")
         const std::vector<int> uses = test::uses_of_edges(model);
         CHECK(std::count(uses.begin(), uses.end(), 2) == (bulge < 1 ? 1 : 0));
         REQUIRE(model.notes.size() == (bulge < 1 ? 0U : 1U));
-        if (bulge > 1) CHECK(model.notes[0].find("a gap of 0.005") != std::string::npos);
+        if (bulge > 1) CHECK(model.notes[0].text().find("a gap of 0.005") != std::string::npos);
     }
 }
 

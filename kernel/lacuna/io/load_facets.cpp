@@ -205,7 +205,8 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
         auto deck = std::make_shared<Deck>(read_deck(path));
-        loaded.warnings.insert(loaded.warnings.end(), deck->warnings.begin(), deck->warnings.end());
+        for (const std::string& warning : deck->warnings)
+            loaded.warnings.push_back({"io.read_differently", "{}", warning});
         if (!options.without.empty()) leaver.leave_out(*deck);
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
@@ -225,7 +226,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     loaded.model = healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context);
     name_faces(loaded.model, names, all);
     loaded.model.source = source;
-    move_in(loaded.model.notes, all.notes);
+    for (const std::string& note : all.notes) loaded.model.notes.push_back({"io.file_note", "{}", note});
     loaded.model.notes.insert(loaded.model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
     return loaded;
 }
@@ -248,9 +249,10 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     if (report.changed()) log_line(context, report.summary());
     move_in(loaded.warnings, report.sewn);
     move_in(model.notes, report.notes);
-    for (const std::string& note : model.notes) {
-        const bool told = std::ranges::find(loaded.warnings, note) != loaded.warnings.end();
-        log_line(context, told ? "note: " + note : note);
+    for (const Message& note : model.notes) {
+        const bool warns = std::ranges::find(loaded.warnings, note.code(), &Message::code) !=
+                           loaded.warnings.end();
+        log_line(context, warns ? "note: " + note.text() : note.text());
     }
 }
 
