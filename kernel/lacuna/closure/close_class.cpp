@@ -4,8 +4,8 @@
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/void_edges.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>

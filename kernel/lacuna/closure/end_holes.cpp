@@ -2,8 +2,8 @@
 #include <lacuna/closure/detail/end_holes.h>
 
 #include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/use_places.h>
 

@@ -7,7 +7,7 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
-#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>

@@ -120,7 +120,7 @@ std::vector<std::string>& report_of(Filled& filled)
 Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     SweepRequest request = asked;
-    sweep::share_deadline(request.options.improving);
+    request.options.improving = sweep::with_deadline(request.options.improving);
     std::vector<std::string> failed; // one line for each sweep that failed
     std::exception_ptr first;
     std::optional<Volume> other;

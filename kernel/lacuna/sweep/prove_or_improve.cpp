@@ -111,7 +111,8 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     };
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, std::move(held)};
     report_progress(context, "improving");
-    const Improved improved = improve(swept.mesh, improving, sliding, context);
+    Improved improved = improve(std::move(swept.mesh), improving, sliding, context);
+    swept.mesh = std::move(improved.mesh);
     report_progress(context, "proof of every cell");
     if (improved.stuck) {
         if (proof.finding) {
