@@ -396,6 +396,7 @@ function Volume:write_cad(path, options) end
 ---@field found (number|string)[] what the input has
 ---@field needed (number|string)[] what it would need instead
 ---@field remedy? string the part of the message that says what to try
+---@field attempts { message: string, code: string, entities: { kind: string, tag: integer }[] }[] why what was tried failed too
 ---@field file? string of the recipe
 ---@field line? integer
 

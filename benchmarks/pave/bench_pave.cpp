@@ -19,10 +19,10 @@
 #include "source_face.h"
 #endif
 
-#include <lacuna/quads/shared/clean_quads.h>
+#include <lacuna/quads/detail/clean_quads.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/pave.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
 #include <cmath>

@@ -280,12 +280,11 @@ topology::OpenVolume real_case(const std::string& spec)
     for (std::string word; std::getline(words, word, '|');) parts.push_back(word);
     parts.resize(4);
     const topology::Model model = cad::load({parts[0]});
-    topology::OpenVolume volume = topology::open_volume(
+    const topology::OpenVolume volume = topology::open_volume(
         model, {faces_of(model, parts[1]), faces_of(model, parts[2]), faces_of(model, parts[3])});
     matching::Match match;
     if (!parts[1].empty() && !parts[2].empty()) match = matching::match(volume);
-    closure::close(volume, match);
-    return volume;
+    return closure::close(volume, match).volume;
 }
 
 SourceQuads mesh_source_faces(const topology::OpenVolume& volume, double quads)

@@ -262,8 +262,7 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
                                split.gone.get(), &before);
         options.first_node = options.first_cell = 0;
     }
-    io::close_gap(joined, context);
-    return joined;
+    return io::close_gap(std::move(joined), context);
 }
 
 void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::OutputPath& path,

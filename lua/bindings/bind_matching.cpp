@@ -68,7 +68,8 @@ void push_match(lua_State* L, const topology::Model& model, const matching::Matc
     lua_setfield(L, -2, "vertices");
     set_string(L, "method", match.method.c_str());
     set_number(L, "confidence", match.confidence);
-    set_strings(L, "notes", match.notes);
+    push_array(L, match.notes, [&](const Message& note) { push_text(L, [&] { return note.text(); }); });
+    lua_setfield(L, -2, "notes");
 }
 
 /// { loops=, vertices=, method=, confidence= } = volume:match([options])

@@ -148,6 +148,19 @@ void push_entities(lua_State* L, const std::vector<NamedEntity>& entities)
     }
 }
 
+/// Push { message =, code =, entities = }.
+void push_words(lua_State* L, const std::string& message, const std::string& code,
+                const std::vector<NamedEntity>& entities)
+{
+    lua_createtable(L, 0, 9);
+    lua_pushlstring(L, message.data(), message.size());
+    lua_setfield(L, -2, "message");
+    lua_pushlstring(L, code.data(), code.size());
+    lua_setfield(L, -2, "code");
+    push_entities(L, entities);
+    lua_setfield(L, -2, "entities");
+}
+
 /// Push an array of numbers and texts.
 void push_values(lua_State* L, const std::vector<MessageValue>& values)
 {
@@ -355,10 +368,13 @@ void Failure::keep(const char* its_code, const char* what, const Message* said) 
         entities = said->entities();
         found = said->found();
         needed = said->needed();
+        for (const Message& attempt : said->attempts())
+            attempts.push_back({attempt.code(), attempt.text(), "", attempt.entities()});
     } catch (const std::bad_alloc&) {
         message = "out of memory"; // short enough to be kept without memory
         code = "core.memory";
         entities.clear();
+        attempts.clear();
     }
 }
 
@@ -370,13 +386,13 @@ void raise(lua_State* L, const Failure& failure)
         lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
         lua_error(L);
     }
-    lua_createtable(L, 0, 8);
-    lua_pushlstring(L, failure.message.data(), failure.message.size());
-    lua_setfield(L, -2, "message");
-    lua_pushlstring(L, failure.code.data(), failure.code.size());
-    lua_setfield(L, -2, "code");
-    push_entities(L, failure.entities);
-    lua_setfield(L, -2, "entities");
+    push_words(L, failure.message, failure.code, failure.entities);
+    lua_createtable(L, static_cast<int>(failure.attempts.size()), 0);
+    for (std::size_t i = 0; i < failure.attempts.size(); ++i) {
+        push_words(L, failure.attempts[i].text, failure.attempts[i].code, failure.attempts[i].entities);
+        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+    }
+    lua_setfield(L, -2, "attempts");
     push_values(L, failure.found);
     lua_setfield(L, -2, "found");
     push_values(L, failure.needed);

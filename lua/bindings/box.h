@@ -33,8 +33,8 @@ inline constexpr const char* kClassName = nullptr;
 
 // --- raising ----------------------------------------------------------------------------------------
 
-// Every error of the bindings is a table { message, code, entities, file, line }. It prints as one sentence
-// and answers to the methods of strings, so that a recipe may use it as the text it once was.
+// Every error of the bindings is a table { message, code, entities, attempts, file, line }. It prints as one
+// sentence and answers to the methods of strings, so that a recipe may use it as the text it once was.
 
 /// Raise the message on top of the stack, a string, with the recipe's file and line.
 [[noreturn]] void raise(lua_State* L, const char* code);
@@ -142,6 +142,7 @@ struct Failure {
     std::string message, code, remedy;
     std::vector<NamedEntity> entities; ///< that the message names
     std::vector<MessageValue> found, needed;
+    std::vector<MessageParts> attempts; ///< that failed; each with its whole text
     bool from_callback = false;
     /// @param said  the message of an error of the kernel
     void keep(const char* its_code, const char* what, const Message* said = nullptr) noexcept;

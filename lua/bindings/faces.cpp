@@ -12,8 +12,10 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 namespace lacuna::lua {
 
@@ -276,10 +278,13 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
-        const std::string begin = formatted("face {} ", tag);
-        const auto note = std::ranges::find_if(
-            model.notes, [&](const std::string& text) { return text.starts_with(begin); });
-        return note == model.notes.end() ? std::string("is not there") : "was not read: " + *note;
+        constexpr std::string_view kLeftOut[] = {"cad.face_not_cut", "cad.narrow_face",
+                                                 "healing.repeated_face", "healing.thin_face"};
+        const auto note = std::ranges::find_if(model.notes, [&](const Message& of) {
+            return std::ranges::find(kLeftOut, of.code()) != std::end(kLeftOut) && !of.entities().empty() &&
+                   of.entities().front().tag == tag;
+        });
+        return note == model.notes.end() ? std::string("is not there") : "was not read: " + note->text();
     });
     return lua_tostring(L, -1);
 }

@@ -60,7 +60,7 @@ TEST_CASE("columns of bent pipes of CAD files keep their angles, and the volume 
         topology::Roles roles;
         for (std::size_t f = 0; f < model.faces.size(); ++f) roles.walls.emplace_back(f);
         topology::OpenVolume volume = topology::open_volume(model, roles);
-        closure::close(volume, {});
+        volume = closure::close(volume, {}).volume;
         sweep::SweepOptions options;
         options.size = [](const Vec3&) { return 0.3; };
         const sweep::Swept swept = sweep::sweep(volume, options);

@@ -41,7 +41,7 @@ void check_unfolded(const topology::Model& model)
 
 void check_same_skin(topology::Model model, const topology::Model& whole, const healing::StitchReport& report)
 {
-    for (const std::string& note : report.notes) MESSAGE(note);
+    for (const Message& note : report.notes) MESSAGE(note.text());
     CHECK(report.notes.empty());
     test::check_model(model);
     check_unfolded(model);
@@ -138,16 +138,15 @@ FaceId face_near(const topology::Model& model, const Vec3& centre)
 /// From the faces to the hexes; every step proves what it made.
 void check_sweeps(const topology::Model& model, const topology::Roles& roles, double volume, double error)
 {
-    topology::OpenVolume open = topology::open_volume(model, roles);
+    const topology::OpenVolume open = topology::open_volume(model, roles);
     const topology::VolumeClass value = topology::classify(open).value;
     const bool two_ends = value != topology::VolumeClass::IV && value != topology::VolumeClass::V;
-    const closure::Closure closed = closure::close(open,
-                                                   two_ends ? matching::match(open) : matching::Match{});
-    CHECK(closed.watertight);
-    CHECK(closure::enclosed_volume(open) == doctest::Approx(volume).epsilon(error));
+    const closure::Closed closed = closure::close(open, two_ends ? matching::match(open) : matching::Match{});
+    CHECK(closed.closure.watertight);
+    CHECK(closure::enclosed_volume(closed.volume) == doctest::Approx(volume).epsilon(error));
     sweep::SweepOptions options;
     options.layers.count = 4;
-    test::check_valid(sweep::sweep(open, options).mesh);
+    test::check_valid(sweep::sweep(closed.volume, options).mesh);
 }
 
 } // namespace
@@ -165,8 +164,8 @@ TEST_CASE("a block of loose, shifted, divided, repeated and turned faces is swep
         CHECK(model.vertices.size() == 10);
         for (const int uses : test::uses_of_edges(model)) CHECK(uses == 2);
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].find("face 3") != std::string::npos);
-        CHECK(model.notes[0].find("face 4") < model.notes[0].find("face 3"));
+        CHECK(model.notes[0].text().find("face 3") != std::string::npos);
+        CHECK(model.notes[0].text().find("face 4") < model.notes[0].text().find("face 3"));
 
         const std::vector<Vec3> walls{{1, 0, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}, {2, 0.5, 0.5}};
         for (std::size_t missing = 0; missing <= walls.size(); ++missing) {
@@ -231,7 +230,7 @@ TEST_CASE("edges that part between their ends are not sewn in silence")
         const std::vector<int> uses = test::uses_of_edges(model);
         CHECK(std::count(uses.begin(), uses.end(), 2) == (bulge < 1 ? 1 : 0));
         REQUIRE(model.notes.size() == (bulge < 1 ? 0U : 1U));
-        if (bulge > 1) CHECK(model.notes[0].find("a gap of 0.005") != std::string::npos);
+        if (bulge > 1) CHECK(model.notes[0].text().find("a gap of 0.005") != std::string::npos);
     }
 }
 

@@ -34,7 +34,7 @@ TEST_CASE("a box with a round pocket or boss in its top has the pocket or boss i
         }
         REQUIRE(roles.target.size() == 3);
         OpenVolume volume = open_volume(model, roles);
-        closure::close(volume, {});
+        volume = closure::close(volume, {}).volume;
         const double exact = 8 + (pocket ? -1 : 1) * disc * 0.2;
         for (const double size : {0.4, 0.25, 0.12}) {
             CAPTURE(pocket);
@@ -101,7 +101,7 @@ TEST_CASE("a counterbore is meshed from its wall and its floor, which has the na
             }
             REQUIRE(roles.walls.size() == 2);
             OpenVolume volume = open_volume(model, roles);
-            closure::close(volume, {});
+            volume = closure::close(volume, {}).volume;
             sweep::SweepOptions options;
             options.layers.count = 4;
             options.size = [](const Vec3&) { return 0.25; };

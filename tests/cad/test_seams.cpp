@@ -138,9 +138,8 @@ topology::Roles roles_of(const topology::Model& model, const Seamed& shape)
 
 topology::OpenVolume sealed(const topology::Model& model, const topology::Roles& roles)
 {
-    topology::OpenVolume volume = topology::open_volume(model, roles);
-    closure::close(volume, matching::match(volume));
-    return volume;
+    const topology::OpenVolume volume = topology::open_volume(model, roles);
+    return closure::close(volume, matching::match(volume)).volume;
 }
 
 } // namespace

@@ -99,7 +99,7 @@ TEST_CASE("thin bends of CAD files without their outer or inner walls are filled
                     topology::OpenVolume volume = opened(cad::load({path}));
                     const matching::Match match = matching::match(volume);
                     CHECK(!closure::has_pieces(volume));
-                    closure::close(volume, match);
+                    volume = closure::close(volume, match).volume;
                     const sweep::Swept swept = sweep::sweep(volume, {});
                     test::check_valid(swept.mesh);
                     const double off = swept.fidelity.volume / bend.volume() - 1;

@@ -441,7 +441,7 @@ TEST_CASE("commands of a script that write files, run plugins or mesh are skippe
             {folder.write("outer.geo", box + "Include \"inner.geo\";\n")});
         CHECK(test::total_area(outer) == doctest::Approx(area));
         REQUIRE(outer.notes.size() == 1);
-        CHECK(has(outer.notes[0], folder.path("inner.geo")));
+        CHECK(has(outer.notes[0].text(), folder.path("inner.geo")));
     }
     // Words that are no commands there stay: options, variables, texts, groups.
     const std::string words = "Mesh.MshFileVersion = 2.2;\nPrint.Background = 1;\nSave = 2;\n" + box +

@@ -56,11 +56,10 @@ topology::OpenVolume opened(const topology::Model& model, const Tags& tags)
 topology::OpenVolume sealed(const topology::Model& model, const Tags& tags,
                             const closure::CloseOptions& options = {})
 {
-    topology::OpenVolume volume = opened(model, tags);
+    const topology::OpenVolume volume = opened(model, tags);
     const bool ends = !volume.faces(topology::Role::source).empty() &&
                       !volume.faces(topology::Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{}, options);
-    return volume;
+    return closure::close(volume, ends ? matching::match(volume) : matching::Match{}, options).volume;
 }
 
 /// What Gmsh finds in a file.
@@ -381,7 +380,7 @@ TEST_CASE("flat faces of facets become planes; bent ones are refused with what t
             topology::OpenVolume volume = prism.open();
             const bool ends = !volume.faces(topology::Role::source).empty() &&
                               !volume.faces(topology::Role::target).empty();
-            closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+            volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}).volume;
             cad::write_cad(volume, folder.path("prism.step"));
             const InFile found = read(folder.path("prism.step"));
             CHECK(found.solids == 1);

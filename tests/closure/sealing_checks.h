@@ -31,7 +31,10 @@ inline closure::Closure seal(topology::OpenVolume& volume, const closure::CloseO
 {
     const bool ends = !volume.faces(topology::Role::source).empty() &&
                       !volume.faces(topology::Role::target).empty();
-    return closure::close(volume, ends ? matching::match(volume, match) : matching::Match{}, options);
+    closure::Closed closed = closure::close(volume, ends ? matching::match(volume, match) : matching::Match{},
+                                            options);
+    volume = std::move(closed.volume);
+    return std::move(closed.closure);
 }
 
 /// What a reading encloses once it is closed, by the roles it names.
@@ -42,7 +45,8 @@ inline double closed_volume(closure::Reading reading)
         if (!reading.volume.faces(topology::Role::source).empty() &&
             !reading.volume.faces(topology::Role::target).empty())
             match = matching::match(reading.volume);
-        closure::close(reading.volume, match, {.take_guess = true}); // as readings are closed
+        reading.volume =
+            closure::close(reading.volume, match, {.take_guess = true}).volume; // as readings are closed
     }
     CHECK(closure::is_watertight(reading.volume));
     return closure::enclosed_volume(reading.volume);

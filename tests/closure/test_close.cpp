@@ -602,9 +602,9 @@ TEST_CASE("ends beside each other on a channel get no void edge where the channe
         Roles roles{{slot.face({Role::wall, 0, 0})}, {slot.face({Role::wall, 0, sides - 2})}, {}};
         for (int side = 1; side + 2 < sides; ++side) roles.walls.push_back(slot.face({Role::wall, 0, side}));
         CAPTURE(sides);
-        auto volume = open_volume(slot.model, roles);
-        const Closure closed = closure::close(volume, matching::match(volume),
-                                              {.edge_shape = closure::EdgeShape::straight});
+        const auto open = open_volume(slot.model, roles);
+        const auto [volume, closed] = closure::close(open, matching::match(open),
+                                                     {.edge_shape = closure::EdgeShape::straight});
         test::check_sealed(volume);
         CHECK(closed.void_edges.size() == 2);
         CHECK(closed.void_faces.size() == 3);

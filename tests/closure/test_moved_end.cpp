@@ -297,16 +297,15 @@ TEST_CASE("what closing gives does not depend on who asks: a host, a recipe, or 
                 } catch (const InvalidInput&) {
                     continue;
                 }
-                OpenVolume named = prism.open();
-                const closure::Closure closure = closure::close(named, {}, {.take_guess = true});
+                const auto [named, closure] = closure::close(prism.open(), {}, {.take_guess = true});
                 CHECK(closure.value == VolumeClass::IV);
                 // Of the taper nothing tells where a moved end is not known to shrink.
                 if (found->classification.value != VolumeClass::IV) continue;
                 ++compared;
                 CHECK(closure::enclosed_volume(named) == doctest::Approx(found->enclosed).epsilon(1e-9));
-                OpenVolume again = found->volume;
                 if (!found->sealed) continue;
-                closure::close(again, found->sealed->match, {.take_guess = true});
+                const OpenVolume again =
+                    closure::close(found->volume, found->sealed->match, {.take_guess = true}).volume;
                 CHECK(closure::enclosed_volume(again) ==
                       doctest::Approx(closure::enclosed_volume(found->sealed->volume)).epsilon(1e-12));
             }

@@ -58,14 +58,14 @@ double seconds_to_seal(int n)
     healing::stitch(model, model.tolerance);
     std::vector<FaceId> faces;
     for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    closure::Reading reading = closure::find_reading(model, faces);
+    const closure::Reading reading = closure::find_reading(model, faces);
     const matching::Match match = matching::match(reading.volume);
-    const closure::Closure closure = closure::close(reading.volume, match);
+    const auto [volume, closure] = closure::close(reading.volume, match);
     const double used = double(std::clock() - start) / CLOCKS_PER_SEC;
     CHECK(model.faces.size() == 6);
     CHECK(reading.classification.value == topology::VolumeClass::III);
     CHECK(closure.void_faces.size() == 1);
-    CHECK(closure::is_watertight(reading.volume));
+    CHECK(closure::is_watertight(volume));
     return used;
 }
 
@@ -86,16 +86,16 @@ TEST_CASE("a reading that was sealed as it is says what closing it gives")
     const topology::Model model = healing::split_facets(soup);
     std::vector<FaceId> faces;
     for (std::size_t f = 0; f < model.faces.size(); ++f) faces.emplace_back(f);
-    closure::Reading reading = closure::find_reading(model, faces);
+    const closure::Reading reading = closure::find_reading(model, faces);
     REQUIRE(reading.sealed.has_value());
     const matching::Match match = matching::match(reading.volume);
     CHECK(match.vertices == reading.sealed->match.vertices);
-    const closure::Closure closure = closure::close(reading.volume, match);
-    const topology::Model &now = reading.volume.model, &then = reading.sealed->volume.model;
+    const auto [volume, closure] = closure::close(reading.volume, match);
+    const topology::Model &now = volume.model, &then = reading.sealed->volume.model;
     CHECK(closure.algorithms == reading.sealed->closure.algorithms);
     CHECK(now.points == then.points);
     REQUIRE(now.faces.size() == then.faces.size());
     for (std::size_t f = 0; f < now.faces.size(); ++f)
         CHECK(now.faces[f].triangles == then.faces[f].triangles);
-    CHECK(reading.volume.role == reading.sealed->volume.role);
+    CHECK(volume.role == reading.sealed->volume.role);
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <clocale>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <utility>
@@ -65,6 +66,19 @@ TEST_CASE("a message that quotes another has its text, entities and values")
     CHECK(outer.entities() == std::vector<NamedEntity>{face, edge});
     CHECK(outer.found() == inner.found());
     CHECK(outer.needed() == inner.needed());
+}
+
+TEST_CASE(
+    "a remedy or an attempt makes another message, and numbers above those with a sign are printed whole")
+{
+    Message message("core.large", "{} cells", found(std::uint64_t(1) << 63));
+    CHECK(message.text() == "9223372036854775808 cells");
+    CHECK(message.found() == std::vector<MessageValue>{"9223372036854775808"});
+    message = message.remedy("ask for fewer").attempt(message);
+    message = std::move(message).remedy("ask for {}", needed(5U));
+    CHECK(message.text() == "9223372036854775808 cells; ask for 5"); // it says already why the attempt failed
+    CHECK(message.attempts().size() == 1);
+    CHECK(message.needed() == std::vector<MessageValue>{5LL});
 }
 
 TEST_CASE("text that holds braces is no format, and numbers do not follow the host's locale")

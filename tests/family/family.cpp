@@ -166,13 +166,13 @@ Ending run(const Member& member, closure::EdgeShape shape)
     const Prism whole = prism(options_of(member));
     Ending ending;
     try {
-        OpenVolume volume = whole.open();
-        const VolumeClass found = classify(volume).value;
+        const OpenVolume open = whole.open();
+        const VolumeClass found = classify(open).value;
         if (found != member.value)
             ending.faults.push_back("taken for class " + std::string(to_string(found)));
-        const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-        const closure::Closure closed = closure::close(
-            volume, ends ? matching::match(volume) : matching::Match{}, {.edge_shape = shape});
+        const bool ends = !open.faces(Role::source).empty() && !open.faces(Role::target).empty();
+        const auto [volume, closed] = closure::close(open, ends ? matching::match(open) : matching::Match{},
+                                                     {.edge_shape = shape});
         if (!closed.watertight || !closure::is_watertight(volume))
             ending.faults.push_back("closed, and not watertight");
         // Straight and parallel or tilted: what was left out is known. Elsewhere void faces may differ.

@@ -61,7 +61,7 @@ End run(const PartialWalls& walls, std::string& why)
     const auto prism = test::prism(options_of(walls));
     auto volume = prism.open();
     try {
-        closure::close(volume, matching::match(volume));
+        volume = closure::close(volume, matching::match(volume)).volume;
     } catch (const Error& error) {
         why = error.code() + ": " + error.what();
         return End::refused;

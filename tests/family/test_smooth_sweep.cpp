@@ -25,7 +25,7 @@ sweep::Swept swept_bend(const PrismOptions& options, const closure::CloseOptions
 {
     auto volume = test::prism(options).open();
     const bool ends = !volume.faces(Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{}, close);
+    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}, close).volume;
     enclosed = closure::enclosed_volume(volume);
     sweep::SweepOptions sweep_options;
     sweep_options.layers.count = layers;

@@ -547,7 +547,7 @@ TEST_CASE("facets smaller than the tolerance are left out with a note")
         const Model model = healing::split_facets(soup);
         CHECK(model.faces.size() == 6);
         REQUIRE(model.notes.size() == 1);
-        CHECK(model.notes[0].starts_with(std::to_string(small) + " facet"));
-        CHECK(model.notes[0].ends_with("and left out"));
+        CHECK(model.notes[0].text().starts_with(std::to_string(small) + " facet"));
+        CHECK(model.notes[0].text().ends_with("and left out"));
     }
 }

@@ -313,7 +313,7 @@ TEST_CASE("loose faces become the closed skin they came from, whatever was done 
             const std::vector<int> tags = tags_of(model);
             const healing::StitchReport report = healing::stitch(model, kTolerance);
             CHECK(report.changed());
-            for (const std::string& note : report.notes) MESSAGE(note);
+            for (const Message& note : report.notes) MESSAGE(note.text());
             CHECK(report.notes.empty());
             CHECK(tags_of(model) == tags);
             check_closed(model, solid.facet_volume, 2 * kTolerance * area_of(model));
@@ -418,9 +418,9 @@ TEST_CASE("edges that part between their ends merge below the tolerance and stay
         } else {
             CHECK(std::count(uses.begin(), uses.end(), 2U) == 0);
             REQUIRE(report.notes.size() == 1);
-            CHECK(report.notes[0].find("edge 2 of face 1") != std::string::npos);
-            CHECK(report.notes[0].find("edge 8 of face 2") != std::string::npos);
-            CHECK(report.notes[0].find("a gap of") != std::string::npos);
+            CHECK(report.notes[0].text().find("edge 2 of face 1") != std::string::npos);
+            CHECK(report.notes[0].text().find("edge 8 of face 2") != std::string::npos);
+            CHECK(report.notes[0].text().find("a gap of") != std::string::npos);
         }
     }
 }
@@ -479,7 +479,7 @@ TEST_CASE("edges no longer than the tolerance become vertices, and faces no wide
     check_whole(strip);
     CHECK(report.faces_left_out == 1);
     REQUIRE(report.notes.size() == 1);
-    CHECK(report.notes[0].find("face 2") != std::string::npos);
+    CHECK(report.notes[0].text().find("face 2") != std::string::npos);
     CHECK(tags_of(strip) == std::vector<int>{1, 3});
     const std::vector<std::size_t> uses = uses_of(strip);
     CHECK(std::count(uses.begin(), uses.end(), 2U) == 1);
@@ -502,8 +502,8 @@ TEST_CASE(
             const healing::StitchReport report = healing::stitch(model, kTolerance);
             CHECK(report.faces_left_out == 1);
             REQUIRE(report.notes.size() == 1);
-            CHECK(report.notes[0].find("face 777") != std::string::npos);
-            CHECK(report.notes[0].find("face " + std::to_string(solid.model.faces[f].tag)) !=
+            CHECK(report.notes[0].text().find("face 777") != std::string::npos);
+            CHECK(report.notes[0].text().find("face " + std::to_string(solid.model.faces[f].tag)) !=
                   std::string::npos);
             CHECK(tags_of(model) == tags_of(solid.model));
             check_closed(model, solid.facet_volume, 2 * kTolerance * area_of(model));
@@ -569,7 +569,7 @@ TEST_CASE("nodes of a mesh that is kept stay to the bit and get no others betwee
             const bool fits = nodes == 3 || (!both && nodes == 1);
             CHECK(report.edges_merged == (fits ? 1 : 0));
             CHECK(report.notes.size() == (fits ? 0U : 1U));
-            if (!fits) CHECK(report.notes[0].find("keep_mesh = false") != std::string::npos);
+            if (!fits) CHECK(report.notes[0].text().find("keep_mesh = false") != std::string::npos);
             CHECK(model.faces[0].given_quads.size() + model.faces[1].given_quads.size() == quads);
             if (both) continue; // of two kept nodes one must give way, by less than the tolerance
             for (const Vec3& node : kept)
@@ -623,7 +623,7 @@ TEST_CASE("facets listed twice in a part come once, with a note; in two parts th
             CHECK(model.faces.size() == 1);
             CHECK(face_area(model, FaceId(0UL)) == doctest::Approx(1));
             REQUIRE(model.notes.size() == 1);
-            CHECK(model.notes[0].find("18 facets") == 0);
+            CHECK(model.notes[0].text().find("18 facets") == 0);
             if (quads) CHECK(model.faces[0].given_quads.size() == 9);
             auto& label = quads ? soup.quad_label : soup.triangle_label;
             label.assign(quads ? 18 : 36, 0);

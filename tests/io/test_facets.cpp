@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, topology::OpenVolume>> sealed_volumes()
         topology::OpenVolume volume = test::prism(c.options).open();
         const bool ends = !volume.faces(topology::Role::source).empty() &&
                           !volume.faces(topology::Role::target).empty();
-        closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+        volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}).volume;
         sealed.emplace_back(c.name, std::move(volume));
     }
     return sealed;

@@ -70,6 +70,19 @@ found = caught(function() model:open_volume { source = "floor", target = "east",
 check.equal(found.entities[1].kind, "face", found.message)
 check.equal(found.entities[1].tag, 1)
 
+-- An error lists why other sweeps of the volume failed too; its text ends with theirs.
+check.equal(#found.attempts, 0)
+local refused = caught(function()
+  lacuna.synthetic.prism { sides = 5, twist = 40, taper = 0.6 }:open_volume()
+    :sweep { layers = 2, size = 0.7, min_scaled_jacobian = 0.99 }
+end)
+check.that(#refused.attempts >= 2, refused.message)
+for _, attempt in ipairs(refused.attempts) do
+  check.equal(attempt.code, "quality.below_limit")
+  check.that(refused.message:find(attempt.message, 1, true), attempt.message)
+end
+check.equal(refused.attempts[2].entities[1].kind, "cell")
+
 -- Recipes that took the error for a string go on as they were.
 local text = tostring(found)
 check.equal(text, ("%s:%d: %s [%s]"):format(found.file, found.line, found.message, found.code))

@@ -93,14 +93,13 @@ Match check_swept(OpenVolume volume, double facet_volume, double closeness, cons
                   bool sweeps = true)
 {
     const Match found = matching::match(volume, options);
-    OpenVolume whole = volume;
-    Match applied = found;
-    matching::apply_splits(whole, applied);
+    const auto [whole, applied] = matching::apply_splits(volume, found);
     check_pairs(whole, applied);
     CHECK(applied.vertices.size() == found.vertices.size() + found.splits.size());
 
-    const closure::Closure closed = closure::close(volume, found);
-    CHECK(closed.watertight);
+    closure::Closed closed = closure::close(volume, found);
+    CHECK(closed.closure.watertight);
+    volume = std::move(closed.volume);
     CHECK(closure::is_watertight(volume));
     CHECK(closure::enclosed_volume(volume) == doctest::Approx(facet_volume).epsilon(closeness));
     sweep::SweepOptions sweep;
@@ -163,9 +162,7 @@ TEST_CASE("round ends with any numbers of vertices anywhere close to the volume 
                 CAPTURE(scale);
                 CAPTURE(trial);
                 const Match found = matching::match(volume);
-                OpenVolume whole = volume;
-                Match applied = found;
-                matching::apply_splits(whole, applied);
+                const auto [whole, applied] = matching::apply_splits(volume, found);
                 for (const auto& pair : applied.vertices)
                     CHECK(std::abs(twist(whole, pair)) <= kMostTwist + 1e-3);
                 CHECK(found.splits.size() <=
@@ -187,9 +184,7 @@ TEST_CASE("two closed circles are joined straight up, wherever their seams are")
         CAPTURE(seam);
         Match found = matching::match(volume);
         CHECK(found.confidence > 0.5);
-        OpenVolume whole = volume;
-        Match applied = found;
-        matching::apply_splits(whole, applied);
+        const auto [whole, applied] = matching::apply_splits(volume, found);
         REQUIRE(applied.vertices.size() == 1);
         const double seams = std::abs(std::remainder(2 * kPi * (seam / 36.0 - 0.1), 2 * kPi));
         const double turned = std::abs(twist(whole, applied.vertices.front()));
@@ -197,7 +192,7 @@ TEST_CASE("two closed circles are joined straight up, wherever their seams are")
         if (seams <= kMostTwist - 1e-2) CHECK(turned == doctest::Approx(seams).epsilon(1e-2));
         if (seams >= kMostTwist + 1e-2) CHECK(turned < 1e-3);
         CHECK(found.splits.size() == (seams > kMostTwist ? 1 : 0));
-        closure::close(volume, found);
+        volume = closure::close(volume, found).volume;
         least = std::min(least, closure::enclosed_volume(volume) / (2 * area(bottom)));
     }
     CHECK(least > 0.99);
@@ -220,14 +215,13 @@ TEST_CASE("a round loop that narrows round a bore that does not is joined straig
             const double r = std::hypot(p.x(), p.y()), grown = 1 + (r - 1) * (1 + (narrowed - 1) * p.z() / 3);
             return Vec3(p.x() * grown / r, p.y() * grown / r, p.z());
         });
-        OpenVolume volume = open_volume(model, ring.roles);
-        Match found = matching::match(volume);
-        matching::apply_splits(volume, found);
+        const OpenVolume open = open_volume(model, ring.roles);
+        const auto [volume, found] = matching::apply_splits(open, matching::match(open));
         REQUIRE(!found.vertices.empty());
         for (const auto& pair : found.vertices) CHECK(std::abs(twist(volume, pair)) <= kMostTwist + 1e-3);
-        closure::close(volume, found);
         const double high = 1 + 2 * narrowed, whole = kPi * (9 + 3 * high + high * high) - 3 * kPi;
-        CHECK(closure::enclosed_volume(volume) == doctest::Approx(whole).epsilon(0.015));
+        CHECK(closure::enclosed_volume(closure::close(volume, found).volume) ==
+              doctest::Approx(whole).epsilon(0.015));
     }
 }
 
@@ -247,10 +241,8 @@ TEST_CASE("every corner meets a corner or a vertex made for it, on both ends, an
             CAPTURE(low);
             CAPTURE(high);
             CAPTURE(scale);
-            OpenVolume whole = volume;
             const Match found = matching::match(volume);
-            Match applied = found;
-            matching::apply_splits(whole, applied);
+            const auto [whole, applied] = matching::apply_splits(volume, found);
             check_pairs(whole, applied);
             const auto left = alone(whole, applied);
             for (const VertexId v : left) CHECK(!(at(whole, v).z() < 0.1 ? low >= 3 : high >= 3));
@@ -449,15 +441,12 @@ TEST_CASE("a mesh that the target came with is split at its nodes")
     }
     healing::SplitOptions options;
     options.whole_labels = true;
-    auto volume = open_volume(healing::split_facets(soup, options),
-                              {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
-    const auto given = volume.model.faces[1].given_quads;
-    const auto points = volume.model.points;
-    Match found = matching::match(volume);
-    matching::apply_splits(volume, found);
+    const auto open = open_volume(healing::split_facets(soup, options),
+                                  {{FaceId(std::size_t(0))}, {FaceId(std::size_t(1))}, {}});
+    const auto [volume, found] = matching::apply_splits(open, matching::match(open));
     check_pairs(volume, found);
-    CHECK(volume.model.faces[1].given_quads == given);
-    CHECK((volume.model.points == points));
+    CHECK(volume.model.faces[1].given_quads == open.model.faces[1].given_quads);
+    CHECK((volume.model.points == open.model.points));
     for (const auto& pair : found.vertices) CHECK(std::abs(twist(volume, pair)) <= kMostTwist + 1e-9);
 }
 
@@ -477,9 +466,7 @@ TEST_CASE("vertices given by hand are obeyed on loops paired by length, and cros
             CHECK(found.hard[i]);
         }
         CHECK(obeyed);
-        OpenVolume whole = volume;
-        Match applied = found;
-        matching::apply_splits(whole, applied);
+        const auto [whole, applied] = matching::apply_splits(volume, found);
         check_pairs(whole, applied);
         CHECK(applied.vertices.size() == 5);
     }
@@ -500,9 +487,7 @@ TEST_CASE("vertices given by hand are obeyed on loops paired by length, and cros
     flip.flip = {0};
     const Match flipped = matching::match(volume, flip);
     CHECK(flipped.loops[0].flipped != free.loops[0].flipped);
-    OpenVolume whole = volume;
-    Match applied = flipped;
-    matching::apply_splits(whole, applied);
+    const auto [whole, applied] = matching::apply_splits(volume, flipped);
     check_pairs(whole, applied);
 }
 
@@ -511,16 +496,13 @@ TEST_CASE("splits are made once, and closing with or without them made is the sa
     auto volume = two_ends({polygon(regular(9), 2)}, {polygon(regular(8), 2)}, lifted(1));
     const Match found = matching::match(volume);
     CHECK(!found.splits.empty());
-    auto by_close = volume;
-    closure::close(by_close, found);
-    Match applied = found;
-    auto by_hand = volume;
-    matching::apply_splits(by_hand, applied);
-    const std::size_t edges = by_hand.model.edges.size();
+    const auto by_close = closure::close(volume, found).volume;
+    const auto applied = matching::apply_splits(volume, found);
+    const std::size_t edges = applied.volume.model.edges.size();
     CHECK(edges == volume.model.edges.size() + found.splits.size());
-    matching::apply_splits(by_hand, applied);
-    CHECK(by_hand.model.edges.size() == edges);
-    closure::close(by_hand, applied);
+    const auto again = matching::apply_splits(applied.volume, applied.match);
+    CHECK(again.volume.model.edges.size() == edges);
+    const auto by_hand = closure::close(again.volume, again.match).volume;
     CHECK(by_hand.model.points.size() == by_close.model.points.size());
     CHECK(closure::enclosed_volume(by_hand) == closure::enclosed_volume(by_close));
 }

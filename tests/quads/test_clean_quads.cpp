@@ -4,10 +4,10 @@
 #include "support/plane_domains.h"
 #include "support/quad_meshers.h"
 
+#include <lacuna/quads/detail/clean_quads.h>
 #include <lacuna/quads/detail/patch_template.h>
-#include <lacuna/quads/shared/clean_quads.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <doctest/doctest.h>
 

@@ -3,10 +3,10 @@
 
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/coarse_region.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/odd_region.h>
 #include <lacuna/quads/shared/pave.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include "support/plane_domains.h"
 #include "support/quad_meshers.h"
 
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <doctest/doctest.h>
 

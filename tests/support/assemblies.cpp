@@ -22,7 +22,7 @@ using namespace topology;
 OpenVolume closed(OpenVolume volume)
 {
     const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}).volume;
     return volume;
 }
 

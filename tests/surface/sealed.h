@@ -15,7 +15,7 @@ inline topology::OpenVolume sealed(const PrismOptions& options, const closure::C
     topology::OpenVolume volume = prism(options).open();
     const bool ends = !volume.faces(topology::Role::source).empty() &&
                       !volume.faces(topology::Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{}, close);
+    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}, close).volume;
     return volume;
 }
 

@@ -131,7 +131,7 @@ inline Opened open(const GivenSkin& skin, const std::function<Given(int part, co
 inline Swept filled(OpenVolume& volume, const SweepOptions& options)
 {
     const bool ends = !volume.faces(Role::source).empty() && !volume.faces(Role::target).empty();
-    closure::close(volume, ends ? matching::match(volume) : matching::Match{});
+    volume = closure::close(volume, ends ? matching::match(volume) : matching::Match{}).volume;
     return sweep::sweep(volume, options);
 }
 

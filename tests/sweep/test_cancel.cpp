@@ -37,7 +37,7 @@ TEST_CASE("whatever stage a cancel comes in, the work stops within half a second
             const bool ends = !volume.faces(topology::Role::source).empty() &&
                               !volume.faces(topology::Role::target).empty();
             const matching::Match match = ends ? matching::match(volume, {}, context) : matching::Match{};
-            closure::close(volume, match, {}, context);
+            volume = closure::close(volume, match, {}, context).volume;
             const sweep::Swept swept = sweep::sweep(volume, options, context);
             const io::Format& format = io::needed_mesh_format("write", path);
             if (swept.layers)

@@ -102,7 +102,7 @@ public:
         }
         OpenVolume volume = open_volume(model, roles);
         const bool whole = std::find(role_.begin(), role_.end(), Role::wall) != role_.end();
-        closure::close(volume, whole ? matching::Match{} : matching::match(volume));
+        volume = closure::close(volume, whole ? matching::Match{} : matching::match(volume)).volume;
         return volume;
     }
 

@@ -129,7 +129,7 @@ OpenVolume box_with_pocket(double depth)
         (r == Role::source ? roles.source : r == Role::target ? roles.target : roles.walls).emplace_back(f);
     }
     OpenVolume volume = open_volume(model, roles);
-    closure::close(volume, matching::match(volume));
+    volume = closure::close(volume, matching::match(volume)).volume;
     return volume;
 }
 

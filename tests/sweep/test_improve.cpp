@@ -88,6 +88,7 @@ TEST_CASE(
             const mesh::HexMesh before = mesh;
             REQUIRE(quality::measure(mesh).inverted > 0);
             const sweep::Improved report = sweep::improve(mesh);
+            mesh = report.mesh;
             CHECK(report.after > 0.2);
             test::check_valid(mesh);
             for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
@@ -104,12 +105,12 @@ TEST_CASE("untangling leaves a good mesh as it is, and never lowers the least sc
 {
     mesh::HexMesh good = test::block({6, 6, 6});
     const std::vector<Vec3> nodes = good.nodes;
-    sweep::improve(good);
+    good = sweep::improve(good).mesh;
     CHECK(good.nodes == nodes);
     for (unsigned seed = 1; seed <= 5; ++seed) {
         mesh::HexMesh mesh = shaken(0.35, seed);
         const double before = quality::measure(mesh).min_scaled_jacobian;
-        sweep::improve(mesh);
+        mesh = sweep::improve(mesh).mesh;
         CHECK(quality::measure(mesh).min_scaled_jacobian >= before);
     }
 }
@@ -123,6 +124,7 @@ TEST_CASE("a valid mesh with poor cells gets a better worst cell and keeps its m
         REQUIRE(before.inverted == 0);
         REQUIRE(before.min_scaled_jacobian < 0.48);
         const sweep::Improved report = sweep::improve(mesh);
+        mesh = report.mesh;
         const quality::Quality after = quality::measure(mesh);
         CHECK_FALSE(report.untangled);
         CHECK(after.min_scaled_jacobian >= 0.5);
@@ -151,10 +153,10 @@ TEST_CASE("skin nodes that may slide stay on their surfaces, all others where th
         REQUIRE(quality::measure(mesh).min_scaled_jacobian < 0);
         mesh::HexMesh locked = mesh;
         const mesh::HexMesh before = mesh;
-        sweep::improve(mesh, {}, sliding);
+        mesh = sweep::improve(mesh, {}, sliding).mesh;
         CHECK(quality::measure(mesh).min_scaled_jacobian > 0.4);
         test::check_valid(mesh);
-        sweep::improve(locked);
+        locked = sweep::improve(locked).mesh;
         CHECK(quality::measure(locked).min_scaled_jacobian < quality::measure(mesh).min_scaled_jacobian);
         const std::vector<char> skin = skin_of(mesh);
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
@@ -175,27 +177,26 @@ TEST_CASE(
     const mesh::HexMesh before = shaken(1.0, 5, {12, 12, 12});
     sweep::ImproveOptions options;
     options.seconds = 1e-9;
-    mesh::HexMesh hurried = before;
-    CHECK(sweep::improve(hurried, options).unfinished);
-    CHECK(hurried.nodes == before.nodes);
+    const sweep::Improved hurried = sweep::improve(before, options);
+    CHECK(hurried.unfinished);
+    CHECK(hurried.mesh.nodes == before.nodes);
     options = {};
     options.work = 1;
-    mesh::HexMesh idle = before;
-    const sweep::Improved none = sweep::improve(idle, options);
+    const sweep::Improved none = sweep::improve(before, options);
     CHECK(none.unfinished);
     CHECK_FALSE(none.won);
-    CHECK(idle.nodes == before.nodes);
-    mesh::HexMesh whole = before;
-    const sweep::Improved all = sweep::improve(whole);
+    CHECK(none.mesh.nodes == before.nodes);
+    const sweep::Improved all = sweep::improve(before);
     CHECK_FALSE(all.unfinished);
     CHECK(all.won);
     options.work = 2e4;
-    mesh::HexMesh some = before, again = before;
-    CHECK(sweep::improve(some, options).unfinished);
+    mesh::HexMesh again = before;
+    const sweep::Improved some = sweep::improve(before, options);
+    CHECK(some.unfinished);
     RunContext one_thread;
     one_thread.threads = 1;
-    sweep::improve(again, options, {}, one_thread);
-    CHECK(some.nodes == again.nodes);
+    again = sweep::improve(again, options, {}, one_thread).mesh;
+    CHECK(some.mesh.nodes == again.nodes);
 }
 
 TEST_CASE("the same comes out for any number of threads")
@@ -204,9 +205,9 @@ TEST_CASE("the same comes out for any number of threads")
     mesh::HexMesh one = before, four = before;
     RunContext context;
     context.threads = 1;
-    sweep::improve(one, {}, {}, context);
+    one = sweep::improve(one, {}, {}, context).mesh;
     context.threads = 4;
-    sweep::improve(four, {}, {}, context);
+    four = sweep::improve(four, {}, {}, context).mesh;
     CHECK(one.nodes == four.nodes);
     test::check_valid(one);
 }
@@ -224,7 +225,7 @@ TEST_CASE("a corner that cannot move holds up no other cell")
         const quality::Quality before = quality::measure(mesh);
         REQUIRE(before.inverted == 0);
         REQUIRE(before.min_scaled_jacobian < 0.25);
-        sweep::improve(mesh);
+        mesh = sweep::improve(mesh).mesh;
         std::size_t poor = 0;
         for (std::size_t c = 0; c < mesh.hex_count(); ++c) {
             std::array<Vec3, 8> corners;
@@ -244,8 +245,9 @@ TEST_CASE("a mesh whose cells are as good as its skin allows is left as it is")
     mesh::HexMesh mesh = test::block({4, 1, 1});
     for (Vec3& p : mesh.nodes) p.x() += 2.2 * p.z();
     const std::vector<Vec3> nodes = mesh.nodes;
-    CHECK_FALSE(sweep::improve(mesh).won);
-    CHECK(mesh.nodes == nodes);
+    const sweep::Improved report = sweep::improve(mesh);
+    CHECK_FALSE(report.won);
+    CHECK(report.mesh.nodes == nodes);
 }
 
 TEST_CASE("the slopes of a cell's energy are those of differences, folded or not")

@@ -64,7 +64,7 @@ HalfRings half_rings(const Bore& bore, double height)
 sweep::Swept swept(HalfRings& rings, const matching::MatchOptions& pairs = {})
 {
     REQUIRE(classify(rings.volume).value == VolumeClass::I);
-    closure::close(rings.volume, matching::match(rings.volume, pairs));
+    rings.volume = closure::close(rings.volume, matching::match(rings.volume, pairs)).volume;
     sweep::SweepOptions options;
     options.layers.count = 4;
     return sweep::sweep(rings.volume, options);

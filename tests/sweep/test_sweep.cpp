@@ -136,7 +136,7 @@ OpenVolume box_with_bent_target(double height)
         (name == "f0" ? roles.source : name == "f5" ? roles.target : roles.walls).emplace_back(f);
     }
     OpenVolume volume = open_volume(model, roles);
-    closure::close(volume, matching::match(volume));
+    volume = closure::close(volume, matching::match(volume)).volume;
     return volume;
 }
 
@@ -366,7 +366,7 @@ TEST_CASE("groups are named by role and tag, void faces as void, and the names o
     auto prism = test::prism({.sides = 4, .drop = without(false, false, false, {0, 1})});
     prism.model[prism.roles.walls[0]].name = "my wall";
     auto volume = prism.open();
-    closure::close(volume, matching::match(volume));
+    volume = closure::close(volume, matching::match(volume)).volume;
     const Swept swept = check_swept(volume, layers_of(2, 0.5), 1e-9);
     const auto names = groups_of(swept.mesh);
     for (const char* name : {"source", "target", "void:1", "void:2", "my wall"}) {
@@ -419,7 +419,7 @@ TEST_CASE("source and target swapped give a mesh as good")
                     Roles roles = prism.roles;
                     if (swapped) std::swap(roles.source, roles.target);
                     auto volume = open_volume(prism.model, roles);
-                    closure::close(volume, matching::match(volume));
+                    volume = closure::close(volume, matching::match(volume)).volume;
                     SweepOptions options = layers_of(6, 0.3);
                     // As many sides both ways, whichever end they are counted on.
                     options.size = [&](const Vec3&) { return (swapped ? taper : 1.0) * std::sqrt(2.0) / 5; };
@@ -478,7 +478,7 @@ TEST_CASE("an affine map of the volume maps the mesh")
     std::array<Swept, 2> swept;
     for (const bool moved : {false, true}) {
         auto volume = open_volume(moved ? test::moved(prism.model, map) : prism.model, prism.roles);
-        closure::close(volume, matching::match(volume));
+        volume = closure::close(volume, matching::match(volume)).volume;
         SweepOptions sizes = layers_of(4, 10);
         sizes.size = [&](const Vec3& p) { return moved ? 1e6 : 1e6 + p.x(); };
         swept[moved] = check_swept(volume, sizes, 1e-9);

@@ -84,7 +84,7 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
 {
     topology::ModelBuilder model;
     model.source = source->path();
-    model.notes = std::move(reply.notes);
+    for (MessageParts& note : reply.notes) model.notes.emplace_back(std::move(note));
     model.points = std::move(reply.points);
     add_edges(model, reply, scale, source);
     for (LoadReply::Face& cad : reply.faces) {
@@ -115,9 +115,9 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
 
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
-    std::vector<std::string> warnings(
-        reply.notes.begin(), reply.notes.begin() + static_cast<std::ptrdiff_t>(reply.left_out.size()));
+    const auto left_out = static_cast<std::ptrdiff_t>(reply.left_out.size());
     topology::ModelBuilder model(build_model(std::move(reply), options.scale, source));
+    std::vector<Message> warnings(model.notes.begin(), model.notes.begin() + left_out);
     warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
     model.tolerance = options.tolerance > 0 ? options.tolerance : kFileAccuracy * model.diagonal;

@@ -137,8 +137,9 @@ void skip_commands(InputFile& input, const Descriptor& script, const std::string
     const auto with_line = [](const SkippedCommand& command) {
         return formatted("{} (line {})", command.word, command.line);
     };
-    input.notes.push_back(formatted("{}: only the geometry of the script is read. Skipped commands: {}", path,
-                                    short_list(commands, with_line)));
+    input.notes.push_back({"cad.skipped_commands",
+                           "{}: only the geometry of the script is read. Skipped commands: {}", path,
+                           short_list(commands, with_line)});
     write_at(script, text, 0, path);
 }
 

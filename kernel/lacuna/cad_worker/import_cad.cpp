@@ -241,8 +241,10 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
     for (const CadFaceInfo& face : gone.faces) {
         const auto place = static_cast<Index>(reply.left_out.size());
         reply.left_out.push_back({face.tag, kNotCut});
-        reply.notes.push_back(formatted(
-            "face {} {}. It is left out; if it is needed, repair it in the CAD system", face.tag, kNotCut));
+        reply.notes.push_back(
+            Message("cad.face_not_cut", "{} {}. It is left out", NamedEntity{"face", face.tag}, kNotCut)
+                .remedy("if it is needed, repair it in the CAD system")
+                .parts());
         for (const CadFaceInfo::Side& side : face.sides) {
             each_edge(wire, side, [&](std::size_t edge) {
                 std::vector<Index>& faces = of_edge[edge];
@@ -251,8 +253,10 @@ std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut
         }
     }
     for (const int tag : gone.slivers) {
-        reply.notes.push_back(formatted(
-            "face {} is narrower than the tolerance and is left out; to keep it, reduce the tolerance", tag));
+        reply.notes.push_back(Message("cad.narrow_face", "{} is narrower than the tolerance and is left out",
+                                      NamedEntity{"face", tag})
+                                  .remedy("to keep it, reduce the tolerance")
+                                  .parts());
     }
     return of_edge;
 }

@@ -4,8 +4,8 @@
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/cut.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/number_text.h>

@@ -128,7 +128,7 @@ bool asks_for_shape(const CloseOptions& options)
 
 /// Note an assumption about walls missing next to a missing end. It matters if a face that bulges over their
 /// rims by a quarter of their width, 4 area / perimeter, would change the volume enough.
-void assume_walls(const OpenVolume& sealed, const char* code, const std::string& text, Closure& closure)
+void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
     double open = 0;
@@ -139,7 +139,7 @@ void assume_walls(const OpenVolume& sealed, const char* code, const std::string&
         if (sealed.role[face.index()] == Role::wall)
             open += std::pow(face_area(sealed.model, face), 2) / perimeter;
     }
-    assume(closure, code, formatted("{}; this encloses {:.4g}", text, taken), open / taken);
+    assume(closure, {note.code(), "{}; this encloses {:.4g}", note.parts(), taken}, open / taken);
 }
 
 /// For each edge of the source's rims, the share of its length without a wall.
@@ -178,23 +178,21 @@ public:
     }
 
     /// Seal and check with the first method that succeeds.
-    Closure seal(const matching::Match& match)
+    Closed seal(const matching::Match& match)
     {
         std::optional<NotClosed> first;
         for (const Way& way : wanted(match)) {
             try {
-                Closure closure = seal_as(way, match);
-                add_ambiguity_notes(way, match, closure);
-                say_what_is_open(closure);
-                return closure;
+                Closed closed = seal_as(way, match);
+                add_ambiguity_notes(way, match, closed);
+                say_what_is_open(closed);
+                return closed;
             } catch (const NotClosed& error) {
                 if (!first) first = error;
             }
         }
         throw options_.trial ? *first : NotClosed(with_what_helps(first->message(), match));
     }
-
-    [[nodiscard]] OpenVolume take() { return std::move(sealed_); }
 
 private:
     void look_at_walls()
@@ -228,8 +226,9 @@ private:
     /// Report the other possible shape of the void edges and the volume with it. Between inclined ends
     /// without walls, edges are straight or bent; next to bent walls, and along a loop without walls, they
     /// are straight or follow the walls.
-    void add_ambiguity_notes(const Way& way, const matching::Match& match, Closure& closure)
+    void add_ambiguity_notes(const Way& way, const matching::Match& match, Closed& closed)
     {
+        Closure& closure = closed.closure;
         if (!has_two_ends(value_) || options_.edge_shape != EdgeShape::automatic ||
             !options_.void_edges.empty())
             return;
@@ -243,13 +242,9 @@ private:
         const EdgeShape other = !straight ? EdgeShape::straight
                                 : leads() ? EdgeShape::follow
                                           : EdgeShape::smooth;
-        const double taken = enclosed_volume(sealed_);
+        const double taken = enclosed_volume(closed.volume);
         std::optional<double> instead;
-        if (!options_.trial) {
-            OpenVolume kept = sealed_;
-            if (would_seal({other}, match)) instead = enclosed_volume(sealed_);
-            sealed_ = std::move(kept);
-        }
+        if (!options_.trial) instead = volume_sealed_as({other}, match);
         const double share = share_between(taken, instead);
         if (leads() && !(share > kSameVolume))
             return; // inclined ends are reported whatever the volume is, walls that bend
@@ -267,27 +262,30 @@ private:
                                             ? formatted("encloses {:.4g} instead of {:.4g}", *instead, taken)
                                             : "is the alternative";
         assume(closure,
-               follows   ? "closure.loop_follows"
-               : leads() ? "closure.straight_assumed"
-                         : "closure.bend_assumed",
-               formatted("{}; close{{ edge_shape = \"{}\" }} {}", text, word(other), alternative), share);
+               {follows   ? "closure.loop_follows"
+                : leads() ? "closure.straight_assumed"
+                          : "closure.bend_assumed",
+                "{}; close{{ edge_shape = \"{}\" }} {}", text, word(other), alternative},
+               share);
     }
 
     /// Note a missing end with missing walls that was closed by several flat faces, void faces whose rim does
     /// not determine their inside, and those that may close off a pocket.
-    void say_what_is_open(Closure& closure) const
+    void say_what_is_open(Closed& closed) const
     {
+        auto& [sealed, closure] = closed;
         if (value_ == VolumeClass::IV && !closure.void_edges.empty())
-            assume_walls(sealed_, "closure.walls_filled",
-                         "walls next to the missing target end below it; flat faces that meet in "
-                         "straight edges continue them",
+            assume_walls(sealed,
+                         {"closure.walls_filled",
+                          "walls next to the missing target end below it; flat faces that meet in "
+                          "straight edges continue them"},
                          closure);
-        note_open_rims(sealed_, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
+        note_open_rims(sealed, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
-        note_closed_holes(volume_.model, all_faces(volume_.model), sealed_, closure);
+        note_closed_holes(volume_.model, all_faces(volume_.model), sealed, closure);
     }
 
-    Closure seal_as(const Way& way, const matching::Match& match)
+    Closed seal_as(const Way& way, const matching::Match& match) const
     {
         OpenVolume sealed = volume_;
         const Tools tools{way, leads() ? &*follower_ : nullptr, options_.void_edges, context_};
@@ -299,17 +297,16 @@ private:
         }
         prove_sealed(sealed);
         closure.watertight = true;
-        sealed_ = std::move(sealed);
-        return closure;
+        return {std::move(sealed), std::move(closure)};
     }
 
-    bool would_seal(const Way& way, const matching::Match& match)
+    /// The volume enclosed if it is sealed in a way; empty if that fails.
+    std::optional<double> volume_sealed_as(const Way& way, const matching::Match& match) const
     {
         try {
-            seal_as(way, match);
-            return true;
+            return enclosed_volume(seal_as(way, match).volume);
         } catch (const NotClosed&) {
-            return false;
+            return std::nullopt;
         }
     }
 
@@ -318,15 +315,15 @@ private:
     {
         const auto otherwise = [&]() -> Message {
             if (!failed.remedy().empty()) return failed;
-            return Message(failed).remedy("give the missing face, or another wall");
+            return failed.remedy("give the missing face, or another wall");
         };
         if (!has_two_ends(value_)) return otherwise();
         if (options_.edge_shape != EdgeShape::automatic) {
             if (value_ != VolumeClass::I) look_at_walls();
             for (const EdgeShape shape : {EdgeShape::straight, EdgeShape::follow, EdgeShape::smooth}) {
                 if (shape == options_.edge_shape || (shape == EdgeShape::follow && !leads())) continue;
-                if (would_seal({shape}, match))
-                    return Message(failed).remedy("close{{ edge_shape = \"{}\" }} seals it", word(shape));
+                if (volume_sealed_as({shape}, match))
+                    return failed.remedy("close{{ edge_shape = \"{}\" }} seals it", word(shape));
             }
         }
         matching::MatchOptions turned;
@@ -335,8 +332,8 @@ private:
         try {
             const matching::Match other = matching::match(volume_, turned, context_);
             for (const Way& way : wanted(other)) {
-                if (would_seal(way, other))
-                    return Message(failed).remedy(
+                if (volume_sealed_as(way, other))
+                    return failed.remedy(
                         "match{{ flip = {{ {} }} }} seals it",
                         full_list(turned.flip, [](int loop) { return formatted("{}", loop + 1); }));
             }
@@ -352,7 +349,6 @@ private:
     const Asked& options_;
     const RunContext& context_;
     std::optional<Follower> follower_;
-    OpenVolume sealed_;
 };
 
 /// Whether side lines run up along open rims, where adjacent walls end at different heights. Their open rim
@@ -367,27 +363,24 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 }
 
 /// @throw NotClosed  the shape that was sealed is ambiguous and was not asked for.
-void refuse_guess(const OpenVolume& sealed, const Closure& closure, const CloseOptions& options)
+void refuse_guess(const Closed& closed, const CloseOptions& options)
 {
     if (options.take_guess || asks_for_shape(options)) return;
-    std::optional<Message> guess = guess_of_bent(sealed, closure, RolesBy::person);
+    std::optional<Message> guess = guess_of_bent(closed.volume, closed.closure, RolesBy::person);
     if (!guess) return;
     throw NotClosed(std::move(*guess).remedy(
         "give the face, choose close{{ cap = … }} or close{{ edge_shape = … }}, or accept the assumed shape, "
         "which encloses {:.4g}, with open_volume{{ …, reading = 1 }}",
-        enclosed_volume(sealed)));
+        enclosed_volume(closed.volume)));
 }
 
 /// Seal a volume as one of a class, and check it.
-Closure seal(OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
-             const RunContext& context)
+Closed seal(const OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
+            const RunContext& context)
 {
-    Sealer sealer(volume, match.side_lines, value, options, context);
-    Closure closure = sealer.seal(match);
-    OpenVolume sealed = sealer.take();
-    refuse_guess(sealed, closure, options);
-    volume = std::move(sealed);
-    return closure;
+    Closed closed = Sealer(volume, match.side_lines, value, options, context).seal(match);
+    refuse_guess(closed, options);
+    return closed;
 }
 
 bool lacks_walls(const OpenVolume& volume)
@@ -397,25 +390,25 @@ bool lacks_walls(const OpenVolume& volume)
 
 /// Seal a volume of class IV that lacks walls as well: the target is the source's shape, moved onto the tops
 /// of the given walls. Empty if these do not determine the motion, or if another shape is asked for.
-std::optional<Closure> seal_as_source_tells(OpenVolume& volume, const CloseOptions& options,
-                                            const RunContext& context)
+std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const CloseOptions& options,
+                                           const RunContext& context)
 {
     if (options.cap == Cap::flat || !options.void_edges.empty() || volume.override_class) return std::nullopt;
     auto moved = move_source(volume, context);
     if (!moved) return std::nullopt;
-    refuse_guess(moved->volume, moved->closure, options);
+    refuse_guess(*moved, options);
     Closure& closure = moved->closure;
     closure.value = VolumeClass::IV;
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
     const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
     if (without > std::ssize(holes_without_walls(volume)))
-        assume_walls(moved->volume, "closure.end_moved",
-                     formatted("the target and walls next to it are missing; the target is assumed to have "
-                               "the shape of the source {}, moved onto the tops of the given walls",
-                               entity_of(volume.model, moved->from)),
+        assume_walls(moved->volume,
+                     {"closure.end_moved",
+                      "the target and walls next to it are missing; the target is assumed to have the shape "
+                      "of the source {}, moved onto the tops of the given walls",
+                      entity_of(volume.model, moved->from)},
                      closure);
-    volume = std::move(moved->volume);
-    return std::move(moved->closure);
+    return std::move(*moved);
 }
 
 /// The match of the ends, including the user's void edges.
@@ -428,12 +421,12 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
 
 /// Seal a volume whose holes without walls are already covered, or are extended like the rest of the end.
 /// @param whole  the class of the volume with its holes
-Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass whole, const Asked& options,
-                   const RunContext& context)
+Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
+                  const Asked& options, const RunContext& context)
 {
     // Trials of candidates move ends themselves.
     if (whole == VolumeClass::IV && !options.trial && lacks_walls(volume)) {
-        if (auto closure = seal_as_source_tells(volume, options, context)) return std::move(*closure);
+        if (auto closed = seal_as_source_tells(volume, options, context)) return std::move(*closed);
     }
     if (!has_two_ends(whole)) return seal(volume, match, whole, options, context);
     OpenVolume lent = volume;
@@ -442,27 +435,25 @@ Closure close_rest(OpenVolume& volume, const matching::Match& match, VolumeClass
 
     // The middle of a stack is missing: the gap is between the partial walls and is matched there.
     lent.override_class.reset();
-    Closure closure = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
-    closure.value = whole;
-    for (const FaceId stub : stubs) lent.role[stub.index()] = Role::wall;
-    lent.override_class = volume.override_class;
-    volume = std::move(lent);
-    return closure;
+    Closed closed = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
+    closed.closure.value = whole;
+    for (const FaceId stub : stubs) closed.volume.role[stub.index()] = Role::wall;
+    closed.volume.override_class = volume.override_class;
+    return closed;
 }
 
 /// Seal a volume after covering the holes of its given ends.
-Closure close_covered(OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
-                      const Asked& options, const RunContext& context)
+Closed close_covered(const OpenVolume& volume, const std::vector<EndHole>& holes, VolumeClass whole,
+                     const Asked& options, const RunContext& context)
 {
     OpenVolume covered = volume;
     const std::vector<FaceId> covers = cover_holes(covered, holes, context);
     const matching::Match match = has_two_ends(whole) ? match_ends(covered, options, context)
                                                       : matching::Match{};
-    Closure closure = close_rest(covered, match, classify(covered).value, options, context);
-    closure.value = whole;
-    closure.void_faces.insert(closure.void_faces.begin(), covers.begin(), covers.end());
-    volume = std::move(covered);
-    return closure;
+    Closed closed = close_rest(covered, match, classify(covered).value, options, context);
+    closed.closure.value = whole;
+    closed.closure.void_faces.insert(closed.closure.void_faces.begin(), covers.begin(), covers.end());
+    return closed;
 }
 
 /// The error about holes without walls: the options, with the enclosed volumes.
@@ -480,8 +471,8 @@ Message holes_message(const Model& model, const std::vector<EndHole>& holes, con
 }
 
 /// Seal a volume, including holes without walls in its ends.
-Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const Asked& options,
-                       const RunContext& context)
+Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, const Asked& options,
+                      const RunContext& context)
 {
     check_cancelled(context);
     if (volume.full_turn)
@@ -498,21 +489,23 @@ Closure close_as_asked(OpenVolume& volume, const matching::Match& match, const A
         volumes = hole_volumes(volume, options, context);
     if (volumes && !options.take_guess && (volumes->covered || volumes->through))
         throw NotClosed(holes_message(volume.model, holes, *volumes));
-    Closure closure = close_rest(volume, match, whole, options, context);
+    Closed closed = close_rest(volume, match, whole, options, context);
     if (volumes)
-        assume(closure, "closure.hole_through",
-               formatted("{}; here they are extended", holes_message(volume.model, holes, *volumes).text()),
-               share_between(enclosed_volume(volume), volumes->covered));
-    return closure;
+        assume(closed.closure,
+               {"closure.hole_through", "{}; here they are extended",
+                holes_message(volume.model, holes, *volumes).parts()},
+               share_between(enclosed_volume(closed.volume), volumes->covered));
+    return closed;
 }
 
 /// Note which walls were given the role of an end.
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    closure.notes.push_back(formatted("an end meets {} smoothly; meshed as part of that end, not as walls",
-                                      entities_of(model, walls)));
-    closure.assumptions.push_back({"closure.end_extended", closure.notes.back()});
+    closure.assumptions.push_back(closure.notes.size());
+    closure.notes.push_back({"closure.end_extended",
+                             "an end meets {} smoothly; meshed as part of that end, not as walls",
+                             entities_of(model, walls)});
 }
 
 } // namespace
@@ -534,27 +527,26 @@ std::vector<std::pair<int, int>> pairs_by_hand(const OpenVolume& volume, const C
     return pairs;
 }
 
-Closure close(OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
-              const RunContext& context)
+Closed close(const OpenVolume& volume, const matching::Match& match, const CloseOptions& options,
+             const RunContext& context)
 {
-    Closure closure = close_as_asked(volume, match, {options}, context);
-    note_extended(volume.model, extend_smooth_ends(volume, context), closure);
-    log_notes(closure, context);
-    return closure;
+    Closed closed = close_as_asked(volume, match, {options}, context);
+    note_extended(closed.volume.model, extend_smooth_ends(closed.volume, context), closed.closure);
+    log_notes(closed.closure, context);
+    return closed;
 }
 
-Closure close_trial(OpenVolume& volume, const matching::Match& match, const RunContext& context)
+Closed close_trial(const OpenVolume& volume, const matching::Match& match, const RunContext& context)
 {
     return close_as_asked(volume, match, {{.take_guess = true}, true}, context);
 }
 
 void log_notes(const Closure& closure, const RunContext& context)
 {
-    for (const std::string& note : closure.notes) {
-        const auto assumed = std::ranges::find(closure.assumptions, note, &Assumption::text);
-        log_line(context, assumed == closure.assumptions.end()
-                              ? note
-                              : formatted("note: {} [{}]", note, assumed->code));
+    for (std::size_t n = 0; n < closure.notes.size(); ++n) {
+        const Message& note = closure.notes[n];
+        const bool assumed = std::ranges::find(closure.assumptions, n) != closure.assumptions.end();
+        log_line(context, assumed ? formatted("note: {} [{}]", note.text(), note.code()) : note.text());
     }
 }
 

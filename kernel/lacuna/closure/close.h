@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,12 +51,6 @@ struct CloseOptions {
     bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
 };
 
-/// An assumption of the closing that changes the volume by more than 2 %.
-struct Assumption {
-    std::string code; ///< stable code for programs: "closure.end_moved"
-    std::string text; ///< one of the closure's notes
-};
-
 /// The void entities added to seal the volume, and how they were made.
 struct Closure {
     topology::VolumeClass value = topology::VolumeClass::closed;
@@ -63,16 +59,21 @@ struct Closure {
     std::vector<std::string> algorithms; ///< names as in the paper, in the order used: "Algorithm 8",
                                          ///< "Algorithm 4", …
     bool watertight = false;
-    std::vector<std::string> notes;      ///< assumptions and alternatives, one sentence each
-    std::vector<Assumption> assumptions; ///< the notes that change the volume by more than 2 %
+    std::vector<Message> notes;           ///< assumptions and alternatives, one sentence each
+    std::vector<std::size_t> assumptions; ///< indices of the notes that change the volume by more than 2 %
 };
 
-/// Seal the volume: add void edges and faces with their geometry, and give every face its role.
+/// A sealed volume: the given faces, then the void ones; and how it was sealed.
+struct Closed {
+    topology::OpenVolume volume;
+    Closure closure;
+};
+
+/// Seal a volume: add void edges and faces with their geometry, and give every face its role.
 ///
 /// Algorithms 2–6 and one of 8–11 for the class. Classes IV and V start without a target and end with both
 /// ends. Departure: where walls cover only part of the height, a void edge joins the remaining gap of each
 /// matched pair; the paper joins only vertices that are on no wall.
-/// @param volume  out: with the void entities added.
 /// @param match   of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
@@ -83,8 +84,8 @@ struct Closure {
 ///         apply to the volume.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
-Closure close(topology::OpenVolume& volume, const matching::Match& match, const CloseOptions& options = {},
-              const RunContext& context = {});
+Closed close(const topology::OpenVolume& volume, const matching::Match& match,
+             const CloseOptions& options = {}, const RunContext& context = {});
 
 /// Log a closure's notes, assumptions as `note: … [code]`, as close() does.
 void log_notes(const Closure& closure, const RunContext& context);

@@ -4,8 +4,8 @@
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/void_edges.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -116,7 +116,9 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     if (closure.value == VolumeClass::III) note(closure, "Algorithm 9");
     turn_target_to_source(volume, match);
     if (closure.value != VolumeClass::III) {
-        matching::apply_splits(volume, match);
+        matching::Matched split = matching::apply_splits(std::move(volume), std::move(match));
+        volume = std::move(split.volume);
+        match = std::move(split.match);
         check_matched(volume, match);
     }
     const bool smooth = tools.way.edges == EdgeShape::smooth;
@@ -180,8 +182,10 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     }
     if (tools.way.planes) {
         if (auto filled = fill_missing_end(volume, tools.context)) {
-            closure.void_edges = std::move(filled->void_edges);
-            std::ranges::copy(filled->void_faces, std::back_inserter(closure.void_faces));
+            volume.model = std::move(filled->volume.model);
+            volume.role = std::move(filled->volume.role);
+            closure.void_edges = std::move(filled->closure.void_edges);
+            std::ranges::copy(filled->closure.void_faces, std::back_inserter(closure.void_faces));
             note(closure, "Algorithm 4");
             return;
         }
@@ -201,9 +205,9 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
         add_face(volume, closure, end, role, tools);
         for (const FaceId floor : floors) {
             volume.role[floor.index()] = role;
-            closure.notes.push_back(formatted("{} lies in the plane of the {} and becomes part of it",
-                                              entity_of(volume.model, floor),
-                                              role == Role::source ? "source" : "target"));
+            closure.notes.push_back(
+                {"closure.floor_in_end", "{} lies in the plane of the {} and becomes part of it",
+                 entity_of(volume.model, floor), role == Role::source ? "source" : "target"});
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
@@ -349,7 +350,6 @@ private:
 /// The volume closed as a whole; empty if that fails.
 std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& context)
 {
-    OpenVolume result = volume;
     if (classify(volume).value == VolumeClass::V && !no_tube(volume).empty()) {
         auto filled = fill_flat_loops(volume.model, all_faces(volume.model), context);
         if (!filled) return std::nullopt;
@@ -359,13 +359,12 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
         matching::Match match;
         if (!volume.faces(Role::source).empty() && !volume.faces(Role::target).empty())
             match = matching::match(volume, {}, context);
-        close(result, match, {}, context);
+        return close(volume, match, {}, context).volume;
     } catch (const Cancelled&) {
         throw;
     } catch (const Error&) {
         return std::nullopt;
     }
-    return result;
 }
 
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane,

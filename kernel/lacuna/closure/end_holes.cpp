@@ -2,8 +2,8 @@
 #include <lacuna/closure/detail/end_holes.h>
 
 #include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -57,11 +57,7 @@ HoleVolumes hole_volumes(const OpenVolume& volume, const CloseOptions& options, 
         CloseOptions asked = options;
         asked.holes = holes;
         asked.take_guess = true;
-        return unless_refused([&] {
-            OpenVolume sealed = volume;
-            close(sealed, {}, asked, quiet);
-            return enclosed_volume(sealed);
-        });
+        return unless_refused([&] { return enclosed_volume(close(volume, {}, asked, quiet).volume); });
     };
     return {encloses(Holes::cover), encloses(Holes::through)};
 }

@@ -7,7 +7,7 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
-#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
@@ -194,7 +194,7 @@ std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector
     return filled;
 }
 
-std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& context)
+std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)
 {
     if (std::ranges::any_of(free_loops(volume),
                             [&](const Rim& rim) { return lies_on_round_face(volume.model, rim); }))
@@ -208,9 +208,7 @@ std::optional<Closure> fill_missing_end(OpenVolume& volume, const RunContext& co
     std::ranges::copy(volume.role, filled->volume.role.begin());
     part_end_from_walls(*filled, source);
     if (!can_be_swept_to(filled->volume, source)) return std::nullopt;
-    volume.model = std::move(filled->volume.model);
-    volume.role = std::move(filled->volume.role);
-    return std::move(filled->closure);
+    return filled;
 }
 
 } // namespace lacuna::closure

@@ -207,7 +207,7 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
         Message("closure.full_turn", "no plane through the centre of the walls cuts the ring in two places")
             .remedy("name all walls of the ring and no others, or use volume:cut{{ plane = … }} "
                     "and lacuna.assembly");
-    if (why) throw NotSweepable(std::move(message).attempt(std::move(*why)));
+    if (why) throw NotSweepable(message.attempt(std::move(*why)));
     throw NotSweepable(std::move(message));
 }
 

@@ -365,10 +365,10 @@ Message guess_of_hole(const Model& model, FaceId face)
         entity_of(model, face)};
 }
 
-void assume(Closure& closure, const char* code, std::string text, double share)
+void assume(Closure& closure, Message note, double share)
 {
-    if (share > kVolumeNoted) closure.assumptions.push_back({code, text});
-    closure.notes.push_back(std::move(text));
+    if (share > kVolumeNoted) closure.assumptions.push_back(closure.notes.size());
+    closure.notes.push_back(std::move(note));
 }
 
 void note_closed_holes(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
@@ -381,17 +381,17 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
         const double area = face_area(sealed.model, filler);
         const NamedEntity face = entity_of(model, given[round.index()]);
         if (wall)
-            assume(
-                closure, "closure.hole_closed",
-                formatted("a hole of {} is closed in its plane, which fills any pocket behind it; if there "
-                          "is one, give its faces",
-                          face),
-                area * std::sqrt(area) / enclosed_volume(sealed));
+            assume(closure,
+                   Message("closure.hole_closed",
+                           "a hole of {} is closed in its plane, which fills any pocket behind it", face)
+                       .remedy("if there is one, give its faces"),
+                   area * std::sqrt(area) / enclosed_volume(sealed));
         else
-            assume(closure, "closure.hole_covered",
-                   formatted("a hole of {} is covered, because the faces face into the void; with it as "
-                             "source, close{{ holes = \"through\" }} extends the hole to the missing end",
-                             face),
+            assume(closure,
+                   Message("closure.hole_covered",
+                           "a hole of {} is covered, because the faces face into the void", face)
+                       .remedy("with it as source, close{{ holes = \"through\" }} extends the hole to the "
+                               "missing end"),
                    area * reach_of_others(sealed.model, closure.void_faces, filler) /
                        enclosed_volume(sealed));
     }
@@ -402,18 +402,19 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     const Model& model = sealed.model;
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : membranes(model, closure.void_faces))
-        assume(
-            closure, "closure.membrane",
-            formatted("{} is a membrane over a rim that is not planar, so its shape is assumed; if the face "
-                      "bulges, give it",
-                      entity_of(model, face)),
-            std::abs(beside_thin_plate(model, face).above) / enclosed);
+        assume(closure,
+               Message("closure.membrane",
+                       "{} is a membrane over a rim that is not planar, so its shape is assumed",
+                       entity_of(model, face))
+                   .remedy("if the face bulges, give it"),
+               std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
-        closure.notes.push_back(
-            formatted("the rim of {} is rough and is closed by a smooth face; if the face bulges, give it",
-                      entity_of(model, face)));
-        closure.assumptions.push_back({"closure.rough_rim", closure.notes.back()});
+        closure.assumptions.push_back(closure.notes.size());
+        closure.notes.push_back(Message("closure.rough_rim",
+                                        "the rim of {} is rough and is closed by a smooth face",
+                                        entity_of(model, face))
+                                    .remedy("if the face bulges, give it"));
     }
 }
 

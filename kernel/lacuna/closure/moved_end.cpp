@@ -5,7 +5,7 @@
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/unless_refused.h>
-#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -131,7 +131,7 @@ public:
         return result;
     }
 
-    [[nodiscard]] OpenVolume& volume() { return volume_; }
+    [[nodiscard]] const OpenVolume& volume() const { return volume_; }
     [[nodiscard]] FaceId made() const { return made_; }
     [[nodiscard]] bool has_bare_rim() const
     {
@@ -422,9 +422,8 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, boo
     if (stop) return std::nullopt;
     return unless_refused([&] {
         mover.move(context);
-        MovedEnd result{std::move(mover.volume()), {}, end, 0, false, false};
-        const matching::Match match = matching::match(result.volume, {}, context);
-        result.closure = close_trial(result.volume, match, context);
+        const matching::Match match = matching::match(mover.volume(), {}, context);
+        MovedEnd result{close_trial(mover.volume(), match, context), end};
         result.closure.void_faces.insert(result.closure.void_faces.begin(), mover.made());
         result.closure.void_edges.insert(result.closure.void_edges.begin(), mover.made_edges().begin(),
                                          mover.made_edges().end());

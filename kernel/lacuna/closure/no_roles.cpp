@@ -63,8 +63,8 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
                 continue;
             tried.push_back(use.face);
             try {
-                std::vector<StepPiece> pieces = cut_by_plane(volume, *plane, context);
-                read_ends(pieces, context);
+                const std::vector<StepPiece> pieces =
+                    read_ends(cut_by_plane(volume, *plane, context), context).pieces;
                 if (std::ranges::all_of(pieces, walls_run_between_ends, &StepPiece::volume))
                     return cut_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
             } catch (const NotSweepable&) {

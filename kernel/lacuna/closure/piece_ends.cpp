@@ -281,7 +281,7 @@ std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 
 } // namespace
 
-std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
+ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
 {
     std::vector<std::vector<Ends>> ways;
     bool all_fit = true;
@@ -289,7 +289,7 @@ std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
         ways.push_back(ways_of(piece.volume, context));
         all_fit = all_fit && ways.back().front().as_named;
     }
-    if (all_fit) return 0;
+    if (all_fit) return {std::move(pieces)};
     // For each choice of the first piece, the best choices of the following pieces.
     std::vector<const Ends*> best;
     double least = std::numeric_limits<double>::infinity();
@@ -321,7 +321,7 @@ std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context)
         for_each(best[p]->target, [&](std::size_t f) { piece.role[f] = Role::target; });
         piece.turned_round = false;
     }
-    return changed;
+    return {std::move(pieces), changed};
 }
 
 bool walls_run_between_ends(const OpenVolume& volume)

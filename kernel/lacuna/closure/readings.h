@@ -15,16 +15,12 @@
 namespace lacuna::closure {
 
 /// A volume sealed with default options: close() with this match and no options gives the same result.
-struct SealedVolume {
+struct SealedVolume : Closed {
     matching::Match match;
-    topology::OpenVolume volume;
-    Closure closure;
 };
 
 /// A sealed void and its sweep directions, best first, without the one of its reading.
-struct OtherSweeps {
-    topology::OpenVolume volume;
-    Closure closure;
+struct OtherSweeps : Closed {
     std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
 };
 

@@ -150,11 +150,11 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
 std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunContext& context)
 {
     return unless_refused([&] {
-        Sealed sealed;
-        sealed.volume = open_volume(model, roles, context);
-        if (!roles.source.empty() && !roles.target.empty() && !free_edges(sealed.volume).empty())
-            sealed.match = matching::match(sealed.volume, {}, context);
-        sealed.closure = close_trial(sealed.volume, sealed.match, context);
+        const OpenVolume open = open_volume(model, roles, context);
+        matching::Match match;
+        if (!roles.source.empty() && !roles.target.empty() && !free_edges(open).empty())
+            match = matching::match(open, {}, context);
+        Sealed sealed{{close_trial(open, match, context), match}};
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     });
@@ -214,7 +214,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     bool told = true; // all follow from the given faces
     for (MovedEnd& one : moved) {
         Void now;
-        now.sealed = {{{}, std::move(one.volume), std::move(one.closure)}, one.enclosed};
+        now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
         now.filled = formatted("sealed with the shape of {} at the other end", entity_of(model, one.from));
         now.first.roles.walls = faces; // in the numbering of its volume
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };

@@ -3,7 +3,7 @@
 
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/four_corners.h>
-#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>

@@ -4,9 +4,9 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
-#include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>

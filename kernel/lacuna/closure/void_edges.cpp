@@ -2,7 +2,7 @@
 #include <lacuna/closure/detail/void_edges.h>
 
 #include <lacuna/closure/detail/climber.h>
-#include <lacuna/closure/shared/void_geometry.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
+#include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>

@@ -245,8 +245,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     const auto same = std::ranges::find_if(found.ways, is_same);
     const long irregular = best.irregular;
     if (!sweeps.empty())
-        reading.others = std::make_shared<const OtherSweeps>(
-            OtherSweeps{found.sealed.volume, found.sealed.closure, std::move(sweeps)});
+        reading.others = std::make_shared<const OtherSweeps>(OtherSweeps{found.sealed, std::move(sweeps)});
     if (same != found.ways.end()) {
         const bool as_sealed = same == found.ways.begin() && found.filled.empty() &&
                                !found.sealed.closure.void_faces.empty();

@@ -46,6 +46,8 @@ public:
     template <std::integral Number>
     Argument(Number number) : value_(static_cast<long long>(number))
     {
+        if constexpr (std::unsigned_integral<Number> && sizeof(Number) == sizeof(long long))
+            if (!std::in_range<long long>(number)) value_ = std::to_string(number);
     }
     Argument(double number) : value_(number) {}
     Argument(std::string text) : value_(std::move(text)) {}
@@ -124,13 +126,18 @@ public:
 
     /// Add one thing to try; it follows the text after a semicolon.
     template <class... Arguments>
-    Message&& remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&
+    [[nodiscard]] Message remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) &&
     {
         parts_.remedy = add(format.text(), {Argument(arguments)...});
         return std::move(*this);
     }
+    template <class... Arguments>
+    [[nodiscard]] Message remedy(Format<sizeof...(Arguments)> format, const Arguments&... arguments) const&
+    {
+        return Message(*this).remedy(format, arguments...);
+    }
     /// Add why an attempt failed; the text ends with it, in brackets.
-    Message&& attempt(Message failed) &&;
+    [[nodiscard]] Message attempt(Message failed) const;
     /// The same message about a part, a file or a member: "subject: text".
     [[nodiscard]] Message about(std::string_view subject) const;
 

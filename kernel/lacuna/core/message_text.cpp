@@ -46,10 +46,11 @@ std::string format_text(std::string_view format, std::span<const Argument> argum
     return fmt::vformat(format, store);
 }
 
-Message&& Message::attempt(Message failed) &&
+Message Message::attempt(Message failed) const
 {
-    attempts_.push_back(std::move(failed));
-    return std::move(*this);
+    Message message = *this;
+    message.attempts_.push_back(std::move(failed));
+    return message;
 }
 
 Message Message::about(std::string_view subject) const

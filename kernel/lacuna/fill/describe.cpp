@@ -141,7 +141,7 @@ std::string describe(const Volume& volume)
     if (volume.match) {
         out << "match:  " << volume.match->method << ", " << volume.match->loops.size() << " loops, "
             << volume.match->vertices.size() << " vertices, confidence " << volume.match->confidence << '\n';
-        for (const std::string& note : volume.match->notes) out << "  " << note << '\n';
+        for (const Message& note : volume.match->notes) out << "  " << note.text() << '\n';
     }
     list_faces(out, "void source: ", volume.volume, Role::source, Origin::made_void);
     list_faces(out, "void target: ", volume.volume, Role::target, Origin::made_void);
@@ -151,7 +151,7 @@ std::string describe(const Volume& volume)
             << volume.closure->void_faces.size() << " void faces, "
             << (volume.closure->watertight ? "watertight" : "not watertight") << '\n';
         for (const std::string& algorithm : volume.closure->algorithms) out << "  " << algorithm << '\n';
-        for (const std::string& note : volume.closure->notes) out << "  " << note << '\n';
+        for (const Message& note : volume.closure->notes) out << "  " << note.text() << '\n';
     } else if (!volume.classification.free_loops.empty()) {
         out << "open:   " << topology::free_edges(volume.volume).size() << " free edges in "
             << volume.classification.free_loops.size() << " loops; close() seals them\n";

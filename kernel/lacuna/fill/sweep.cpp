@@ -64,12 +64,12 @@ void report_closure(const Volume& volume, std::vector<std::string>& report, cons
     report_left_out(volume, report);
     if (!volume.closure) return;
     if (volume.match && !volume.closure->void_edges.empty()) {
-        for (const std::string& note : volume.match->notes) {
-            report.push_back("match: " + note);
+        for (const Message& note : volume.match->notes) {
+            report.push_back("match: " + note.text());
             if (context.log) context.log(report.back());
         }
     }
-    for (const std::string& note : volume.closure->notes) report.push_back("closed: " + note);
+    for (const Message& note : volume.closure->notes) report.push_back("closed: " + note.text());
 }
 
 Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunContext& context)
@@ -119,7 +119,7 @@ std::vector<std::string>& report_of(Filled& filled)
 Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     SweepRequest request = asked;
-    sweep::share_deadline(request.options.improving);
+    request.options.improving = sweep::with_deadline(request.options.improving);
     std::vector<std::string> failed; // one line for each sweep that failed
     std::exception_ptr first;
     std::optional<Volume> other;

@@ -110,7 +110,10 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
         return volume;
     }
     asked.take_guess = volume.take_guess;
-    volume.closure = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked, context);
+    closure::Closed closed = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked,
+                                            context);
+    volume.volume = std::move(closed.volume);
+    volume.closure = std::move(closed.closure);
     return volume;
 }
 
@@ -134,7 +137,7 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
                                           : where.model ? closure::cut_by_face(volume.volume, *where.model,
                                                                                where.face, context)
                                                         : closure::cut_into_pieces(volume.volume, context);
-    if (where.plane || where.model) closure::read_ends(cut, context);
+    if (where.plane || where.model) cut = closure::read_ends(std::move(cut), context).pieces;
     std::vector<Volume> pieces;
     for (closure::StepPiece& piece : cut) {
         const std::string name = formatted("{}_{}", volume.name, pieces.size() + 1);

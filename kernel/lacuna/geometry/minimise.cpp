@@ -40,7 +40,7 @@ Eigen::VectorXd direction_of(const std::deque<Pair>& memory, const Eigen::Vector
 
 } // namespace
 
-double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOptions& options)
+Eigen::VectorXd minimise(const Function& function, Eigen::VectorXd x, const MinimiseOptions& options)
 {
     std::deque<Pair> memory;
     Eigen::VectorXd gradient(x.size()), next_gradient(x.size()), tried(x.size());
@@ -83,7 +83,7 @@ double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOpti
         if (options.visit && (step + 1) % options.visit_every == 0 && options.visit(x)) break;
         if (won_by < options.least_gain * std::abs(value)) break;
     }
-    return value;
+    return x;
 }
 
 } // namespace lacuna::geometry

@@ -369,13 +369,13 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
     if (facets.repeated > 0) {
-        model.notes.push_back(formatted("{} {} listed twice; one of each is kept", facets.repeated,
-                                        facets.repeated == 1 ? "facet was" : "facets were"));
+        model.notes.push_back({"healing.repeated_facets", "{} {} listed twice; one of each is kept",
+                               facets.repeated, facets.repeated == 1 ? "facet was" : "facets were"});
     }
     if (facets.shrunk > 0) {
-        model.notes.push_back(formatted("{} {} smaller than the tolerance of {:.4g} and left out",
-                                        facets.shrunk, facets.shrunk == 1 ? "facet was" : "facets were",
-                                        facets.tolerance));
+        model.notes.push_back({"healing.small_facets",
+                               "{} {} smaller than the tolerance of {:.4g} and left out", facets.shrunk,
+                               facets.shrunk == 1 ? "facet was" : "facets were", facets.tolerance});
     }
     add_faces(model, facets, flood, soup);
     check_cancelled(context);

@@ -132,10 +132,11 @@ void Stitcher::join_vertices()
         far = v;
     }
     if (furthest > 2 * tolerance_) {
-        report_.notes.push_back(formatted("vertices are closer than the tolerance of {:.3g} in a chain; all "
-                                          "became one, and {} moved by {:.3g}; give a smaller tolerance to "
-                                          "keep them apart",
-                                          tolerance_, entity_of(model(), VertexId(far)), furthest));
+        report_.notes.push_back(Message("healing.vertex_chain",
+                                        "vertices are closer than the tolerance of {:.3g} in a chain; all "
+                                        "became one, and {} moved by {:.3g}",
+                                        tolerance_, entity_of(model(), VertexId(far)), furthest)
+                                    .remedy("give a smaller tolerance to keep them apart"));
     }
     settle_points();
     collapse_short_edges();
@@ -166,9 +167,11 @@ void Stitcher::settle_points()
         report_.notes.push_back(thin_face_note(model(), f, tolerance_));
     }
     for (const FaceId f : shrunk.meshes) {
-        report_.notes.push_back(formatted("the mesh of {} cannot be kept: it has quads with sides no longer "
-                                          "than the tolerance of {:.3g}; give a smaller tolerance",
-                                          entity_of(model(), f), tolerance_));
+        report_.notes.push_back(Message("healing.mesh_not_kept",
+                                        "the mesh of {} cannot be kept: it has quads with sides no longer "
+                                        "than the tolerance of {:.3g}",
+                                        entity_of(model(), f), tolerance_)
+                                    .remedy("give a smaller tolerance"));
     }
     tracks_.clear();
     check_cancelled(context_);
@@ -298,10 +301,11 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                 stop.node = taken = near;
         }
         if (stop.node == 0 && keeps_mesh) {
-            report_.notes.push_back(formatted("{} lies on {} between two nodes of a kept mesh, so the faces "
-                                              "there stay apart; load with keep_mesh = false, or make the "
-                                              "meshes match",
-                                              entity_of(model(), stop.vertex), named(e)));
+            report_.notes.push_back(Message("healing.kept_meshes_differ",
+                                            "{} lies on {} between two nodes of a kept mesh, so the faces "
+                                            "there stay apart",
+                                            entity_of(model(), stop.vertex), named(e))
+                                        .remedy("load with keep_mesh = false, or make the meshes match"));
             continue;
         }
         // A stop before an occupied point would fold the edge back.
@@ -472,12 +476,13 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     if (face_a == face_b || model()[a].from == model()[a].to) return;
     const double reach = share_ * std::min(track(a).length(), track(b).length());
     if (!try_add(*free[0], b, reach)) return;
-    report_.notes.push_back(formatted("{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
-                                      "between them; they were merged along the first; give a tolerance to "
-                                      "decide it yourself",
-                                      named(a), entity_of(model(), face_a), named(b),
-                                      entity_of(model(), face_b),
-                                      greatest_gap(track(a), track(b), tolerance_, context_)));
+    report_.notes.push_back(Message("healing.edges_sewn",
+                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
+                                    "between them; they were merged along the first",
+                                    named(a), entity_of(model(), face_a), named(b),
+                                    entity_of(model(), face_b),
+                                    greatest_gap(track(a), track(b), tolerance_, context_))
+                                .remedy("give a tolerance to decide it yourself"));
     report_.sewn.push_back(report_.notes.back());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
@@ -550,10 +555,11 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     become.push_back(order.back());
     if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
     if (!fits) {
-        report_.notes.push_back(formatted("{} and {} coincide, but a kept mesh has other nodes there, so the "
-                                          "faces stay apart; load with keep_mesh = false, or make the meshes "
-                                          "match",
-                                          named(bundle.first), named(e)));
+        report_.notes.push_back(Message("healing.kept_meshes_differ",
+                                        "{} and {} coincide, but a kept mesh has other nodes there, so the "
+                                        "faces stay apart",
+                                        named(bundle.first), named(e))
+                                    .remedy("load with keep_mesh = false, or make the meshes match"));
         return false;
     }
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -602,7 +608,7 @@ StitchReport stitch(topology::Model& model, double tolerance, const RunContext& 
         model = stitcher.result();
     } catch (const InvalidInput& error) {
         StitchReport failed;
-        failed.notes.push_back(error.message().about("faces that meet could not be joined").text());
+        failed.notes.push_back(error.message().about("faces that meet could not be joined"));
         return failed;
     }
     return report;

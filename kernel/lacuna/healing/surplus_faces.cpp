@@ -35,9 +35,9 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
     std::vector<FaceId> order = alike;
     std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });
     for (std::size_t i = stay; i < order.size(); ++i) {
-        report.notes.push_back(
-            formatted("{0} lies on {1} everywhere: the face is listed twice, and {0} is left out",
-                      entity_of(model, order[i]), entity_of(model, order[0])));
+        report.notes.push_back({"healing.repeated_face",
+                                "{0} lies on {1} everywhere: the face is listed twice, and {0} is left out",
+                                entity_of(model, order[i]), entity_of(model, order[0])});
         ++report.faces_left_out;
         loose.remove(order[i]);
     }
@@ -45,12 +45,11 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
 
 } // namespace
 
-std::string thin_face_note(const topology::Model& model, FaceId face, double tolerance)
+Message thin_face_note(const topology::Model& model, FaceId face, double tolerance)
 {
-    return formatted(
-        "{} is no wider than the tolerance of {:.3g} and is left out; give a smaller tolerance to "
-        "keep it",
-        entity_of(model, face), tolerance);
+    return Message("healing.thin_face", "{} is no wider than the tolerance of {:.3g} and is left out",
+                   entity_of(model, face), tolerance)
+        .remedy("give a smaller tolerance to keep it");
 }
 
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report)
@@ -137,11 +136,15 @@ void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, 
                 const EdgeTrack b(model, group[k], context);
                 const double gap = greatest_gap(a, b, tolerance, context);
                 if (gap <= tolerance || gap > kLooksLikeGap * std::min(a.length(), b.length())) continue;
-                report.notes.push_back(formatted(
-                    "edge {} of {} and edge {} of {} have the same ends and a gap of {:.3g}, more than the "
-                    "tolerance of {:.3g}; give a larger tolerance to close it",
-                    model[group[i]].tag, entity_of(model, loose.users(group[i])[0]), model[group[k]].tag,
-                    entity_of(model, loose.users(group[k])[0]), gap, tolerance));
+                report.notes.push_back(
+                    Message("healing.gap",
+                            "{} of {} and {} of {} have the same ends and a gap of {:.3g}, more than the "
+                            "tolerance of {:.3g}",
+                            NamedEntity{"edge", model[group[i]].tag},
+                            entity_of(model, loose.users(group[i])[0]),
+                            NamedEntity{"edge", model[group[k]].tag},
+                            entity_of(model, loose.users(group[k])[0]), found(gap), needed(tolerance))
+                        .remedy("give a larger tolerance to close it"));
             }
         }
     }

@@ -28,8 +28,8 @@ constexpr Family kFamilies[] = {{"C3D", 3},  {"DC3D", 3}, {"AC3D", 3},  {"SC", 3
                                 {"STRI", 2}, {"CPS", 2},  {"CPE", 2},   {"CAX", 2},   {"DC2D", 2},
                                 {"DCAX", 2}, {"AC2D", 2}, {"DCC3D", 3}, {"CGAX", 2}};
 
-/// The shape of an element by its type in capitals. @return  false: it is neither a shell nor a solid.
-bool shape_of(std::string_view type, DeckShape& shape)
+/// The shape of an element by its type in capitals; empty if it is neither a shell nor a solid.
+std::optional<DeckShape> shape_of(std::string_view type)
 {
     for (const Family& family : kFamilies) {
         if (!type.starts_with(family.word)) continue;
@@ -44,10 +44,11 @@ bool shape_of(std::string_view type, DeckShape& shape)
         constexpr std::array<int, 5> kCorners{3, 4, 5, 6, 8};
         const bool centred = family.dimension == 3 &&
                              (nodes == 14 || nodes == 18 || nodes == 27); // not Abaqus's
+        if (centred) continue;
         for (const int corners : kCorners)
-            if (!centred && find_shape(family.dimension, corners, nodes, shape)) return true;
+            if (const auto shape = find_shape(family.dimension, corners, nodes)) return shape;
     }
-    return false;
+    return std::nullopt;
 }
 
 /// Keywords that generate or move nodes or elements: ignoring them would misread the deck.
@@ -240,11 +241,13 @@ private:
             fail("*ELEMENT: expected TYPE= and a word of letters and digits, found {}", found(shown(type_)));
         const std::string set = keyword.value("ELSET");
         set_ = open_set(DeckSet::Kind::elements, set);
-        if (!shape_of(type_, shape_)) {
+        const std::optional<DeckShape> shape = shape_of(type_);
+        if (!shape) {
             mode_ = Mode::other_elements;
             keep(raw);
             return;
         }
+        shape_ = *shape;
         mode_ = Mode::element;
         further_ = -1;
         block_ = scope_->builder.block_of(shape_, type_);
@@ -730,11 +733,7 @@ bool is_section(const Keyword& keyword)
     return std::ranges::find(kSections, keyword.name) != std::end(kSections);
 }
 
-bool is_abaqus_element(std::string_view type, DeckShape shape)
-{
-    DeckShape found{};
-    return shape_of(type, found) && found == shape;
-}
+bool is_abaqus_element(std::string_view type, DeckShape shape) { return shape_of(type) == shape; }
 
 void read_abaqus(Cursor& cursor, DeckBuilder& into) { AbaqusReader(cursor, into).read(); }
 

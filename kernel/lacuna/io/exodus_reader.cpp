@@ -354,8 +354,8 @@ private:
             if (!same_word(std::string_view(type).substr(0, family.word.size()), family.word)) continue;
             if (family.dimension == 0) return {};
             const bool triangle = family.word == "SHELL" && (nodes == 3 || nodes == 6);
-            DeckShape shape{};
-            if (find_shape(family.dimension, triangle ? 3 : family.corners, static_cast<int>(nodes), shape))
+            if (const auto shape = find_shape(family.dimension, triangle ? 3 : family.corners,
+                                              static_cast<int>(nodes)))
                 return shape;
         }
         cursor_.fail("block {}: elements {} of {} nodes are not known", shown(name), shown(type), nodes);

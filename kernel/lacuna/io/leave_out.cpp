@@ -404,7 +404,7 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
     return Leaver(deck, parts).leave_out();
 }
 
-void close_gap(Deck& deck, const RunContext& context)
+Deck close_gap(Deck deck, const RunContext& context)
 {
     // Chords of 60° cover 4.5 % less than the arc, so a difference up to this may be another mesh of the same
     // surface.
@@ -418,7 +418,7 @@ void close_gap(Deck& deck, const RunContext& context)
                  formatted("note: {}: what was left out of these sets is not replaced, or in part: {}",
                            deck.path, listed(lost)));
     deck.gap.gone.clear();
-    if (deck.gap.names.empty()) return;
+    if (deck.gap.names.empty()) return deck;
     std::vector<std::string> empty; // of elements, whose sections go
     const std::vector<char> used = used_regions(deck);
     for (const std::string& name : deck.gap.names) {
@@ -437,6 +437,7 @@ void close_gap(Deck& deck, const RunContext& context)
     if (deck.format == DeckFormat::abaqus)
         for (DeckText& text : deck.texts) text.text = without_sections(text.text, empty);
     deck.gap.names.clear();
+    return deck;
 }
 
 } // namespace lacuna::io

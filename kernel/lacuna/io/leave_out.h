@@ -41,6 +41,6 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts);
 
 /// Drop the sets that leave_out() emptied and that were not refilled, with their sections in Abaqus decks. A
 /// line `note: …` of the log names the sets with members that no mesh has replaced.
-void close_gap(Deck& deck, const RunContext& context = {});
+Deck close_gap(Deck deck, const RunContext& context = {});
 
 } // namespace lacuna::io

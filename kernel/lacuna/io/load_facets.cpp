@@ -208,7 +208,8 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
         auto deck = std::make_shared<Deck>(read_deck(path));
-        loaded.warnings.insert(loaded.warnings.end(), deck->warnings.begin(), deck->warnings.end());
+        for (const std::string& warning : deck->warnings)
+            loaded.warnings.push_back({"io.read_differently", "{}", warning});
         if (!options.without.empty()) leaver.leave_out(*deck);
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
@@ -229,7 +230,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context));
     name_faces(model, names, all);
     model.source = source;
-    move_in(model.notes, all.notes);
+    for (const std::string& note : all.notes) model.notes.push_back({"io.file_note", "{}", note});
     model.notes.insert(model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
     loaded.model = std::move(model).finish();
     return loaded;
@@ -255,9 +256,10 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     topology::ModelBuilder noted(std::move(model));
     move_in(noted.notes, report.notes);
     model = std::move(noted).finish();
-    for (const std::string& note : model.notes) {
-        const bool told = std::ranges::find(loaded.warnings, note) != loaded.warnings.end();
-        log_line(context, told ? "note: " + note : note);
+    for (const Message& note : model.notes) {
+        const bool warns = std::ranges::find(loaded.warnings, note.code(), &Message::code) !=
+                           loaded.warnings.end();
+        log_line(context, warns ? "note: " + note.text() : note.text());
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/io/deck.h>
@@ -73,7 +74,7 @@ struct LoadedFiles {
     double scale = 1; ///< of the model's coordinates to the decks' [-]
     /// Those notes of the model that report content read differently from the file, to be shown to every
     /// user.
-    std::vector<std::string> warnings{};
+    std::vector<Message> warnings{};
 };
 
 /// Formats handled by another reader, which reads all its files in one call.

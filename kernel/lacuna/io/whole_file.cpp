@@ -256,8 +256,8 @@ void WholeFile::fail(int error)
     Message failed("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
                    std::generic_category().message(error));
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        std::move(failed).remedy("make room, or name another disk");
-    if (error == EMFILE) std::move(failed).remedy("ask for fewer partitions");
+        failed = failed.remedy("make room, or name another disk");
+    if (error == EMFILE) failed = failed.remedy("ask for fewer partitions");
     throw BackendError(std::move(failed));
 }
 

@@ -47,11 +47,12 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
             return formatted("{}% of the target loop's length", std::lround(alignment.offset * 100));
         return formatted("{}", entity_of(model, problem.target[t].vertices[alignment.shift]));
     };
-    match.notes.push_back(formatted(
-        "{}: {} was matched to {}, and {} fits about as well; choose with match{{ vertices = … }}{}",
-        source_loop(s), entity_of(model, problem.source[s].vertices.front()), start_on(best),
-        best.shift == second.shift ? "the reverse direction" : start_on(second),
-        best.backward == second.backward ? "" : " or match{ flip = … }"));
+    match.notes.push_back(
+        {"matching.other_alignment",
+         "{}: {} was matched to {}, and {} fits about as well; choose with match{{ vertices = … }}{}",
+         source_loop(s), entity_of(model, problem.source[s].vertices.front()), start_on(best),
+         best.shift == second.shift ? "the reverse direction" : start_on(second),
+         best.backward == second.backward ? "" : " or match{ flip = … }"});
 }
 
 /// Aligns every loop and pairs its vertices accordingly.
@@ -140,9 +141,10 @@ private:
             found = {other, likeliest};
         }
         if (!differ(problem_, s, t, found.front(), likeliest)) return;
-        match_.notes.push_back(formatted("{} was aligned so that the given meshes agree; by shape alone "
-                                         "another alignment fits better",
-                                         source_loop(s)));
+        match_.notes.push_back({"matching.aligned_by_meshes",
+                                "{} was aligned so that the given meshes agree; by shape alone another "
+                                "alignment fits better",
+                                source_loop(s)});
     }
 
     /// Set the confidence of an alignment against the next one. One hard pair fixes the whole loop.
@@ -221,9 +223,9 @@ private:
             return formatted("{} {}", n, n == 1 ? "vertex" : "vertices");
         };
         match_.notes.push_back(
-            formatted("{} has {}, {} has {}: paired by arc length{}", source_loop(s), vertices(low),
-                      target_loop(t), vertices(high),
-                      splits == 0 ? "" : formatted(", with {} added by splitting edges", vertices(splits))));
+            {"matching.paired_by_length", "{} has {}, {} has {}: paired by arc length{}", source_loop(s),
+             vertices(low), target_loop(t), vertices(high),
+             splits == 0 ? "" : formatted(", with {} added by splitting edges", vertices(splits))});
     }
 
     void add_pair(VertexId source, VertexId to)
@@ -317,7 +319,7 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
             return match_nearest(problem, std::move(result));
         } catch (const NotClosed& error) {
             if (!can_be_aligned(volume, options, context)) throw;
-            throw NotClosed(Message(error.message()).remedy("try method = \"aligned\", which matches them"));
+            throw NotClosed(error.message().remedy("try method = \"aligned\", which matches them"));
         }
     }
 
@@ -334,9 +336,12 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     if (open && pairings.size() > 1) {
         result.confidence = sureness(pairings[0].score, pairings[1].score);
         if (result.confidence < kUnsure) {
-            result.notes.push_back(formatted("the source loops were paired, in order, with target loops {}, "
-                                             "and {} fits about as well; choose with match{{ loops = … }}",
-                                             numbers(pairings[0].target), numbers(pairings[1].target)));
+            result.notes.push_back(
+                Message("matching.other_loops",
+                        "the source loops were paired, in order, with target loops {}, and {} fits about as "
+                        "well",
+                        numbers(pairings[0].target), numbers(pairings[1].target))
+                    .remedy("choose with match{{ loops = … }}"));
         }
     }
     LoopAligner(problem, result).run(pairings.front());

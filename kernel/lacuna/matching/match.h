@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/matching/side_lines.h>
 #include <lacuna/topology/open_volume.h>
@@ -47,7 +48,7 @@ struct Match {
     std::vector<Split> splits; ///< vertices still to be created by apply_splits()
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 if there was only one possibility
-    std::vector<std::string> notes;
+    std::vector<Message> notes;
     /// side_lines() of the volume when it was matched; empty if match() did not make this match.
     std::optional<std::vector<SideLine>> side_lines;
 };
@@ -69,9 +70,15 @@ struct Match {
 Match match(const topology::OpenVolume& volume, const MatchOptions& options = {},
             const RunContext& context = {});
 
-/// Make the splits of a match by topology::split_edge(). Its pairs and loops are then complete and `splits`
-/// is empty. A split on an edge with a wall is skipped, with a note.
+/// A volume and its match, whose pairs and loops are complete: `splits` is empty.
+struct Matched {
+    topology::OpenVolume volume;
+    Match match;
+};
+
+/// Make the splits of a match by topology::split_edge(). A split on an edge with a wall is skipped, with a
+/// note.
 /// @pre the match is of this volume.
-void apply_splits(topology::OpenVolume& volume, Match& match);
+Matched apply_splits(topology::OpenVolume volume, Match match);
 
 } // namespace lacuna::matching

@@ -302,10 +302,10 @@ private:
             for (std::size_t i = 0; i < n; ++i)
                 if (const std::size_t s = source_.first[l] + i; partner_[s] != partner(i))
                     others.push_back(entity_of(model_, source_.vertex[s]));
-            result_.notes.push_back(
-                formatted("{}: the target vertices nearest to {} are taken by others; they "
-                          "follow the other vertices of the loop",
-                          source_loop(l), others));
+            result_.notes.push_back({"matching.nearest_taken",
+                                     "{}: the target vertices nearest to {} are taken by others; they "
+                                     "follow the other vertices of the loop",
+                                     source_loop(l), others});
             result_.confidence = std::min(result_.confidence,
                                           static_cast<double>(way.agree) / static_cast<double>(n));
         }

@@ -71,9 +71,9 @@ Split split_at(VertexId vertex, bool on_target, const Rim& rim, const LoopShape&
     return {vertex, on_target, rim.uses[i].edge, rim.uses[i].reversed ? 1 - along : along};
 }
 
-void apply_splits(OpenVolume& volume, Match& match)
+Matched apply_splits(OpenVolume volume, Match match)
 {
-    if (match.splits.empty()) return;
+    if (match.splits.empty()) return {std::move(volume), std::move(match)};
     Model& model = volume.model;
     // Split each edge from its end, so that the part before a split keeps the edge's id.
     std::vector<Split> splits = std::exchange(match.splits, {});
@@ -92,11 +92,11 @@ void apply_splits(OpenVolume& volume, Match& match)
                                  return !model[use.face].given_quads.empty();
                              });
         if (on_wall || at_end || no_node) {
-            match.notes.push_back(formatted("{} has no partner: its position is on {}, {}",
-                                            entity_of(model, split.vertex), entity_of(model, split.edge),
-                                            on_wall  ? "which has a wall"
-                                            : at_end ? "at an end that has another partner"
-                                                     : "inside a quad side of a given mesh"));
+            match.notes.push_back({"matching.no_partner", "{} has no partner: its position is on {}, {}",
+                                   entity_of(model, split.vertex), entity_of(model, split.edge),
+                                   on_wall  ? "which has a wall"
+                                   : at_end ? "at an end that has another partner"
+                                            : "inside a quad side of a given mesh"});
             continue;
         }
         const EdgeSplit made = split_edge(model, split.edge, wanted / in_front);
@@ -106,6 +106,7 @@ void apply_splits(OpenVolume& volume, Match& match)
         match.hard.push_back(false);
     }
     sort_pairs(model, match);
+    return {std::move(volume), std::move(match)};
 }
 
 } // namespace lacuna::matching

@@ -31,15 +31,12 @@ int solid_number(const CellShapeInfo& info) { return info.corners == 8 ? 3 : inf
 
 const CellShapeInfo& shape_info(CellShape shape) { return kInfos[static_cast<std::size_t>(shape)]; }
 
-bool find_shape(int dimension, int corners, int nodes, CellShape& shape)
+std::optional<CellShape> find_shape(int dimension, int corners, int nodes)
 {
-    for (std::size_t s = 0; s < kCellShapes; ++s) {
-        if (kInfos[s].dimension != dimension || kInfos[s].corners != corners || kInfos[s].nodes != nodes)
-            continue;
-        shape = static_cast<CellShape>(s);
-        return true;
-    }
-    return false;
+    for (std::size_t s = 0; s < kCellShapes; ++s)
+        if (kInfos[s].dimension == dimension && kInfos[s].corners == corners && kInfos[s].nodes == nodes)
+            return static_cast<CellShape>(s);
+    return std::nullopt;
 }
 
 std::span<const std::pair<int, int>> side_corners(CellShape shape)

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -44,8 +45,8 @@ struct CellShapeInfo {
 };
 /// @return  the properties of a shape.
 const CellShapeInfo& shape_info(CellShape shape);
-/// Find the shape with these counts. @return false  no shape has them.
-bool find_shape(int dimension, int corners, int nodes, CellShape& shape);
+/// The shape with these counts; empty if there is none.
+std::optional<CellShape> find_shape(int dimension, int corners, int nodes);
 /// The two corners of each side that has a mid-side node, in the order of these nodes.
 std::span<const std::pair<int, int>> side_corners(CellShape shape);
 /// The corners of each face of a solid, counter-clockwise seen from outside; the fourth is -1 for a triangle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/shared/clean_quads.h>
+#include <lacuna/quads/detail/clean_quads.h>
 
 #include <lacuna/quads/detail/clean_mesh.h>
 #include <lacuna/quads/detail/clean_patch.h>

@@ -9,8 +9,8 @@
 #include <lacuna/quads/detail/pattern_ring.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
+#include <lacuna/quads/detail/clean_quads.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_fit.h>
@@ -10,9 +11,8 @@
 #include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/triangle_quads.h>
-#include <lacuna/quads/shared/clean_quads.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 namespace lacuna::quads::paving {
 namespace {

@@ -10,9 +10,9 @@
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/plane_stars.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/pattern_counts.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 #include <lacuna/quads/shared/submap.h>
 #include <lacuna/quads/shared/symmetry.h>
 

@@ -9,9 +9,9 @@
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/row_heights.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/odd_region.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 namespace lacuna::quads::paving {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/quads/shared/smooth_plane.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>

@@ -3,9 +3,9 @@
 
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pave_size.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/submap_grid.h>
 #include <lacuna/quads/shared/measure_plane.h>
-#include <lacuna/quads/shared/smooth_plane.h>
 
 #include <algorithm>
 #include <cmath>

@@ -215,7 +215,7 @@ bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std:
         double last = energy.least_determinant(x);
         for (int round = 0, idle = 0; round < kRounds && last <= 0 && idle < kIdleRounds; ++round) {
             energy.epsilon = std::sqrt(kLeastEpsilon * kLeastEpsilon + 0.04 * last * last);
-            geometry::minimise(std::cref(energy), x, how);
+            x = geometry::minimise(std::cref(energy), std::move(x), how);
             const double now = energy.least_determinant(x);
             idle = now > last + kLeastRise * std::abs(last) ? 0 : idle + 1;
             last = now;

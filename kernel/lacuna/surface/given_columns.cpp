@@ -450,10 +450,10 @@ void check_stub(const Model& model, const StubColumn& column, std::size_t layers
 
 } // namespace
 
-std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                        int layers, std::vector<std::string>& notes)
+GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface> links, int layers)
 {
-    std::vector<GivenColumns> columns;
+    GivenRows result;
+    std::vector<GivenColumns>& columns = result.columns;
     const GivenColumns* first = nullptr;
     for (const LinkingSurface& link : links) columns.push_back(ColumnWalker(volume, link).run());
     for (const GivenColumns& own : columns) {
@@ -477,7 +477,7 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
     const int rows = first != nullptr ? first->rows : common_line_rows(volume.model, links, kept);
-    if (rows <= tallest_stub(columns)) return columns; // quads take precedence over side lines
+    if (rows <= tallest_stub(columns)) return result; // quads take precedence over side lines
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (const LinkingLine& line : links[b].lines) {
             const int own = line_rows(volume.model, line, kept);
@@ -485,14 +485,14 @@ std::vector<GivenColumns> given_columns(const OpenVolume& volume, std::span<cons
             if (own == rows && (layers == 0 || layers == rows)) {
                 add_column(volume.model, line, columns[b], rows);
             } else {
-                notes.push_back(formatted("{} came with {} sides from source to target, but there are {} "
-                                          "layers: only the ends stay",
-                                          entity_of(volume.model, line.line.uses.front().edge), own,
-                                          layers > 0 ? layers : rows));
+                result.notes.push_back(formatted(
+                    "{} came with {} sides from source to target, but there are {} "
+                    "layers: only the ends stay",
+                    entity_of(volume.model, line.line.uses.front().edge), own, layers > 0 ? layers : rows));
             }
         }
     }
-    return columns;
+    return result;
 }
 
 std::vector<double> given_heights(const Model& model, std::span<const GivenColumns> columns)

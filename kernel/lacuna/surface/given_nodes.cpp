@@ -315,13 +315,15 @@ private:
 
 } // namespace
 
-void keep_given_nodes(const OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes, bool wedges)
+KeptNodes keep_given_nodes(const OpenVolume& volume, std::span<const GivenColumns> columns,
+                           std::vector<LinkingSurface> links, bool wedges)
 {
+    KeptNodes result{std::move(links)};
     const std::set<EdgeId> kept = kept_edges(volume.model);
-    if (kept.empty()) return;
-    for (std::size_t b = 0; b < links.size(); ++b)
-        BreakKeeper(volume, kept, columns[b], links[b], wedges).run(notes);
+    if (kept.empty()) return result;
+    for (std::size_t b = 0; b < result.links.size(); ++b)
+        BreakKeeper(volume, kept, columns[b], result.links[b], wedges).run(result.notes);
+    return result;
 }
 
 } // namespace lacuna::surface

@@ -142,18 +142,16 @@ std::pair<Index, Index> first_pair(const Model& model, const LinkingSurface& lin
 
 } // namespace
 
-std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<const LinkingSurface> links,
-                                        const SourceMesh& source, std::string& why, bool wedges)
+GivenTarget given_target(const OpenVolume& volume, std::span<const LinkingSurface> links,
+                         const SourceMesh& source, bool wedges)
 {
     const Model& model = volume.model;
-    why.clear();
-    const std::optional<EndQuads> target = quads_of(volume, Role::target, why, wedges);
-    if (!target) return std::nullopt;
+    GivenTarget result;
+    const std::optional<EndQuads> target = quads_of(volume, Role::target, result.why, wedges);
+    if (!target) return result;
     const std::vector<Quad>& quads = source.quads.quads;
-    if (quads.size() != target->quads.size()) {
-        why = formatted("the source has {} quads", quads.size());
-        return std::nullopt;
-    }
+    if (quads.size() != target->quads.size())
+        return {.why = formatted("the source has {} quads", quads.size())};
     std::vector<Index> image(source.quads.nodes.size(), -1);
     std::vector<Segment> sides;
     for (std::size_t b = 0; b < links.size(); ++b) {
@@ -161,28 +159,22 @@ std::optional<GivenTarget> given_target(const OpenVolume& volume, std::span<cons
         const std::vector<double>& at = source.links[b].target_at;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const Index node = node_at(nodes, links[b].target, at[i]);
-            if (node < 0 || nodes.size() != at.size()) {
-                why = "its rim nodes do not match the source's";
-                return std::nullopt;
-            }
+            if (node < 0 || nodes.size() != at.size())
+                return {.why = "its rim nodes do not match the source's"};
             image[index(source.first[b]) + i] = nodes[index(node)].point;
         }
         const auto n = static_cast<Index>(at.size());
         for (Index i = 0; i < n; ++i) sides.push_back({source.first[b] + i, source.first[b] + (i + 1) % n});
     }
     const std::optional<std::vector<Index>> twin = paired_quads(quads, target->quads, image, sides);
-    if (!twin) {
-        why = "its quads are connected differently from the source's";
-        return std::nullopt;
-    }
-    GivenTarget result;
+    if (!twin) return {.why = "its quads are connected differently from the source's"};
     for (const Index point : image) result.nodes.push_back(model.at(point));
     for (const Index t : *twin) result.face.push_back(target->face[index(t)]);
     return result;
 }
 
-void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, bool wedges)
+std::vector<LinkingSurface> align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
+                                             std::vector<LinkingSurface> links, bool wedges)
 {
     // Columns and side lines fix the rotation of a loop; round loops without them rotate like the others.
     std::vector<std::size_t> unsure;
@@ -194,16 +186,16 @@ void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> co
             sure = &links[b];
     }
     std::string why;
-    if (sure == nullptr || unsure.empty()) return;
+    if (sure == nullptr || unsure.empty()) return links;
     const std::optional<EndQuads> source = quads_of(volume, Role::source, why, wedges);
     const std::optional<EndQuads> target = quads_of(volume, Role::target, why, wedges);
-    if (!source || !target || source->quads.size() != target->quads.size()) return;
+    if (!source || !target || source->quads.size() != target->quads.size()) return links;
 
     const Model& model = volume.model;
     const auto [low, high] = first_pair(model, *sure, columns[static_cast<std::size_t>(sure - links.data())]);
     const std::vector<ChainNode> below = chain_nodes(model, sure->source),
                                  above = chain_nodes(model, sure->target);
-    if (low < 0 || below.size() != above.size()) return;
+    if (low < 0 || below.size() != above.size()) return links;
     std::vector<Index> image(model.points.size(), -1);
     std::vector<Segment> sides;
     const std::size_t n = below.size();
@@ -212,7 +204,7 @@ void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> co
         image[index(a.point)] = above[(static_cast<std::size_t>(high) + i) % n].point;
         sides.push_back({a.point, below[(static_cast<std::size_t>(low) + i + 1) % n].point});
     }
-    if (!paired_quads(source->quads, target->quads, image, sides)) return;
+    if (!paired_quads(source->quads, target->quads, image, sides)) return links;
     for (const std::size_t b : unsure) {
         LinkingSurface& link = links[b];
         const Index start = image[index(chain_nodes(model, link.source).front().point)];
@@ -225,6 +217,7 @@ void align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> co
             }
         }
     }
+    return links;
 }
 
 } // namespace lacuna::surface

@@ -381,7 +381,7 @@ std::vector<Crease> creases_of(const OpenVolume& volume, const LinkingSurface& l
     return creases;
 }
 
-void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links)
+std::vector<LinkingSurface> follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface> links)
 {
     for (std::size_t b = 0; b < links.size(); ++b) {
         LinkingSurface& link = links[b];
@@ -404,6 +404,7 @@ void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links)
             link.segments.push_back(segment);
         }
     }
+    return links;
 }
 
 } // namespace lacuna::surface

@@ -172,7 +172,7 @@ private:
 
 } // namespace
 
-int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector<LinkingSurface>& links)
+WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector<LinkingSurface> links)
 {
     int layers = 1;
     for (LinkingSurface& link : links) {
@@ -189,7 +189,7 @@ int set_wall_breaks(const OpenVolume& volume, const SizeField& size, std::vector
             layers = std::max(layers, Breaker(volume, size, link, false).run());
         }
     }
-    return layers;
+    return {std::move(links), layers};
 }
 
 } // namespace lacuna::surface

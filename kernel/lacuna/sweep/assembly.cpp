@@ -585,7 +585,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
         ImproveOptions& improving = member.options.improving;
         if (improving.seconds == left.front().options.improving.seconds)
             improving.deadline = left.front().options.improving.deadline;
-        share_deadline(improving);
+        improving = with_deadline(improving);
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});

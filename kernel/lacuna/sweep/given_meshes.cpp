@@ -6,6 +6,8 @@
 #include <lacuna/sweep/detail/place_order.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -39,7 +41,9 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
     GivenMeshes given;
     given.heights = asked;
     const int layers = std::max(0, static_cast<int>(asked.size()) - 1);
-    given.columns = surface::given_columns(volume, links, layers, given.notes);
+    surface::GivenRows rows = surface::given_columns(volume, links, layers);
+    given.columns = std::move(rows.columns);
+    given.notes = std::move(rows.notes);
     for (const surface::GivenColumns& columns : given.columns) {
         if (columns.quads && layers > 0 && layers != columns.rows) {
             throw NotSweepable(
@@ -55,8 +59,11 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
         const std::vector<double> heights = surface::given_heights(volume.model, given.columns);
         if (!heights.empty()) given.heights = heights;
     }
-    surface::align_alike_ends(volume, given.columns, links, options.wedges);
-    surface::keep_given_nodes(volume, given.columns, links, given.notes, options.wedges);
+    links = surface::align_alike_ends(volume, given.columns, std::move(links), options.wedges);
+    surface::KeptNodes kept = surface::keep_given_nodes(volume, given.columns, std::move(links),
+                                                        options.wedges);
+    links = std::move(kept.links);
+    std::ranges::move(kept.notes, std::back_inserter(given.notes));
     const std::vector<double> stubs = surface::stub_heights(
         volume.model, links, given.columns, size, std::max(0, static_cast<int>(given.heights.size()) - 1));
     const bool by_columns = asked.empty() && !given.heights.empty();

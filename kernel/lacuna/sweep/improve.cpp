@@ -39,9 +39,8 @@ class Improver {
 public:
     Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
              const Sliding& sliding, const RunContext& context)
-        : mesh_(mesh), region_(region), options_(options), sliding_(sliding), context_(context)
+        : mesh_(mesh), region_(region), options_(with_deadline(options)), sliding_(sliding), context_(context)
     {
-        share_deadline(options_);
     }
 
     Improved run()
@@ -108,12 +107,12 @@ private:
             keep(there, mean_floor);
             return best_quality_.least > 0 && best_quality_.lacking <= 0;
         };
-        geometry::minimise(
+        x = geometry::minimise(
             [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
                 work_ += static_cast<double>(region_.cells.size());
                 return energy_(at, gradient);
             },
-            x, how);
+            std::move(x), how);
         put_on_surfaces(x);
         keep(x, mean_floor);
     }
@@ -207,24 +206,25 @@ bool ImproveDeadline::passed()
     return std::chrono::duration<double>(now - *start_).count() > seconds_;
 }
 
-void share_deadline(ImproveOptions& options)
+ImproveOptions with_deadline(ImproveOptions options)
 {
     if (options.seconds > 0 && !options.deadline)
         options.deadline = std::make_shared<ImproveDeadline>(options.seconds);
+    return options;
 }
 
-Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
+Improved improve(mesh::HexMesh mesh, const ImproveOptions& options, const Sliding& sliding,
                  const RunContext& context)
 {
     check(options);
-    if (const auto stuck = stuck_corner(mesh, sliding)) {
-        Improved result;
-        result.stuck = stuck;
-        return result;
+    Improved result;
+    result.stuck = stuck_corner(mesh, sliding);
+    if (!result.stuck) {
+        const CellRegion region = poor_region(mesh, options, sliding, context);
+        if (region.free > 0) result = Improver(mesh, region, options, sliding, context).run();
     }
-    const CellRegion region = poor_region(mesh, options, sliding, context);
-    if (region.free == 0) return {};
-    return Improver(mesh, region, options, sliding, context).run();
+    result.mesh = std::move(mesh);
+    return result;
 }
 
 } // namespace lacuna::sweep

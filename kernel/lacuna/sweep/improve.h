@@ -41,8 +41,8 @@ struct ImproveOptions {
 /// @throw InvalidInput  an option out of range; names it.
 void check(const ImproveOptions& options);
 
-/// Let later copies of the options share one time limit, if there is any.
-void share_deadline(ImproveOptions& options);
+/// The options with a time limit that their copies share, if there is any.
+ImproveOptions with_deadline(ImproveOptions options);
 
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {
@@ -58,6 +58,7 @@ struct StuckCorner {
 };
 
 struct Improved {
+    mesh::HexMesh mesh{};                   ///< the given one with its nodes moved
     std::size_t cells = 0;                  ///< cells that were worked on
     std::size_t moved = 0;                  ///< nodes that were free
     double before = 1, after = 1;           ///< minimum scaled Jacobian of those cells
@@ -86,7 +87,7 @@ struct Improved {
 ///        their surfaces.
 /// @throw InvalidInput  what `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
-Improved improve(mesh::HexMesh& mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
+Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
                  const RunContext& context = {});
 
 } // namespace lacuna::sweep

@@ -111,7 +111,8 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     };
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, std::move(held)};
     report_progress(context, "improving");
-    const Improved improved = improve(swept.mesh, improving, sliding, context);
+    Improved improved = improve(std::move(swept.mesh), improving, sliding, context);
+    swept.mesh = std::move(improved.mesh);
     report_progress(context, "proof of every cell");
     if (improved.stuck) {
         if (proof.finding) {
@@ -124,7 +125,7 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
     proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
     if (proof.finding && quality::can_be_improved(proof.finding->fault)) {
         Message& message = proof.finding->message;
-        std::move(message).attempt({message.code(), "{}", in_words(improved)});
+        message = message.attempt({message.code(), "{}", in_words(improved)});
     }
     return proof;
 }

@@ -283,7 +283,7 @@ std::string poor_in_words(double least)
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     SweepOptions options = asked;
-    share_deadline(options.improving);
+    options.improving = with_deadline(options.improving);
     Swept swept = sweep_or_with_wedges(volume, options, context);
     if (!asked.size && swept.min_scaled_jacobian < kPoorCell) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));

@@ -275,9 +275,12 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         for (surface::LinkingSurface& link : links)
             for (surface::RimSegment& segment : link.segments) segment.given = false;
     }
-    const int least_layers = surface::set_wall_breaks(split, size, links);
+    surface::WallBreaks wall_breaks = surface::set_wall_breaks(split, size, std::move(links));
+    links = std::move(wall_breaks.links);
+    const int least_layers = wall_breaks.layers;
     if (sizes_by_default(options))
-        surface::follow_facets(surface::RimFacets(split, links).breaks(options.curvature, size), links);
+        links = surface::follow_facets(surface::RimFacets(split, links).breaks(options.curvature, size),
+                                       links);
     const surface::LayerTables tables = surface::layer_tables(volume, options.boundary_layers);
     const bool by_rows = !given.heights.empty();
     const auto [heights, by_bends] = plan_heights(
@@ -321,20 +324,20 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     check_cancelled(context);
 
     report_progress(context, "target");
-    std::string why;
-    std::optional<surface::GivenTarget> given_target;
-    if (!imprint) given_target = surface::given_target(volume, links, source, why, options.wedges);
-    if (!given_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
+    surface::GivenTarget given_target;
+    if (!imprint) given_target = surface::given_target(volume, links, source, options.wedges);
+    const bool keeps_target = !given_target.face.empty();
+    if (!keeps_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
         imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
     EndFaces ends = end_faces(volume, source, imprint);
-    if (given_target) ends.target = given_target->face;
-    if (!why.empty()) {
-        result.not_kept.push_back("target: the quads it came with are not kept: " + why);
+    if (keeps_target) ends.target = given_target.face;
+    if (!given_target.why.empty()) {
+        result.not_kept.push_back("target: the quads it came with are not kept: " + given_target.why);
         result.report.push_back(result.not_kept.back());
     }
     Morphed morphed;
-    if (given_target) {
-        morphed.nodes = given_target->nodes;
+    if (keeps_target) {
+        morphed.nodes = given_target.nodes;
         morphed.report = "its own quads are laid out as the source's and stay";
     } else {
         const OpenVolume& shape = shape_of(volume, options);
@@ -363,8 +366,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         measured = std::move(best.quality);
     }
     result.report.push_back(layers.report);
-    SweptParts parts{
-        split, links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(), given_target.has_value()};
+    SweptParts parts{split,       links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(),
+                     keeps_target};
     if (imprint) {
         for (const auto& [edge, image] : imprint->images) parts.target_edges[edge] = image.target;
     }

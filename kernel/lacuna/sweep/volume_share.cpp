@@ -344,7 +344,7 @@ private:
         pairs_ = breaks.pairs;
         on_crease_ = breaks.on_crease;
         std::vector<surface::LinkingSurface> followed(links_.begin(), links_.end());
-        if (!pairs_.empty()) surface::follow_facets(breaks, followed);
+        if (!pairs_.empty()) followed = surface::follow_facets(breaks, std::move(followed));
         rims_ = std::make_shared<Walls>(volume_, std::move(followed), options_, size_);
         walls_ = nullptr;
     }

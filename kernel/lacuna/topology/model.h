@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/ids.h>
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 #include <lacuna/geometry/exact.h>
@@ -90,10 +91,10 @@ struct ModelParts {
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    double diagonal = 0;            ///< of the bounding box [model length]
-    double tolerance = 0;           ///< points closer than this coincide [model length]
-    std::string source;             ///< the file(s) it was read from, for messages
-    std::vector<std::string> notes; ///< what loading dropped or left unconnected, one sentence each
+    double diagonal = 0;        ///< of the bounding box [model length]
+    double tolerance = 0;       ///< points closer than this coincide [model length]
+    std::string source;         ///< the file(s) it was read from, for messages
+    std::vector<Message> notes; ///< what loading dropped or left unconnected, one sentence each
 
 private:
     friend class Model;

@@ -164,7 +164,9 @@ void write_faces(const Model& model, const closure::ModelFacts& found,
     Json json;
     json.begin_object().member("kind", "faces");
     json.member("title", options.title.empty() ? model.source : options.title).member("path", options.path);
-    json.member("facts", facts).member("notes", model.notes);
+    std::vector<std::string> notes;
+    for (const Message& note : model.notes) notes.push_back(note.text());
+    json.member("facts", facts).member("notes", notes);
     add_frame(json, grid);
     add_nodes(json.key("nodes"), grid, points, 1);
     const Sides sides = sides_of(model);

@@ -4,6 +4,7 @@
 #include <lacuna/cad/detail/worker.h>
 #include <lacuna/cad/limits.h>
 #include <lacuna/cad_protocol/shared/messages.h>
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 
 #include <cstdint>
@@ -28,8 +29,8 @@ struct CadFiles {
     cad_protocol::LoadRequest request;
     std::vector<cad_protocol::Descriptor> descriptors;
     std::uint64_t bytes = 0;
-    std::uint64_t digest = 0;       ///< hash of all contents and names
-    std::vector<std::string> notes; ///< which script commands are skipped
+    std::uint64_t digest = 0;   ///< hash of all contents and names
+    std::vector<Message> notes; ///< which script commands are skipped
 };
 
 /// @throw as open_input()

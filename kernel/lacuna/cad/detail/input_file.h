@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/cad_protocol/shared/channel.h>
+#include <lacuna/core/message.h>
 #include <lacuna/core/run_context.h>
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct InputFile {
     std::vector<cad_protocol::Descriptor> descriptors; ///< of the contents
     std::vector<std::uint64_t> digests;                ///< hashes of names and contents
     std::uint64_t bytes = 0;                           ///< of all contents
-    std::vector<std::string> notes;                    ///< which script commands are skipped
+    std::vector<Message> notes;                        ///< which script commands are skipped
 };
 
 /// The first bytes of a file, `most` at most.

@@ -94,7 +94,7 @@ struct LoadReply {
     std::vector<Face> faces;
     std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those that are in no solid
     std::vector<LeftOut> left_out = {};
-    std::vector<std::string> notes; ///< one sentence for each face left out, first those of `left_out`
+    std::vector<MessageParts> notes; ///< one sentence for each face left out, first those of `left_out`
 };
 
 struct EvaluateRequest {

@@ -9,6 +9,7 @@ namespace lacuna::closure {
 /// move a given end to a missing one, does not compare alternative shapes, accepts an ambiguous closing and
 /// logs nothing: callers enumerate these choices themselves.
 /// @throw  as close().
-Closure close_trial(topology::OpenVolume& volume, const matching::Match& match, const RunContext& context);
+Closed close_trial(const topology::OpenVolume& volume, const matching::Match& match,
+                   const RunContext& context);
 
 } // namespace lacuna::closure

@@ -11,9 +11,7 @@ namespace lacuna::closure {
 
 /// A volume sealed by its free loops alone: the given faces in their order, then the new ones, all with the
 /// role of walls.
-struct FlatFilling {
-    topology::OpenVolume volume;
-    Closure closure;
+struct FlatFilling : Closed {
     bool each_alone = true; ///< whether each loop is planar and has its own face
     bool channel = false;   ///< whether a loop was split at two congruent ends
 };
@@ -30,11 +28,10 @@ std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const s
 /// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that face away
 /// from the source, or slope by at most 60°, are the target; the others are walls, the risers of a target at
 /// several heights.
-/// @param volume  out: sealed.
 /// @return  empty if each loop is planar by itself, if one lies on a sphere, a circular cylinder or a cone,
 ///          if a filling face is not flat, or if the target has neither the source's number of loops nor
 ///          several heights.
-std::optional<Closure> fill_missing_end(topology::OpenVolume& volume, const RunContext& context);
+std::optional<FlatFilling> fill_missing_end(const topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.
 bool is_flat(const topology::Model& model, const topology::Rim& rim);

@@ -43,7 +43,7 @@ Message guess_of_hole(const topology::Model& model, FaceId face);
 
 /// Add a note about an assumption; it is listed as an assumption if it changes the volume enough.
 /// @param share  relative change of the volume under the alternative
-void assume(Closure& closure, const char* code, std::string text, double share);
+void assume(Closure& closure, Message note, double share);
 
 /// Note holes of given faces that void walls close in their planes, because an entirely missing pocket leaves
 /// no other trace. It is an assumption if a pocket as deep as its mouth is wide would change the volume

@@ -11,9 +11,7 @@
 namespace lacuna::closure {
 
 /// A sealed volume that had one end, and lacked the other end and some walls.
-struct MovedEnd {
-    topology::OpenVolume volume; ///< the given faces in their order, then the new ones; with roles
-    Closure closure;
+struct MovedEnd : Closed {
     FaceId from;          ///< the given end that was moved, in the input model
     double enclosed = 0;  ///< [model length³]
     bool through = false; ///< whether a rim without walls was extended, which is an assumption

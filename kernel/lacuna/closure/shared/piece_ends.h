@@ -11,6 +11,12 @@
 
 namespace lacuna::closure {
 
+/// Cut pieces, and the number of those whose ends were chosen again.
+struct ReadPieces {
+    std::vector<StepPiece> pieces;
+    std::size_t changed = 0;
+};
+
 /// Choose the ends of closed cut pieces again, if a piece cannot be swept between its current ends.
 ///
 /// A plane that crosses an end obliquely leaves pieces whose cut is adjacent to the rest of that end. An end
@@ -18,11 +24,10 @@ namespace lacuna::closure {
 /// from one to the other between two neighbouring walls. The function takes the pair with the flattest and
 /// most similar ends, most square to their walls. It prefers ends that the user named, and pairs under which
 /// a cut that is a wall of both adjacent pieces has the same sides along the ends of both.
-/// @return  the number of pieces whose ends changed. Pieces without such ends, or with missing faces, are
-///         unchanged.
+/// Pieces without such ends, or with missing faces, are unchanged.
 /// @throw Cancelled
 /// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
-std::size_t read_ends(std::vector<StepPiece>& pieces, const RunContext& context = {});
+ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = {});
 
 /// Whether a closed volume has two ends between which each wall runs, as `read_ends()` requires; false for
 /// more than 40 faces.

@@ -56,11 +56,4 @@ VoidFilling fill_as(const topology::OpenVolume& volume, const std::vector<topolo
                     const geometry::FacetTree& shape, double facet_size, const Subject& face,
                     const RunContext& context = {});
 
-/// Add a void edge through new points, or a straight one.
-EdgeId add_void_edge_through(topology::Model& model, VertexId from, VertexId to,
-                             const std::vector<Vec3>& between = {});
-
-/// Add a filled face to the volume.
-FaceId add_void_face(topology::OpenVolume& volume, VoidFilling filling, topology::Role role);
-
 } // namespace lacuna::closure

@@ -23,7 +23,7 @@ using Function = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd&
 
 /// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps stay in the span of the
 /// gradients: if the gradients lie in a subspace, the function is minimised in it.
-/// @return the final value.
-double minimise(const Function& function, Eigen::VectorXd& x, const MinimiseOptions& options = {});
+/// @return  the last point.
+Eigen::VectorXd minimise(const Function& function, Eigen::VectorXd x, const MinimiseOptions& options = {});
 
 } // namespace lacuna::geometry

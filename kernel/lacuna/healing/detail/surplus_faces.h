@@ -4,8 +4,6 @@
 #include <lacuna/healing/detail/loose_model.h>
 #include <lacuna/healing/shared/stitch.h>
 
-#include <string>
-
 namespace lacuna::healing {
 
 // Clean-up after edges have merged; every removal is counted and noted in the report.
@@ -21,6 +19,6 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
 void note_gaps(const LooseModel& loose, double tolerance, StitchReport& report, const RunContext& context);
 
 /// The note about a face that is left out because it is too thin.
-std::string thin_face_note(const topology::Model& model, FaceId face, double tolerance);
+Message thin_face_note(const topology::Model& model, FaceId face, double tolerance);
 
 } // namespace lacuna::healing

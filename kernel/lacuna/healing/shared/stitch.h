@@ -11,13 +11,13 @@ namespace lacuna::healing {
 
 /// Changes that `stitch()` made.
 struct StitchReport {
-    int vertices_merged = 0;        ///< vertices merged into another
-    int edges_merged = 0;           ///< edges merged into another
-    int edges_split = 0;            ///< edges split at a T-junction
-    int edges_collapsed = 0;        ///< edges no longer than the tolerance
-    int faces_left_out = 0;         ///< faces listed twice, or no wider than the tolerance
-    std::vector<std::string> notes; ///< what was dropped or left apart: sentences that name entities by tag
-    std::vector<std::string> sewn;  ///< the notes about edges merged across more than the tolerance
+    int vertices_merged = 0;    ///< vertices merged into another
+    int edges_merged = 0;       ///< edges merged into another
+    int edges_split = 0;        ///< edges split at a T-junction
+    int edges_collapsed = 0;    ///< edges no longer than the tolerance
+    int faces_left_out = 0;     ///< faces listed twice, or no wider than the tolerance
+    std::vector<Message> notes; ///< what was dropped or left apart
+    std::vector<Message> sewn;  ///< the notes about edges merged across more than the tolerance
 
     [[nodiscard]] bool changed() const
     {

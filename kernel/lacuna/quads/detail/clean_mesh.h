@@ -3,8 +3,8 @@
 
 /// The mesh that `clean_quads()` works on.
 
+#include <lacuna/quads/detail/clean_quads.h>
 #include <lacuna/quads/detail/quad_net.h>
-#include <lacuna/quads/shared/clean_quads.h>
 
 #include <cstdint>
 #include <span>

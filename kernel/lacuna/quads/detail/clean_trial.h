@@ -5,7 +5,7 @@
 
 #include <lacuna/quads/detail/clean_patch.h>
 #include <lacuna/quads/detail/patch_template.h>
-#include <lacuna/quads/shared/smooth_plane.h>
+#include <lacuna/quads/detail/smooth_plane.h>
 
 #include <span>
 #include <vector>

@@ -36,19 +36,22 @@ struct GivenColumns {
     std::vector<GivenStub> stubs;   ///< in order of their running lengths, the source's first
 };
 
+/// What `given_columns()` found.
+struct GivenRows {
+    std::vector<GivenColumns> columns; ///< of each linking surface; all have the same number of rows, or none
+    std::vector<std::string> notes{};  ///< a line for each wall or side line whose nodes are not kept
+};
+
 /// Read the meshes of given walls as rows and columns, by walking from each side of the source rim over
 /// opposite sides of quads to the target rim. Columns from either rim that end before the other are stubs.
 /// Side lines of walls without quads are columns if all have the same number of nodes.
 /// @param layers  requested; 0: any. Side lines with another number of nodes are then no columns.
-/// @param notes   out: a line for each wall or side line whose nodes are not kept.
-/// @return  for each linking surface; all with columns have the same number of rows.
 /// @throw NotSweepable "surface.wall_rows"  walls whose quads form different numbers of rows, or stubs with
 ///        as many rows as whole walls; "surface.wall_not_rows"  quads that are in no row; names the walls,
 ///        and the first quad.
 /// @note  O(quads).
-std::vector<GivenColumns> given_columns(const topology::OpenVolume& volume,
-                                        std::span<const LinkingSurface> links, int layers,
-                                        std::vector<std::string>& notes);
+GivenRows given_columns(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                        int layers);
 
 /// Relative heights of the columns' nodes: rows + 1 numbers from 0 to 1, averaged over all columns. Empty
 /// without columns.
@@ -64,6 +67,12 @@ std::vector<double> given_heights(const topology::Model& model, std::span<const 
 std::vector<double> stub_heights(const topology::Model& model, std::span<const LinkingSurface> links,
                                  std::span<const GivenColumns> columns, const SizeField& size, int layers);
 
+/// Linking surfaces with breaks at given nodes.
+struct KeptNodes {
+    std::vector<LinkingSurface> links;
+    std::vector<std::string> notes{}; ///< a line for each rim whose nodes are not kept
+};
+
 /// Make the rim nodes of faces that keep their mesh nodes of the sweep: each becomes a break of the segments,
 /// and the interval between two breaks is one side of a quad.
 ///
@@ -72,9 +81,7 @@ std::vector<double> stub_heights(const topology::Model& model, std::span<const L
 /// counts those of the target. If only one end has given nodes, the other end follows it.
 /// @param columns  of each linking surface.
 /// @param wedges   triangles of both ends are kept like quads.
-/// @param notes    out: a line for each rim whose nodes are not kept.
-void keep_given_nodes(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, std::vector<std::string>& notes,
-                      bool wedges = false);
+KeptNodes keep_given_nodes(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,
+                           std::vector<LinkingSurface> links, bool wedges = false);
 
 } // namespace lacuna::surface

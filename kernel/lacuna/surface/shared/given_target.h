@@ -13,25 +13,26 @@ namespace lacuna::surface {
 
 /// The given mesh of the target, in the numbering of the source's.
 struct GivenTarget {
-    std::vector<Vec3> nodes;  ///< position of each source node: bit for bit the target's own
-    std::vector<FaceId> face; ///< target face of each source quad
+    /// The difference if it is not kept although the target has given quads; the lists are then empty.
+    std::string why{};
+    std::vector<Vec3> nodes{};  ///< position of each source node: bit for bit the target's own
+    std::vector<FaceId> face{}; ///< target face of each source quad
 };
 
 /// The given quads of the target, if they form the same graph as the source's: starting from the rim nodes,
 /// which correspond by the linking surfaces, quads are paired across their sides.
 /// @param wedges  triangles of the target are paired with those of the source.
-/// @param why  out: the difference if nothing is returned although the target has given quads; otherwise
-///             empty.
+/// @return  empty if the target has no given quads.
 /// @note  O(quads).
-std::optional<GivenTarget> given_target(const topology::OpenVolume& volume,
-                                        std::span<const LinkingSurface> links, const SourceMesh& source,
-                                        std::string& why, bool wedges = false);
+GivenTarget given_target(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
+                         const SourceMesh& source, bool wedges = false);
 
 /// If both ends have given quads with the same graph, rotate the loops whose walls do not fix their rotation
 /// (round, without columns or side lines) as the graph requires, starting from a loop whose walls do.
 /// @param columns  of each linking surface.
 /// @note  O(quads of the ends); nothing is done where no loop needs it.
-void align_alike_ends(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,
-                      std::vector<LinkingSurface>& links, bool wedges = false);
+std::vector<LinkingSurface> align_alike_ends(const topology::OpenVolume& volume,
+                                             std::span<const GivenColumns> columns,
+                                             std::vector<LinkingSurface> links, bool wedges = false);
 
 } // namespace lacuna::surface

@@ -74,6 +74,6 @@ private:
 std::vector<Crease> creases_of(const topology::OpenVolume& volume, const LinkingSurface& link);
 
 /// Divide the segments of the rims at the breaks, and mark those that begin on creases.
-void follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface>& links);
+std::vector<LinkingSurface> follow_facets(const RimBreaks& breaks, std::vector<LinkingSurface> links);
 
 } // namespace lacuna::surface

@@ -8,12 +8,19 @@
 
 namespace lacuna::surface {
 
+/// Linking surfaces broken at the long edges of their walls.
+struct WallBreaks {
+    std::vector<LinkingSurface> links;
+    int layers = 1;
+};
+
 /// Add rim nodes at both ends of every column that long edges of the walls require, by splitting the segments
 /// there. A break closer than a fraction of the size is used instead: the column bends.
-/// @return  minimum number of layers for edges around the walls: one more than the most above each other.
+/// @return  the links, and the minimum number of layers for edges around the walls: one more than the most
+///          above each other.
 /// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross.
 /// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
-int set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
-                    std::vector<LinkingSurface>& links);
+WallBreaks set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
+                           std::vector<LinkingSurface> links);
 
 } // namespace lacuna::surface
