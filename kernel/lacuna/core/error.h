@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <string_view>
 
 namespace lacuna {
 
@@ -13,11 +13,11 @@ namespace lacuna {
 /// what is needed, and one thing to try; `what()` is its text, `code()` is stable, for programs.
 class Error : public std::runtime_error {
 public:
-    explicit Error(Message message) : std::runtime_error(message.text()), message_(std::move(message)) {}
+    explicit Error(Message message);
     /// @param format  see `Message`
     template <class... Arguments>
-    Error(std::string code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
-        : Error(Message(std::move(code), format, arguments...))
+    Error(std::string_view code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+        : Error(Message(code, format, arguments...))
     {
     }
 
@@ -55,7 +55,7 @@ public:
 /// The host asked to stop the computation.
 class Cancelled : public Error {
 public:
-    Cancelled() : Error("core.cancelled", "cancelled") {}
+    Cancelled();
 };
 
 } // namespace lacuna

@@ -39,6 +39,9 @@ struct MessageParts {
 };
 
 /// An argument of a message: a number, a text, an entity, a list of entities or another message.
+///
+/// Copying and destruction of messages and their arguments are compiled once, in `message.cpp`: inline, they
+/// would be repeated at each of the many places that make an error.
 class Argument {
 public:
     enum class Role { plain, found, needed };
@@ -50,15 +53,21 @@ public:
             if (!std::in_range<long long>(number)) value_ = std::to_string(number);
     }
     Argument(double number) : value_(number) {}
-    Argument(std::string text) : value_(std::move(text)) {}
-    Argument(std::string_view text) : value_(std::string(text)) {}
-    Argument(const char* text) : value_(std::string(text)) {}
-    Argument(NamedEntity entity) : value_(std::vector<NamedEntity>{std::move(entity)}) {}
+    Argument(std::string text);
+    Argument(std::string_view text);
+    Argument(const char* text);
+    Argument(const NamedEntity& entity);
     /// Printed as a list of at most six entities and a count of the others.
-    Argument(std::vector<NamedEntity> entities) : value_(std::move(entities)) {}
+    Argument(std::vector<NamedEntity> entities);
     /// Prints the text and the remedy; entities and values become those of the message that quotes them.
-    Argument(MessageParts quoted) : value_(std::move(quoted)) {}
-    Argument(Role role, const Argument& of) : value_(of.value_), role_(role) {}
+    Argument(MessageParts quoted);
+    Argument(Role role, const Argument& of);
+
+    Argument(const Argument&);
+    Argument(Argument&&) noexcept;
+    Argument& operator=(const Argument&);
+    Argument& operator=(Argument&&) noexcept;
+    ~Argument();
 
     [[nodiscard]] const auto& value() const { return value_; }
     [[nodiscard]] Role role() const { return role_; }
@@ -111,18 +120,25 @@ private:
 ///
 ///     Message("surface.sides_asked", "{} has {} sides, but {} are asked for", face, found(7), needed(9))
 ///         .remedy("give an even number")
-class Message {
+///
+/// Visible, as hosts of the shared library copy the message of an error that they caught.
+class __attribute__((visibility("default"))) Message {
 public:
     /// @param code    "folder.what_went_wrong"; stable, for programs.
     /// @param format  the text, with a field for each argument.
     template <class... Arguments>
-    Message(std::string code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+    Message(std::string_view code, Format<sizeof...(Arguments)> format, const Arguments&... arguments)
+        : Message(code, format.text(), std::initializer_list<Argument>{Argument(arguments)...})
     {
-        parts_.code = std::move(code);
-        parts_.text = add(format.text(), {Argument(arguments)...});
     }
     /// A message of another process, rebuilt from its parts, which are kept as they are.
-    explicit Message(MessageParts parts) : parts_(std::move(parts)) {}
+    explicit Message(MessageParts parts);
+
+    Message(const Message&);
+    Message(Message&&) noexcept;
+    Message& operator=(const Message&);
+    Message& operator=(Message&&) noexcept;
+    ~Message();
 
     /// Add one thing to try; it follows the text after a semicolon.
     template <class... Arguments>
@@ -153,6 +169,7 @@ public:
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 
 private:
+    Message(std::string_view code, std::string_view format, std::initializer_list<Argument> arguments);
     /// Keep the arguments as data. @return  their text
     std::string add(std::string_view format, std::initializer_list<Argument> arguments);
     void add(const NamedEntity& entity);

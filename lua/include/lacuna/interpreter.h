@@ -48,7 +48,7 @@ struct InterpreterOptions {
 /// A recipe failed. `what()` is the message for a person, with file, line and code.
 class __attribute__((visibility("default"))) ScriptError : public Error {
 public:
-    ScriptError(std::string code, const std::string& text) : Error(std::move(code), "{}", text) {}
+    ScriptError(std::string_view code, std::string_view text) : Error(code, "{}", text) {}
 
     std::string message;               ///< the message, without file, line and code
     std::string file;                  ///< the recipe; empty: unknown

@@ -23,7 +23,7 @@ namespace lacuna {
 /// Bytes received from another process do not follow the protocol.
 class ProtocolError : public Error {
 public:
-    explicit ProtocolError(const std::string& what) : Error("core.protocol", "{}", what) {}
+    explicit ProtocolError(std::string_view what) : Error("core.protocol", "{}", what) {}
 };
 
 /// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. Not `bool`, of
