@@ -137,7 +137,7 @@ public:
     const std::vector<Face>& faces;
     const double &diagonal, &tolerance;
     const std::string& source;
-    const std::vector<std::string>& notes;
+    const std::vector<Message>& notes;
 };
 
 /// Makes a model, from nothing or from the parts of another one. Functions read the parts made so far as a
