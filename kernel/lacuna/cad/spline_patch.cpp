@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/detail/spline_patch.h>
 
-#include <Eigen/LU>
+#include <lacuna/geometry/shared/dense_solve.h>
 
 #include <algorithm>
 #include <utility>
@@ -35,7 +35,7 @@ std::vector<double> halfway(const std::vector<double>& parameters)
 Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
     const std::vector<double> at = evenly(static_cast<std::size_t>(values.rows()) - 1);
-    Eigen::MatrixXd poles = basis_rows(axis, at).partialPivLu().solve(values);
+    Eigen::MatrixXd poles = geometry::solve_lu(basis_rows(axis, at), values);
     poles.row(0) = values.row(0); // exactly, as other splines share these corners
     poles.bottomRows(1) = values.bottomRows(1);
     return poles;

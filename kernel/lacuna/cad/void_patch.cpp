@@ -3,10 +3,9 @@
 
 #include <lacuna/cad/detail/edge_shape.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/union_find.h>
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <map>
@@ -282,7 +281,7 @@ void Patch::follow(const Model& model, const Face& face)
     }
     // Poles without data near them keep the shape of the patch.
     normal.diagonal().array() += 1e-8 * static_cast<double>(inner) / static_cast<double>(unknowns);
-    const Eigen::MatrixXd solved = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    const Eigen::MatrixXd solved = geometry::solve_symmetric(normal, right);
     for (Eigen::Index d = 0; d < 3; ++d) {
         Eigen::MatrixXd& poles = fit.poles[static_cast<std::size_t>(d)];
         poles = Eigen::MatrixXd::Zero(nu, nv);

@@ -3,12 +3,13 @@
 
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,8 @@ double off_quadratic(const Heights& heights, double extent)
         powers.row(i) << 1, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
     }
     const Eigen::MatrixXd normal = powers.transpose() * powers;
-    const Eigen::VectorXd fit = normal.ldlt().solve(powers.transpose() * heights.height);
+    const Eigen::VectorXd right = powers.transpose() * heights.height;
+    const Eigen::VectorXd fit = geometry::solve_symmetric(normal, right);
     return (powers * fit - heights.height).cwiseAbs().maxCoeff();
 }
 

@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -111,8 +112,7 @@ std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const E
 /// Principal curvatures of a form, ascending.
 Vec3 bends_of(const Eigen::Matrix4d& form)
 {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly)
-        .eigenvalues();
+    return geometry::symmetric_eigenvalues(form.topLeftCorner<3, 3>());
 }
 
 double off_ball(const Eigen::Matrix4d& form)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/thin_plate.h>
 
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/use_places.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +48,7 @@ ThinPlate plate_through(const geometry::Plane& plane, const std::vector<Vec3>& p
         right(i) = geometry::height(plane, points[static_cast<std::size_t>(i)]);
     }
     system.bottomRows<3>() = system.rightCols<3>().transpose();
-    plate.weight = system.partialPivLu().solve(right);
+    plate.weight = geometry::solve_lu(system, right);
     return plate;
 }
 

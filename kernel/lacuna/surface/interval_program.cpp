@@ -2,10 +2,9 @@
 #include <lacuna/surface/detail/interval_program.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/shared/measure_plane.h>
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -230,7 +229,7 @@ private:
             normal += weight * sum.head(free).transpose() * sum.head(free);
             right += weight * rest * sum.head(free).transpose();
         }
-        const Eigen::VectorXd x = normal.ldlt().solve(right);
+        const Eigen::VectorXd x = geometry::solve_symmetric(normal, right);
         std::vector<std::int64_t> counts;
         for (Eigen::Index k = 0; k < free; ++k)
             counts.push_back(std::llround(std::clamp(x[k], 1.0, double(kMostCoefficient))));

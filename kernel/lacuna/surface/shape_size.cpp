@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
@@ -11,8 +12,6 @@
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -114,9 +113,8 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
         const Around& around = wide[p];
         const Index point = number[p];
         if (!(around.area > 0)) continue;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around.bends / around.area,
-                                                                    Eigen::EigenvaluesOnly);
-        const double curvature = solver.eigenvalues().cwiseAbs().maxCoeff();
+        const Vec3 bends = geometry::symmetric_eigenvalues(around.bends / around.area);
+        const double curvature = bends.cwiseAbs().maxCoeff();
         if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size resolves
         double size = kFullTurn / (curvature * per_turn);
         if (f.surface == nullptr) size = std::max(size, around.shortest / 2);

@@ -110,7 +110,7 @@ public:
           context_(context),
           angle_(angles_across(model, context)),
           map_{smooth_patches(model, flat_alone ? parted_at_flat_faces(model, angle_) : angle_, context),
-               std::vector<std::size_t>(2 * model.edges.size(), kNone),
+               std::vector<std::size_t>(2 * model.edges.size(), kNoIndex),
                std::vector<EdgeUse>(2 * model.edges.size()),
                std::vector<std::vector<std::size_t>>(model.vertices.size())},
           part_of_(map_.patches.size()),

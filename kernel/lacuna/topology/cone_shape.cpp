@@ -2,9 +2,8 @@
 #include <lacuna/topology/shared/cone_shape.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/spread.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -72,10 +71,10 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
         right[p] = q.squaredNorm() - square * h * h;
         line.row(p) << h, 1;
     }
-    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(right);
+    const Eigen::VectorXd found = geometry::least_squares(left, right);
     const Vec2 centre = found.head<2>();
     const Eigen::VectorXd radius = ((left.leftCols<2>() / 2).rowwise() - centre.transpose()).rowwise().norm();
-    const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(radius);
+    const Eigen::Vector2d fit = geometry::least_squares(line, radius);
     if (!(std::abs(fit[0]) > kParallel)) return {};
     cone.least_radius = radius.minCoeff();
     cone.largest_radius = radius.maxCoeff();

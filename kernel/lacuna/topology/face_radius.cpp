@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/face_radius.h>
 
+#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/cone_shape.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +25,7 @@ std::optional<Round> fitted(const Eigen::MatrixXd& points)
     const Eigen::MatrixXd at = points.rowwise() - mean;
     Eigen::MatrixXd left(points.rows(), n + 1);
     left << 2 * at, Eigen::VectorXd::Ones(points.rows());
-    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(at.rowwise().squaredNorm());
+    const Eigen::VectorXd found = geometry::least_squares(left, at.rowwise().squaredNorm());
     const Eigen::VectorXd centre = found.head(n);
     const double radius = std::sqrt(std::max(0.0, found[n] + centre.squaredNorm()));
     if (!(radius > 0) || !std::isfinite(radius)) return {};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+
+#include <Eigen/Core>
+
+/// Dense decompositions, each compiled once: their templates are the slowest to compile of all that the kernel
+/// uses.
+namespace lacuna::geometry {
+
+/// x of A x = b by LU with partial pivoting. @pre `matrix` is regular.
+Eigen::VectorXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+/// The same for each column of `right`.
+Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+
+/// x of A x = b for a symmetric positive semidefinite matrix, of which the lower triangle is read.
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+/// The same for each column of `right`.
+Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+
+/// x with the least |A x - b|, by QR with column pivoting.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// Eigenvalues of a symmetric matrix, ascending.
+Vec3 symmetric_eigenvalues(const Eigen::Matrix3d& matrix);
+
+} // namespace lacuna::geometry
