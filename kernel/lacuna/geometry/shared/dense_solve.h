@@ -5,8 +5,7 @@
 
 #include <Eigen/Core>
 
-/// Dense decompositions, each compiled once: their templates are the slowest to compile of all that the kernel
-/// uses.
+/// Dense decompositions, each compiled once: their templates take long to compile.
 namespace lacuna::geometry {
 
 /// x of A x = b by LU with partial pivoting. @pre `matrix` is regular.
