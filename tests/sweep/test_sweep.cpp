@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "layers_of.h"
 #include "support/check_valid.h"
+#include "support/edit_model.h"
 #include "support/quad_meshers.h"
 #include "support/whole_families.h"
 #include "surface/sealed.h"
@@ -364,7 +365,7 @@ TEST_CASE("a class IV volume turned round keeps heights and names of its ends")
 TEST_CASE("groups are named by role and tag, void faces as void, and the names of the input are kept")
 {
     auto prism = test::prism({.sides = 4, .drop = without(false, false, false, {0, 1})});
-    prism.model[prism.roles.walls[0]].name = "my wall";
+    test::edit(prism.model, [&](ModelBuilder& model) { model[prism.roles.walls[0]].name = "my wall"; });
     auto volume = prism.open();
     volume = closure::close(volume, matching::match(volume)).volume;
     const Swept swept = check_swept(volume, layers_of(2, 0.5), 1e-9);
