@@ -292,7 +292,7 @@ TEST_CASE("what else a loop without walls may enclose is said where it bulges as
         const auto open = barrel.open();
         const auto [volume, closure] = closure::close(open, matching::match(open));
         CAPTURE(belly);
-        const bool said = std::ranges::find(closure.notes, "closure.straight_assumed", &Message::code) !=
+        const bool said = std::ranges::find(closure.notes, "closure.loop_follows", &Message::code) !=
                           closure.notes.end();
         CHECK(said == (belly != 1.0));
         CHECK(closure::enclosed_volume(volume) == doctest::Approx(barrel.facet_volume).epsilon(0.02));

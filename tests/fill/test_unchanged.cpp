@@ -157,7 +157,7 @@ TEST_CASE("seconds of improving are one limit for all that a sweep tries")
     RunContext context;
     std::string with_wedges, last;
     context.log = [&](std::string_view line) {
-        if (line.starts_with("with wedges: ")) with_wedges = line;
+        if (line.find(", with wedges,") != std::string_view::npos) with_wedges = line;
     };
     bool over = false;
     context.progress = [&](std::string_view stage, double) {

@@ -301,7 +301,10 @@ end
 list:close()
 local round = circle(includes)
 if round then wrong = wrong + 1; print("headers include each other in a circle: " .. round) end
-if made ~= 2 then wrong = wrong + 1; print(("mesh_candidate() has %d callers, 1 wanted"):format(made - 1)) end
+if made ~= 2 then
+  wrong = wrong + 1
+  print(("mesh_candidate() has %d callers, 1 wanted"):format(made - 1))
+end
 if caught > most_caught then
   wrong = wrong + 1
   print(("errors of the project are caught in %d places, %d at most"):format(caught, most_caught))

@@ -293,7 +293,7 @@ private:
             for (std::size_t k = 0; k < run.sides; ++k) {
                 const std::size_t next = (k + 1) % count;
                 const Quad quad{level[r][k], level[r][next], level[r + 1][next], level[r + 1][k]};
-                if (!(least_sine(partial_, quad) > kFlatQuad))
+                if (!(least_sine(partial_, quad) > kFoldedQuad))
                     return refuse(RowsFinding::Why::sharp_bend, base.nodes[k], table, heights[r],
                                   r > 0 ? heights[r - 1] : 0);
                 partial_.quads.push_back(quad);

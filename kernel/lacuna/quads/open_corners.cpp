@@ -54,7 +54,7 @@ std::array<Quad, 5> pillow(std::vector<Vec2>& points, const Quad& outer)
     const Vec2 centre = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
     std::array<Vec2, 4> place;
     for (std::size_t k = 0; k < 4; ++k) place[k] = (corner[k] + centre) / 2;
-    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFlatQuad)
+    if (least_sine(corner[0], corner[1], corner[2], corner[3]) < kFoldedQuad)
         place = small_within(corner).value_or(place);
     const auto first = static_cast<Index>(points.size());
     points.insert(points.end(), place.begin(), place.end());

@@ -68,7 +68,7 @@ public:
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
             for (std::size_t q = quads; q < partial_.quads.size() && good; ++q)
-                good = least_sine(partial_, partial_.quads[q]) > (least_quads_ > 1 ? 0 : kFlatQuad);
+                good = least_sine(partial_, partial_.quads[q]) > (least_quads_ > 1 ? 0 : kFoldedQuad);
             if (good) return inner;
         }
         partial_.points.resize(points);

@@ -71,7 +71,9 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
                               source);
     plans.push_back(first);
     if (can_turn_together(links.of(volume, context)))
-        plans.push_back({.turned = turned, .turning = surface::Turning::together});
+        plans.push_back({.turned = turned,
+                         .turning = surface::Turning::together,
+                         .below = options.improving.good_enough});
     plans.push_back({.turned = !turned});
     if (can_lie_between(volume, options))
         for (const bool way : {turned, !turned}) plans.push_back({.turned = way, .outline = Outline::mean});

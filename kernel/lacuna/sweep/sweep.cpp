@@ -114,8 +114,8 @@ constexpr std::size_t kMostTried = 6;
 /// The refusal of an end that came with triangles: no plan may mesh it anew unasked.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// The one search: meshes plans, best first, until one is good, and keeps the best that is valid and true to
-/// the shape.
+/// The one search: meshes plans, best first, as long as the mesh is poor, and keeps the best that is valid and
+/// true to the shape.
 class Search {
 public:
     Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
@@ -129,8 +129,8 @@ public:
     Swept run(const std::vector<Plan>& plans)
     {
         for (std::size_t i = 0; i < std::min(plans.size(), kMostTried); ++i) {
+            if (best_ && (plan_->keeps_end || best_->min_scaled_jacobian >= plans[i].below)) continue;
             if (!is_like_each(plans[i])) attempt(plans[i]);
-            if (best_ && (best_->min_scaled_jacobian >= kPoorCell || plan_->keeps_end)) break;
         }
         if (!best_) throw NotSweepable(std::move(*refusal_));
         if (!plan_->layers.empty()) best_->report.push_back(plan_->layers);
@@ -165,10 +165,7 @@ private:
             if (error.code() == kOwnTriangles) throw; // all plans are to keep them
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            if (!refusal_)
-                refusal_ = error.message();
-            else
-                std::move(*refusal_).attempt(why);
+            refusal_ = refusal_ ? refusal_->attempt(why) : error.message();
         }
         log_line(context_, tried_.back());
     }

@@ -61,9 +61,11 @@ inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
 // Poor: least scaled Jacobian, of a plane quad the least sine of its corners
 
-/// A quad below this is flat (6°): no row keeps it, no corner is opened by it, no pair of triangles becomes
-/// it, and its nodes are raised first, because smoothing hardly improves it at a boundary.
-inline constexpr double kFlatQuad = 0.1;
+/// A quad below this counts as folded (6°): no row keeps it, and no corner is opened by it.
+inline constexpr double kFoldedQuad = 0.1;
+
+/// A quad below this is flat (9°): smoothing hardly improves it where its nodes are on a boundary.
+inline constexpr double kFlatQuad = 0.15;
 
 /// A quad below the first is poor (30°), and more is tried for it; one above the second is good (53°), and
 /// more would be wasted.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/sweep.h>
@@ -19,6 +20,7 @@ struct Plan {
     std::vector<double> heights{}; ///< of layers that are thinner in bends, as `LayerSpec::heights`
     int per_turn = 12;             ///< sides for a full turn
     bool wedges = false;           ///< see `SweepOptions::wedges`
+    double below = kPoorCell;      ///< tried if no mesh has this least scaled Jacobian yet
     std::string why{};             ///< for the report: why it comes first; may be empty
     std::string layers{};          ///< for the report: how `heights` were chosen
 };
