@@ -35,7 +35,7 @@ constexpr std::array<SearchLimits, 3> kStages{
 /// quads, more than three times as many remove no more irregular nodes. The thorough one allows for larger
 /// meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
-/// Rings of quads around a patch that are smoothed with it. More rings fit fillings better and cost time.
+/// Rings of quads around a patch that are smoothed with it: enough room for a filling to adapt.
 constexpr int kRings = 2;
 
 class Cleaner {

@@ -19,11 +19,11 @@
 namespace lacuna::quads {
 namespace {
 
-/// Limit of sides that are tried, and the quality of the worst cell that ends the search: the quality that
-/// the `ImproveOptions` of a sweep count as good enough.
+/// Limit of sides tried, and the quality of the worst cell that ends the search: that of `ImproveOptions`
+/// from which a cell of the sweep is good enough.
 constexpr std::size_t kMostSides = 4;
-/// How many quads of a row are tried as the triangle. More of them find a better place, further inside, and
-/// take more time.
+/// Number of quads of a row, from the boundary on, that are tried as the triangle. More quads find a better
+/// place further inside at a higher cost.
 constexpr std::size_t kMostSteps = 8;
 /// Rings of neighbours around the closed row whose nodes move, and rounds of moving them; fewer if the mesh
 /// is smoothed later. More of them improve the worst cell slightly and take more time.
@@ -125,7 +125,7 @@ private:
     bool move(Index n)
     {
         constexpr int kDirections = 8;
-        // Shares of the mean side; smaller last steps refine little.
+        // Steps as shares of the mean side; a smaller last step gains little.
         constexpr std::array kSteps{0.2, 0.05, 0.0125};
         constexpr double kGain = 1e-3; // a smaller gain is not worth a move
         Vec2 mean = Vec2::Zero();

@@ -129,7 +129,8 @@ private:
 /// A mirror axis and the angle of its direction, 0…π.
 struct Axis {
     double angle = 0;
-    /// Twice the number of loops that it maps onto themselves, plus one if it passes through the first node.
+    /// Twice the number of loops that the reflection maps onto themselves, plus one if the axis passes
+    /// through the first node.
     int worth = 0;
     std::size_t symmetry = 0;
 };
@@ -348,7 +349,7 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 /// Whether an axis passes through a corner and would leave a half that is sharp or obtuse.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    // [right angles]; a hole of eight sides has 22.5°. A larger value accepts more axes with worse corners..
+    // [right angles]; the axes of a hole with eight sides deviate by 22.5°.
     constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -155,7 +155,7 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 /// @param few    the quads are so few that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
-    // Lower accepts symmetric meshes more often.
+    // Lower bounds of least and mean scaled Jacobian and of the share of right sizes; not measured.
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
@@ -168,7 +168,7 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const Size
 /// Whether quads of a coarser mesh, cut in four, are so good that no further attempt is needed.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
-    constexpr Limits kGood{0.65, 0.97, 0.95}; // higher repeats the paving at full size more often
+    constexpr Limits kGood{0.65, 0.97, 0.95}; // a stricter bound repeats the paving at full size more often
     return attempt.worst >= kGood.least && find_fault(attempt.mesh, region).empty() &&
            reaches(kGood, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }

@@ -170,8 +170,9 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 32;   ///< nodes tried evenly along the outline; more cost time
-        constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward; more cost time
+        constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline; more cost time
+        /// And nodes where the outline turns inward; both limit the time.
+        constexpr std::size_t kFeatures = 64;
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kReversalAbove * kDegree) bent.push_back(i);

@@ -53,7 +53,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
             }
         }
     }
-    // A size that is off by a factor of two everywhere halves the quality.
+    // Sizes that are off by a factor of two everywhere halve the quality.
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 

@@ -28,7 +28,8 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// Number of a loop's sides that are not of the size asked; each costs as much as one missing side.
+/// Number of a loop's sides whose length is outside the accepted range; each costs as much as one missing
+/// side.
 double out_of_size(const CountedLoop& loop)
 {
     int sum = 0;

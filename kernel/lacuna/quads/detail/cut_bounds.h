@@ -16,7 +16,7 @@ struct CutPlaces {
     std::vector<float> heading; ///< of the side that leaves the place [radians]
     std::vector<float> angle;   ///< inside the region [radians]
     std::vector<float> gain;    ///< reduction of a line's cost if it ends there
-    std::vector<float> firm;    ///< weight of the angles there
+    std::vector<float> firm;    ///< weight of the angles there: lower for inner nodes, which still move
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void reserve(std::size_t n)
