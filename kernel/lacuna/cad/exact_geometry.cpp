@@ -30,9 +30,10 @@ Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, const
     task.grace = kGrace;
     Reply reply = source.ask<Reply>(opcode, make, task);
     if (reply.points.size() != count)
-        throw BackendError(
-            Message("cad.protocol", "{}: the CAD process returned the wrong number of points", source.path())
-                .remedy("load the file again"));
+        throw BackendError(Message("cad.protocol",
+                                   "{}: the CAD process returned another number of points than requested",
+                                   source.path())
+                               .remedy("load the file again"));
     return reply;
 }
 

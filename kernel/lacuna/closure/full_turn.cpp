@@ -177,8 +177,7 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     for (std::size_t f = 0; f < volume.role.size(); ++f) {
         if (volume.role[f] != Role::wall)
             throw InvalidInput(Message("closure.full_turn_ends",
-                                       "a volume that runs round its whole turn has no ends, but {} is named "
-                                       "as one",
+                                       "a full-turn volume has no ends, but {} is named as one",
                                        entity_of(volume.model, FaceId(f)))
                                    .remedy("name walls only"));
     }
@@ -194,8 +193,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
             }
             if (!why)
                 why = Message("closure.full_turn",
-                              "the plane that crosses the walls along the shortest lines cuts off {} pieces "
-                              "instead of two between two cuts",
+                              "of all planes, the one with the shortest section cuts the ring into {} pieces "
+                              "instead of two",
                               found(pieces.size()));
         } catch (const Cancelled&) {
             throw;
@@ -205,8 +204,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     }
     Message message =
         Message("closure.full_turn", "no plane through the centre of the walls cuts the ring in two places")
-            .remedy("name all walls of the ring and no others, or use volume:cut{{ plane = … }} "
-                    "and lacuna.assembly");
+            .remedy(
+                "name exactly the walls of the ring, or use volume:cut{{ plane = … }} and lacuna.assembly");
     if (why) throw NotSweepable(message.attempt(std::move(*why)));
     throw NotSweepable(std::move(message));
 }

@@ -384,14 +384,14 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
             assume(closure,
                    Message("closure.hole_closed",
                            "a hole of {} is closed in its plane, which fills any pocket behind it", face)
-                       .remedy("if there is one, give its faces"),
+                       .remedy("if there is a pocket, give its faces"),
                    area * std::sqrt(area) / enclosed_volume(sealed));
         else
             assume(closure,
                    Message("closure.hole_covered",
                            "a hole of {} is covered, because the faces face into the void", face)
-                       .remedy("with it as source, close{{ holes = \"through\" }} extends the hole to the "
-                               "missing end"),
+                       .remedy("with this face as source, close{{ holes = \"through\" }} extends the hole to "
+                               "the missing end"),
                    area * reach_of_others(sealed.model, closure.void_faces, filler) /
                        enclosed_volume(sealed));
     }
@@ -404,9 +404,9 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     for (const FaceId face : membranes(model, closure.void_faces))
         assume(closure,
                Message("closure.membrane",
-                       "{} is a membrane over a rim that is not planar, so its shape is assumed",
+                       "{} is a smooth face over a rim that is not planar, so its shape is assumed",
                        entity_of(model, face))
-                   .remedy("if the face bulges, give it"),
+                   .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
@@ -414,7 +414,7 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
         closure.notes.push_back(Message("closure.rough_rim",
                                         "the rim of {} is rough and is closed by a smooth face",
                                         entity_of(model, face))
-                                    .remedy("if the face bulges, give it"));
+                                    .remedy("if the true face bulges otherwise, give it"));
     }
 }
 

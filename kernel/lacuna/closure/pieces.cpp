@@ -83,8 +83,8 @@ private:
             if (behind == before) {
                 throw NotSweepable(
                     Message("closure.cut_apart",
-                            "{}{} cuts the volume open at {}, but the volume still hangs together",
-                            tool_.words, tool_.entity, entity_of(model_, face))
+                            "{}{} cuts the volume open at {}, but the volume stays in one piece", tool_.words,
+                            tool_.entity, entity_of(model_, face))
                         .remedy("cut it at another place too, or choose another cut"));
             }
             for (const std::size_t root : {behind, before}) {

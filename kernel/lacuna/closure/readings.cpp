@@ -110,7 +110,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                      const RunContext& context)
 {
     if (faces.empty())
-        throw InvalidInput(Message("topology.no_faces", "the model has no faces to find a volume in")
+        throw InvalidInput(Message("topology.no_faces", "the model has no faces to form a volume")
                                .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) refuse_without_roles(model, faces, context);
@@ -134,7 +134,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                 .remedy("choose one with open_volume{{ faces = …, reading = 1 }}, or name its roles"));
     }
     throw InvalidInput("topology.no_such_reading",
-                       "there is no reading {} of the faces; the likely ones are {}", found(number),
+                       "the faces have no reading number {}; the likely ones are {}", found(number),
                        listed(readings));
 }
 

@@ -136,12 +136,12 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
                     flood.flipped[index(g)] = flipped;
                     front.push_back(g);
                 } else if (flood.flipped[index(g)] != flipped) {
-                    throw InvalidInput(
-                        Message("topology.not_orientable",
-                                "{} is one-sided, as a Möbius band is: facets at {} cannot be oriented",
-                                NamedEntity{"face", face + 1},
-                                place_with_digits(facets.points[index(sides.from(side))], 6))
-                            .remedy("give its parts different labels"));
+                    throw InvalidInput(Message("topology.not_orientable",
+                                               "{} is one-sided like a Möbius band: its facets at {} cannot "
+                                               "be oriented consistently",
+                                               NamedEntity{"face", face + 1},
+                                               place_with_digits(facets.points[index(sides.from(side))], 6))
+                                           .remedy("give its parts different labels"));
                 }
             }
         }

@@ -100,10 +100,11 @@ void check_content(const std::string& name, const FormatRow& format, std::string
 {
     if (format.read == read_stl && is_binary_stl(bytes)) return;
     if (const std::string_view unread = unread_by_content(bytes); !unread.empty())
-        throw InvalidInput(Message("io.unreadable",
-                                   "cannot read {}, line 1: expected {}, found {}, which is not read", name,
-                                   format.name, found(unread))
-                               .remedy("export it as .vtu, .unv or .msh"));
+        throw InvalidInput(
+            Message("io.unreadable",
+                    "cannot read {}, line 1: expected {}, found {}, a format that is not supported", name,
+                    format.name, found(unread))
+                .remedy("export it as .vtu, .unv or .msh"));
     const std::string_view ending = ending_by_content(bytes);
     if (ending.empty() || ending == format.ending) return;
     const Format* const other = find_format("file" + std::string(ending));
@@ -112,7 +113,7 @@ void check_content(const std::string& name, const FormatRow& format, std::string
                                format.name,
                                found(other != nullptr ? std::string(other->name)
                                                       : formatted("what a {} file begins with", ending)))
-                           .remedy("give it the ending of what it holds, {}", ending));
+                           .remedy("use the file name ending of its contents, {}", ending));
 }
 
 } // namespace
@@ -185,8 +186,8 @@ Deck read_deck(const std::string& path, const RunContext& context)
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
         if (ending_of(path) == cad) {
             check_file(path);
-            throw InvalidInput(Message("io.no_mesh", "{} is CAD, which has no mesh", path)
-                                   .remedy("`lacuna info` lists faces"));
+            throw InvalidInput(Message("io.no_mesh", "{} is a CAD file, which has no mesh", path)
+                                   .remedy("`lacuna info` lists its faces"));
         }
     needed_reader(path, {});
     Deck deck = read_deck(path, read_file(path));

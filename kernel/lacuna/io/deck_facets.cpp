@@ -115,10 +115,10 @@ private:
 
     [[noreturn]] void refuse() const
     {
-        throw InvalidInput(
-            Message("io.no_faces", "{} holds no faces that can be read", deck_.path)
-                .remedy("check that it is what its ending says, and holds triangles, quads or solids{}",
-                        deck_.notes.empty() ? "" : formatted(". {}", deck_.notes.front())));
+        throw InvalidInput(Message("io.no_faces", "{} contains no faces", deck_.path)
+                               .remedy("check that its contents agree with its ending, and that it has "
+                                       "triangles, quads or solids{}",
+                                       deck_.notes.empty() ? "" : formatted(". {}", deck_.notes.front())));
     }
 
     void list_sets()

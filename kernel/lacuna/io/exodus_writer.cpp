@@ -123,9 +123,10 @@ public:
             const std::size_t bytes = array.count * bytes_of(array.type);
             constexpr std::size_t kMost = 0xffff'fffb; // what the format's counts of bytes hold
             if (bytes > kMost)
-                throw InvalidInput("io.too_large",
-                                   "{} would have {} bytes, more than an array of netCDF can hold",
-                                   array.name, bytes);
+                throw InvalidInput(Message("io.too_large",
+                                           "{} would have {} bytes, more than a netCDF array can hold",
+                                           array.name, bytes)
+                                       .remedy("write another format"));
             put_array(head, array.name, array.dimensions, array.attributes, array.type, padded(bytes), begin);
             begin += padded(bytes);
             sections.push_back({{},

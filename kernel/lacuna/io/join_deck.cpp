@@ -168,8 +168,8 @@ private:
     {
         const Vec3& p = mesh_.nodes[node];
         throw InvalidInput(Message("io.nodes_coincide",
-                                   "{} and {} of the deck both lie at ({}, {}, {}), where the mesh has "
-                                   "one node, and elements beside it use both",
+                                   "{} and {} of the deck both lie at ({}, {}, {}), where the mesh has one "
+                                   "node, and adjacent elements use both",
                                    numbered("node", deck_.point_tags[index(first)]),
                                    numbered("node", deck_.point_tags[index(second)]), p.x(), p.y(), p.z())
                                .remedy("merge coincident nodes in the deck"));
@@ -191,12 +191,12 @@ private:
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
             throw InvalidInput(Message("io.not_conformal",
-                                       "the deck has {} quads and {} triangles on {}, and {} of {} quads of "
-                                       "the mesh there are faces of its elements",
+                                       "the deck has {} quads and {} triangles on {}, but only {} of the "
+                                       "mesh's {} quads there are faces of its elements",
                                        given,
                                        face->triangles.size() - std::min(2 * given, face->triangles.size()),
                                        entity_of(patch), found(matched), needed(quads))
-                                   .remedy("mesh:report says which meshes were kept"));
+                                   .remedy("mesh:report lists the kept meshes"));
         }
     }
 
@@ -206,9 +206,9 @@ private:
         if (patch.face == 0) return nullptr;
         const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
         if (found == model_.faces.end())
-            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, which the model does not",
+            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, but the model does not",
                                        numbered("face", patch.face))
-                                   .remedy("give the model the volume was made of"));
+                                   .remedy("give the model from which the volume was made"));
         return &*found;
     }
 

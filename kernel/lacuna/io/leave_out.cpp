@@ -147,8 +147,8 @@ public:
             mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
-            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; nothing would be left", list(),
-                               parts_.size() > 1 ? "are" : "is", deck_.path);
+            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; no elements would be left",
+                               list(), parts_.size() > 1 ? "are" : "is", deck_.path);
         find_nodes();
         split_blocks();
         split_points();

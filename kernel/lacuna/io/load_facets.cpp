@@ -242,12 +242,11 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     topology::Model& model = loaded.model;
     constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
     if (model.tolerance > kMostTolerance * model.diagonal) {
-        throw InvalidInput(
-            Message("io.tolerance",
-                    "the tolerance {:.6g} is more than a hundredth of the model's diagonal ({:.6g}),  "
-                    "so faces would fall together",
-                    found(model.tolerance), model.diagonal)
-                .remedy("give a smaller one"));
+        throw InvalidInput(Message("io.tolerance",
+                                   "the tolerance {:.6g} exceeds a hundredth of the model's diagonal "
+                                   "({:.6g}), so faces would collapse",
+                                   found(model.tolerance), model.diagonal)
+                               .remedy("give a smaller one"));
     }
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
@@ -280,7 +279,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
     }
     if (facets.empty() && !options.without.empty())
         throw InvalidInput("io.no_such_part",
-                           "without: {}: parts are of finite element meshes, and none is read",
+                           "without: {}: only finite element meshes have parts, and none of the files is one",
                            options.without.front());
     LoadedFiles loaded{.scale = options.scale};
     if (!other.empty()) loaded = others.import(other, options, context);

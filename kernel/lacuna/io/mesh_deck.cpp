@@ -28,16 +28,17 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     for (const DeckTag tag : taken) highest = std::max(highest, tag);
     const DeckTag first = asked != 0 ? asked : highest + 1;
     if (first < 1)
-        throw InvalidInput("io.number_taken", "{} = {}: numbers are 1 or more", option, found(first));
+        throw InvalidInput("io.number_taken", "{} = {}: numbers must be at least 1", option, found(first));
     const DeckTag last = first + static_cast<DeckTag>(count) - 1;
     if (last > std::numeric_limits<Index>::max())
-        throw InvalidInput("io.number_taken", "{} = {}: the last of {} would be {}, more than {}", option,
+        throw InvalidInput("io.number_taken",
+                           "{} = {}: the last of {} would get the number {}, above the limit of {}", option,
                            first, count, found(last), needed(std::numeric_limits<Index>::max()));
     for (const DeckTag tag : taken)
         if (tag >= first && tag <= last)
-            throw InvalidInput(Message("io.number_taken", "{} = {}: the deck has a {}", option, found(first),
-                                       numbered(what, tag))
-                                   .remedy("the first free one is {}", needed(highest + 1)));
+            throw InvalidInput(Message("io.number_taken", "{} = {}: the deck already has {}", option,
+                                       found(first), numbered(what, tag))
+                                   .remedy("the first free number is {}", needed(highest + 1)));
     return first;
 }
 
@@ -71,10 +72,9 @@ public:
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         if (cell_shape(mesh_) == DeckShape::hex27 && !format_of(options_.format).has_hex27)
-            throw InvalidInput(
-                Message("io.no_such_element",
-                        "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV")
-                    .remedy("sweep with order = 2, serendipity = true for those of 20"));
+            throw InvalidInput(Message("io.no_such_element",
+                                       "Abaqus, CalculiX, Nastran and UNV have no hexahedron of 27 nodes")
+                                   .remedy("sweep with order = 2, serendipity = true for 20 nodes"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         first_set_ = deck_.sets.size();
@@ -102,7 +102,7 @@ private:
         const bool second = mesh_.order() == 2;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
         if (is_abaqus_element(element_, cell_shape(mesh_))) return;
-        throw InvalidInput("io.element", "element = \"{}\": expected Abaqus's word for a hexahedron of {}",
+        throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
                            second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
                                   : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "

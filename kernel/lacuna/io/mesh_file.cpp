@@ -25,10 +25,10 @@ void check_version(const Format& format, const MeshFileOptions& options)
     if (!format.has_option("version")) return;
     if (options.version != 2.2 && options.version != 4.1)
         throw InvalidInput(
-            Message("io.unknown_version", "MSH version {} cannot be written", text_of(options.version))
-                .remedy("known are 4.1 and 2.2"));
+            Message("io.unknown_version", "MSH version {} is not supported", text_of(options.version))
+                .remedy("use 4.1 or 2.2"));
     if (options.partition.parts > 0 && options.version != 4.1)
-        throw InvalidInput(Message("io.partition_version", "parts are written in MSH version 4.1 alone")
+        throw InvalidInput(Message("io.partition_version", "only MSH version 4.1 can contain partitions")
                                .remedy("leave out the version"));
 }
 

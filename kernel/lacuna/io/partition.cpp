@@ -18,10 +18,11 @@ using mesh::MeshView;
 
 [[noreturn]] void refuse_parts(int parts, std::size_t layers)
 {
-    throw InvalidInput(Message("io.too_many_parts",
-                               "partitions = {}: the mesh has {} layers, and a part is one layer at least",
-                               found(parts), needed(layers))
-                           .remedy("ask for as many at most"));
+    throw InvalidInput(
+        Message("io.too_many_parts",
+                "partitions = {}: the mesh has {} layers, and each partition needs at least one",
+                found(parts), needed(layers))
+            .remedy("ask for no more than that"));
 }
 
 /// Number of parts of each mesh, if there are more parts than meshes: by its cells.

@@ -141,12 +141,11 @@ void check_skin(const mesh::HexMesh& mesh)
     if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
         !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
         !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
-        throw InvalidInput("io.no_patch",
-                           "a quad of the skin belongs to no patch; every one needs one to be written");
+        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; assign each quad to one");
     std::set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches)
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            throw InvalidInput("io.patch_tag", "the skin {} must have a positive tag of its own",
+            throw InvalidInput("io.patch_tag", "the skin {} must have its own positive tag",
                                numbered("patch", patch.tag));
 }
 

@@ -40,7 +40,7 @@ fs::path resolved(const std::string& path)
 {
     throw InvalidInput(Message("io.no_folder", "the folder '{}' cannot be used: {}", path,
                                std::generic_category().message(error))
-                           .remedy("make it first, or name another place"));
+                           .remedy("create it first, or name another place"));
 }
 
 /// What names beside the place begin with, before the number of the process. Files are `unfinished` that are
@@ -162,7 +162,7 @@ std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
     if (!fs::is_directory(parent, ignored))
         throw InvalidInput(
             Message("io.no_folder", "cannot write '{}': there is no folder '{}'", path_, parent.string())
-                .remedy("make it first, or name another place"));
+                .remedy("create it first, or name another place"));
     return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
 }
 
@@ -253,7 +253,7 @@ std::string WholeFile::unfinished_path() const
 
 void WholeFile::fail(int error)
 {
-    Message failed("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
+    Message failed("io.write_failed", "cannot write '{}': {}. No partial file was left", path_,
                    std::generic_category().message(error));
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
         failed = failed.remedy("make room, or name another disk");

@@ -109,14 +109,13 @@ private:
             const auto [from, to] = fixed_vertices(s);
             if (from.empty())
                 throw NotClosed("matching.vertices_contradict",
-                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or the "
-                                "recipe",
+                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
+                                "match{{ vertices = … }}",
                                 source_loop(s), target_loop(t));
-            throw NotClosed(
-                "matching.vertices_contradict",
-                "no alignment of {} with {} keeps the pairs of vertices that walls or recipe fix: "
-                "{} to {}",
-                source_loop(s), target_loop(t), from, to);
+            throw NotClosed("matching.vertices_contradict",
+                            "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
+                            "match{{ vertices = … }}: {} to {}",
+                            source_loop(s), target_loop(t), from, to);
         }
         const Alignment& best = chosen_[s] = found.front();
         // A loop reversed by the user does not give the direction of the other loops.
@@ -201,7 +200,8 @@ private:
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             const auto [from, to] = fixed_vertices(s);
             throw NotClosed("matching.vertices_contradict",
-                            "the pairs of vertices that walls or recipe fix on {} cross: {} to {}",
+                            "vertex pairs on {} that are fixed by the walls or by match{{ vertices = … }} "
+                            "cross: {} to {}",
                             source_loop(s), from, to);
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
@@ -326,8 +326,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     choose_how(problem);
     const std::vector<Arrangement> pairings = arrange(problem);
     if (pairings.empty()) {
-        throw NotClosed("matching.no_pairs",
-                        "no pairing of the loops keeps the pairs fixed by walls and recipe");
+        throw NotClosed(
+            Message("matching.no_pairs",
+                    "no pairing of the loops keeps the pairs fixed by the walls or by match{{ … }}")
+                .remedy("give fewer pairs"));
     }
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)
@@ -337,11 +339,11 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         result.confidence = sureness(pairings[0].score, pairings[1].score);
         if (result.confidence < kUnsure) {
             result.notes.push_back(
-                Message("matching.other_loops",
-                        "the source loops were paired, in order, with target loops {}, and {} fits about as "
-                        "well",
-                        numbers(pairings[0].target), numbers(pairings[1].target))
-                    .remedy("choose with match{{ loops = … }}"));
+                Message(
+                    "matching.other_loops",
+                    "the source loops were paired, in order, with target loops {}, but {} fits about as well",
+                    numbers(pairings[0].target), numbers(pairings[1].target))
+                    .remedy("to choose, use match{{ loops = … }}"));
         }
     }
     LoopAligner(problem, result).run(pairings.front());

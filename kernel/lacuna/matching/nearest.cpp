@@ -185,7 +185,7 @@ private:
             }
             if (source_.count(l) != target_.count(loop_[l])) {
                 throw NotClosed("matching.edge_counts",
-                                "method \"nearest\": {} has {} edges and {} has {}; it needs as many on both",
+                                "method \"nearest\": {} has {} edges and {} has {}; it needs equal numbers",
                                 source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
                                 found(target_.count(loop_[l])));
             }

@@ -383,11 +383,11 @@ void tell_triangles(PlanarQuads& mesh, std::size_t count)
 
 [[noreturn]] void refuse_rows(std::size_t sides)
 {
-    throw NotSweepable(
-        "surface.odd_region",
-        "a region with {} boundary sides was to be filled with quads and few triangles, and no "
-        "row of quads leads inward from its longest sides",
-        sides);
+    throw NotSweepable(Message("surface.odd_region",
+                               "a region with {} boundary sides needs one triangle besides quads, but no row "
+                               "of quads leads inward from its longest sides",
+                               sides)
+                           .remedy("change the number of sides by one with 'intervals'"));
 }
 
 std::size_t sides_of(const PlanarRegion& region)

@@ -71,7 +71,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
         std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
-        if (!made) throw NotSweepable("surface.pave", "no quads of a coarser region");
+        if (!made) throw NotSweepable("surface.pave", "internal error: the coarser region has no quads");
         report = std::move(made->report);
         return std::move(made->mesh);
     };

@@ -50,7 +50,7 @@ private:
             throw NotSweepable(
                 Message("surface.too_few_layers",
                         "{} and any other edges around the walls lie at {} height(s) between source and "
-                        "target; layers must meet at each height, and layers = {} is too few",
+                        "target, each of which needs a layer boundary; layers = {} is too few",
                         entity_of(model, net_.levels.front().edge), most, found(layers))
                     .remedy("use layers = {} or more", needed(most + 1)));
         }
@@ -332,7 +332,7 @@ private:
             if (edge.valid()) refuse_wall_edge(model, edge, "makes layers overlap", "use more layers");
         }
         const auto given = std::ranges::find(begun.given.side, 1) - begun.given.side.begin();
-        throw NotSweepable(Message("surface.wall_rows", "the mesh that {} came with makes layers overlap",
+        throw NotSweepable(Message("surface.wall_rows", "the given mesh of {} makes layers overlap",
                                    entity_of(model, begun.mesh.face[static_cast<std::size_t>(given)]))
                                .remedy("use more layers"));
     }

@@ -103,9 +103,9 @@ private:
             if (own >= 0 && own != table)
                 throw NotSweepable(
                     Message("surface.layers_meet",
-                            "the boundary layers of {} and of another face of its end are unlike",
+                            "the boundary layers of {} and of another face of the same end differ",
                             entity_of(model_, face))
-                        .remedy("give both one table"));
+                        .remedy("give both the same table"));
             own = table;
         }
     }
@@ -271,14 +271,12 @@ private:
             if (own == table) faces.push_back(face);
         const std::vector<double>& heights = heights_of(table);
         if (there.off > kThicknessOff) {
-            throw NotSweepable(
-                Message(
-                    "sweep.layers_thickness",
-                    "the boundary layers of {} come out {:.2g} thick instead of {:.2g} near {}: there is no "
-                    "room to move their nodes, or these were given",
-                    entity_of(model_, there.face), found(there.off_found), needed(there.off_asked),
-                    place_in_short(there.where))
-                    .remedy("ask for fewer or thinner rows, or for a smaller size"));
+            throw NotSweepable(Message("sweep.layers_thickness",
+                                       "the boundary layers of {} are {:.2g} thick instead of {:.2g} near "
+                                       "{}: their nodes have no room to move, or are given",
+                                       entity_of(model_, there.face), found(there.off_found),
+                                       needed(there.off_asked), place_in_short(there.where))
+                                   .remedy("use fewer or thinner rows, or a smaller size"));
         }
         lines.push_back(
             formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "

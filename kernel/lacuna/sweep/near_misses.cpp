@@ -150,13 +150,12 @@ private:
     {
         if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
         const double width = std::max(overlap.gap, overlap.depth);
-        throw InvalidInput(
-            Message("assembly.crack",
-                    "{} of {} and {} of {} are one face for part of what they have over each other and up to "
-                    "{:.2g} apart for the rest, at {}, so the two meshes would open there as a crack",
-                    entity_in(one_, faces.first), one_.region, entity_in(other_, faces.second), other_.region,
-                    found(width), place_in_short(overlap.box.center()))
-                .remedy("give both models tolerance = {:.2g}", needed(joining(faces, width))));
+        throw InvalidInput(Message("assembly.crack",
+                                   "{} of {} and {} of {} coincide in part and are up to {:.2g} apart "
+                                   "elsewhere, at {}, so the two meshes would leave a crack",
+                                   entity_in(one_, faces.first), one_.region, entity_in(other_, faces.second),
+                                   other_.region, found(width), place_in_short(overlap.box.center()))
+                               .remedy("give both models tolerance = {:.2g}", needed(joining(faces, width))));
     }
 
     [[nodiscard]] double joining(const Faces& faces, double width) const

@@ -161,21 +161,19 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     if (!spec.heights.empty()) {
         throw InvalidInput(
             Message("sweep.layers",
-                    "sweep: option 'layers' gives heights, and boundary layers of an end give others")
-                .remedy("leave out one of them"));
+                    "sweep: option 'layers' gives heights, and so do the boundary layers of an end")
+                .remedy("leave one of them out"));
     }
     if (spec.count == 0) {
-        throw NotSweepable(
-            Message("sweep.layers",
-                    "quads that walls came with give the heights of layers, and boundary layers "
-                    "of an end give others")
-                .remedy("leave the end out of 'boundary_layers'{}",
-                        options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
+        throw NotSweepable(Message("sweep.layers", "given quads of walls determine the heights of layers, "
+                                                   "and so do the boundary layers of an end")
+                               .remedy("leave the end out of 'boundary_layers'{}",
+                                       options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
     }
     if (spec.count <= taken) {
         throw InvalidInput(
             Message("sweep.layers",
-                    "sweep: option 'layers' asks for {}, and boundary layers of the ends take {} of them",
+                    "sweep: option 'layers' asks for {}, but the boundary layers of the ends already take {}",
                     found(spec.count), taken)
                 .remedy("ask for {} or more, or leave it out", needed(taken + 1)));
     }
@@ -214,12 +212,11 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
     }
     const double below = low.empty() ? 0 : low.back(), above = high.empty() ? 0 : high.back();
     if (!(below + above < columns.length)) {
-        throw NotSweepable(
-            Message(
-                "sweep.layers_room",
-                "the boundary layers of the ends are {:.2g} high in all, and source and target {:.2g} apart",
-                needed(below + above), found(columns.length))
-                .remedy("ask for fewer or thinner ones"));
+        throw NotSweepable(Message("sweep.layers_room",
+                                   "the boundary layers of the ends are {:.2g} high in total, but source and "
+                                   "target are only {:.2g} apart",
+                                   needed(below + above), found(columns.length))
+                               .remedy("use fewer or thinner ones"));
     }
     const double from = below / columns.length, to = 1 - above / columns.length;
     const int taken = static_cast<int>(low.size() + high.size());

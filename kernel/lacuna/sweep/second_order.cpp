@@ -19,9 +19,9 @@ void check_amount(const mesh::HexMesh& mesh)
     const std::size_t all = (2 * index(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
     throw InvalidInput(Message("sweep.too_many",
-                               "a mesh of order 2 would take {} numbers of nodes, more than there are",
+                               "a mesh of order 2 would need {} node numbers, more than there are",
                                found(all))
-                           .remedy("ask for a larger 'size' or fewer 'layers'"));
+                           .remedy("use a larger 'size' or fewer 'layers'"));
 }
 
 /// The quality of a mesh whose nodes are generated on demand, and these nodes; empty if cells are not valid.

@@ -56,9 +56,10 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                   quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
     swept.quality = quality;
     if (quality.min_scaled_jacobian < options.min_scaled_jacobian) {
-        throw NotSweepable("quality.below_limit",
-                           "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
-                           found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian));
+        throw NotSweepable(Message("quality.below_limit",
+                                   "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
+                                   found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian))
+                               .remedy("use a smaller size, or order = 1"));
     }
     const FinerSkin fine = finer_skin(swept.skin());
     swept.fidelity = compare(shape, fine.mesh, result.faces, kept, quality.volume,
@@ -196,7 +197,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
         throw NotSweepable(Message("surface.sides_asked",
                                    "intervals: {} asks for {} layers, and option 'layers' for {}",
                                    layers->name, found(layers->count), found(count))
-                               .remedy("leave out one of them"));
+                               .remedy("leave one of them out"));
     }
     spec.count = layers->count;
     // Edges run from the end at which the sweep starts; layers run from the source named by the user.
