@@ -235,7 +235,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
 
 void LinkingMap::measure_heights(const Model& model)
 {
-    // Columns up the walls and steps along each; heuristic.
+    // Number of columns along the walls, and of steps along each; heuristic.
     constexpr std::size_t kColumns = 16, kSteps = 64;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {

@@ -31,10 +31,11 @@ namespace {
 
 /// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
-/// Rim points per side of the requested size: more resolve size changes better and cost time. Not measured.
+/// Rim points per side of the requested size. More points find changes of the size that are shorter than a
+/// side, at a cost in time. Not measured.
 constexpr double kPointsPerSide = 4;
-/// Maximum distance of rim points in units of the size there. Halfway between two points the size is a third
-/// larger. Heuristic.
+/// Maximum distance of neighbouring rim points [multiples of the size there]. Halfway between two points the
+/// size is then at most a third too large. Heuristic.
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;

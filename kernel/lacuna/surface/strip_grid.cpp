@@ -127,8 +127,8 @@ private:
         return column_heights(at_layer);
     }
 
-    /// Position of each node in the strip: vertical columns and layers shifted to the plain rings, then moved
-    /// so that nodes coincide with the net's stops.
+    /// Place each node in the strip: first columns are vertical and layers follow the plain rings; then nodes
+    /// move onto the net's stops.
     void lay_grid()
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());

@@ -32,8 +32,8 @@ struct StripGrid {
     std::vector<std::size_t> stops;        ///< node at each stop of the net
 };
 
-/// Position of each node in the strip: vertical columns and layers shifted to the plain rings, then moved so
-/// that nodes coincide with the net's stops. The displacement of the others is harmonic over the grid.
+/// Position of each node in the strip: first columns are vertical and layers follow the plain rings; then
+/// nodes move onto the net's stops. The displacement of the other nodes is harmonic over the grid.
 /// @param map  of the linking surface; null if the side lines alone determine the positions.
 /// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
 StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,

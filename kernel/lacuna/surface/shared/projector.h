@@ -21,7 +21,7 @@ struct FacetPosition {
 struct FacetSet {
     std::vector<Triangle> triangles;
     std::vector<FaceId> face;  ///< of each facet
-    std::vector<Index> number; ///< of each facet in its face
+    std::vector<Index> number; ///< index of each facet in its face
 };
 
 FacetSet facet_set(const topology::Model& model, std::span<const FaceId> faces);

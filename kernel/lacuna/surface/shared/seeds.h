@@ -96,7 +96,7 @@ struct Seeds {
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
-    /// The piece of its edge that a rim segment corresponds to.
+    /// The piece of the source edge to which a rim segment corresponds.
     [[nodiscard]] std::size_t piece_of(const LinkingSurface& link, const RimSegment& segment) const;
     /// The nodes of a linking surface, on the source's rim and on the target's.
     [[nodiscard]] LinkingNodes nodes(const LinkingSurface& link) const;
