@@ -106,8 +106,8 @@ double lean_of(const OpenVolume& volume)
     return geometry::angle_between(facing(source), facing(target));
 }
 
-/// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
-/// angles. A lower value bends more closings that were meant to be straight.
+/// Above this angle, ends without walls are closed by a bend, because straight edges would meet both ends at
+/// small angles. Between kLean and this angle they are closed straight.
 constexpr double kBend = 100 * kDegree;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * kDegree;

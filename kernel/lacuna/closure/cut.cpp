@@ -159,7 +159,7 @@ private:
         return flat_places(plane_, use_places(model_, uses));
     }
 
-    /// For each open line, the line whose start its end is connected to. The straight connections have the
+    /// For each open line, the line that continues it after a straight connection. The connections have the
     /// least total length and cross nothing. Empty if there is no such order, or if there are too many lines.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {

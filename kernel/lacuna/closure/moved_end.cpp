@@ -219,7 +219,8 @@ private:
     bool add_tube(const Rim& rim)
     {
         const Model& model = volume_.model;
-        if (free_rims_.size() != 1) return false; // which of several it is remains ambiguous
+        // Several free rims: it is ambiguous which one belongs to the tube.
+        if (free_rims_.size() != 1) return false;
         const std::vector<Vec3> low = use_places(model, rim.uses),
                                 high = use_places(model, free_rims_[0].uses);
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
@@ -411,7 +412,7 @@ private:
 
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
-/// @param stop  out: set if the missing faces exist already
+/// @param stop  output: set if the missing faces exist already
 std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, bool& stop,
                                  const RunContext& context)
 {

@@ -42,8 +42,8 @@ bool detours(const Void& v)
     });
 }
 
-/// The void that flat faces close, if they are not one per free loop or the ends are congruent.
-/// @param told  whether a void without ambiguous bends is known: then no channel is assumed
+/// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
+/// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {

@@ -25,8 +25,8 @@ namespace {
 
 /// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
-/// Maximum turn of a smooth curve's tangents, 3/4 of a circle. The handles become infinite at a full one; a
-/// higher value lets curves bulge further.
+/// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. At a full
+/// circle the handles become infinite.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
 
 // --- gaps ---------------------------------------------------------------------------------------------

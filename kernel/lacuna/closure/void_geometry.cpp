@@ -104,8 +104,8 @@ struct QuadraticHeight {
 /// conic do not determine the height inside.
 std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
 {
-    // Least over largest eigenvalue. Ellipses are below 1e-4, slots 1.5 times as long as wide at 9e-4, longer
-    // ones up to 5e-3.
+    // Ratio of the smallest to the largest eigenvalue below which many quadratic heights fit. Ellipses are
+    // below 1e-4, slots 1.5 times as long as wide at 9e-4, longer ones up to 5e-3.
     constexpr double kManyConics = 7e-4;
     struct Sample {
         Vec2 place;
