@@ -62,7 +62,7 @@ struct UnlikeNeighbour : Error {
     using Error::Error;
 };
 
-/// A member could not be swept, either alone or with the meshes of its neighbours.
+/// A member could not be swept, either alone or together with the meshes of its neighbours.
 struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
@@ -318,9 +318,9 @@ private:
         return shared;
     }
 
-    /// Faces whose mesh follows from their rims alone are left to the member itself, and the result is
-    /// checked. Other meshes of neighbours are copied to it; all are copied if the member arrived at a
-    /// different mesh.
+    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
+    /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
+    /// differ, all meshes are copied.
     void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
                    const std::vector<std::size_t>& touching)
     {
@@ -522,7 +522,7 @@ private:
                 patch.groups = found->second;
     }
 
-    /// Prefix groups of roles with the member's name.
+    /// Put the member's name before the groups of roles.
     static void add_member_name(const std::string& name, mesh::SkinPatch& patch)
     {
         std::vector<std::string> groups;

@@ -57,7 +57,7 @@ struct NearMiss {
     double area = 0;                        ///< of the faces within that distance [model length²]
     double length = 0;                      ///< of the edge within that distance [model length]
     double tolerance = 0;                   ///< of both models that would join the faces [model length]
-    Message message{"assembly.near_miss", "a near miss"}; ///< the above as a note
+    Message message{"assembly.near_miss", "a near miss"}; ///< the fields above as a note
 };
 
 /// The faces shared by members: the same surface within the tolerance, with any facets; or void faces with
@@ -84,10 +84,11 @@ struct SweptAssembly {
     /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
     /// earlier part has keeps its number.
     std::vector<std::vector<Index>> number;
-    std::vector<mesh::NodeNumbers> numbering; ///< the same; used alone if parts do not hold their nodes
-    std::size_t nodes = 0;                    ///< of the whole mesh
-    std::vector<SharedFace> shared;           ///< faces with common quads; `a` and `b` index `parts`
-    std::vector<NearMiss> near_misses;        ///< `a` and `b` index `parts`
+    /// The same numbers in compact form; used alone if parts do not hold their nodes.
+    std::vector<mesh::NodeNumbers> numbering;
+    std::size_t nodes = 0;             ///< of the whole mesh
+    std::vector<SharedFace> shared;    ///< faces with common quads; `a` and `b` index `parts`
+    std::vector<NearMiss> near_misses; ///< `a` and `b` index `parts`
     /// A line for each shared face and each near miss, and the order of meshing.
     std::vector<std::string> report;
 };

@@ -27,7 +27,7 @@ constexpr int kRounds = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
-/// A column that holds a node at a height: one wall's, or two walls' where rows cross.
+/// Constraint of a node to heights over a wall, or over two walls where rows cross.
 struct Hold {
     std::size_t column;
     double height;
@@ -400,7 +400,8 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        constexpr double kSameWay = 1e-3; // treats nearly tangent walls as one; not measured
+        // Tangent walls with a smaller angle [radian] count as one; not measured.
+        constexpr double kSameWay = 1e-3;
         if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);

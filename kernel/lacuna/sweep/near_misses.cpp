@@ -33,7 +33,7 @@ constexpr double kPart = 0.05;
 /// Vertices of two rims correspond if their distance is at most this factor times that of the rims: corners
 /// of 30° differ by twice the distance of their sides.
 constexpr double kCorner = 4;
-/// Faces are only partly joined if more than this share of the contact is apart.
+/// If more than this share of the contact area is apart, the faces are joined only in part.
 constexpr double kApart = 0.05;
 /// If a face covers part of another, corners are moved onto it within the tolerance, and along its rim within
 /// the tolerance too, so they may be off by √2 times the tolerance.

@@ -103,7 +103,7 @@ std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int 
     return layer_heights(spec);
 }
 
-/// Sides wanted up to a share of the columns.
+/// Number of sides wanted from the source up to a share of the columns' length.
 double wanted_at(const Columns& columns, double share)
 {
     const double at = share * kSamples;
@@ -111,7 +111,7 @@ double wanted_at(const Columns& columns, double share)
     return columns.wanted[i] + (at - static_cast<double>(i)) * (columns.wanted[i + 1] - columns.wanted[i]);
 }
 
-/// Heights between two shares of the columns that follow the size.
+/// Heights of layers between two shares of the columns' length, spaced by the size.
 std::vector<double> following_heights(const Columns& columns, double from, double to, int least)
 {
     const double low = wanted_at(columns, from), high = wanted_at(columns, to);
@@ -129,7 +129,7 @@ std::vector<double> following_heights(const Columns& columns, double from, doubl
     return heights;
 }
 
-/// Table of an end; empty: none.
+/// Boundary layers of an end as heights; empty: none.
 std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTables& tables, Role end)
 {
     for (const auto& [face, table] : tables.of) {
@@ -138,7 +138,7 @@ std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTabl
     return {};
 }
 
-/// Whether heights that walls give have the rows of the ends already.
+/// Whether the heights that given meshes of walls prescribe already contain the boundary layers of the ends.
 bool has_rows(const std::vector<double>& heights, const std::vector<double>& low,
               const std::vector<double>& high, double length)
 {
@@ -154,7 +154,7 @@ bool has_rows(const std::vector<double>& heights, const std::vector<double>& low
            has(high, [&](std::size_t j) { return 1 - heights[heights.size() - 1 - j]; });
 }
 
-/// The layers between those of the ends, over the whole of what these leave: from 0 to 1.
+/// Layers between the boundary layers of both ends, as heights from 0 to 1 over the remaining length.
 std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions& options, int taken)
 {
     LayerSpec spec = options.layers;

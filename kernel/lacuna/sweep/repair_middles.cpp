@@ -192,7 +192,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         "The middle node of a side on {} belongs at {}, {:.2g} off a side of {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
-    // The size that the bend requires was found to help if the straight cell is good.
+    // If the straight cell is good, the bend is the cause, and the size that the bend requires will help.
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is poor with straight sides already: its scaled Jacobian is {:.2g}", found(straight)));

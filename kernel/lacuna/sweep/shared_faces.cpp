@@ -34,8 +34,8 @@ constexpr double kRimSag = 1.5;
 /// Faces that touch along a rim and curve away from each other are within the facet error for a smaller
 /// share.
 constexpr double kAlongRim = 0.5;
-/// Points within this share of a volume's diagonal from its skin lie on it, because facets of curved faces
-/// differ.
+/// Points count as lying on a volume's skin within this share of its diagonal, because the facets of its
+/// curved faces and of the neighbour's may differ.
 constexpr double kInside = 5e-3;
 /// A face prepared for comparison.
 struct Side {
@@ -160,7 +160,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // Faces on both sides of a curve for which they have different chords.
+        // The faces lie on both sides of one curve, which they approximate by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);

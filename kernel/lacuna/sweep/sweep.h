@@ -80,7 +80,7 @@ struct Beside {
     std::set<FaceId> between{};
     /// Faces whose quads a neighbour made: they are kept in any style.
     std::set<FaceId> handed{};
-    /// Whether the volume came with a mesh of its own, as far as is known: it could be loaded without.
+    /// Whether the volume has given meshes of its own, as far as known: it could then be loaded without them.
     bool own_mesh = true;
 };
 
@@ -122,7 +122,7 @@ struct SweepOptions {
     SecondOrderOptions second_order; ///< of order 2
     double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
     bool improve = true;             ///< move nodes of folded or poor cells
-    ImproveOptions improving;        ///< how far
+    ImproveOptions improving;        ///< limits of that improvement
     Beside beside;                   ///< of volumes in an assembly, which sets it
     /// Whether nodes of layers may be generated when they are written: `Swept::layers`.
     bool layered = false;
@@ -152,7 +152,7 @@ struct Swept {
     /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
     /// They are logged as well, once, for an assembly by the caller that sweeps the whole.
     std::vector<std::string> defaults;
-    std::vector<std::string> notes;    ///< on a changed volume, logged likewise but after "note: "
+    std::vector<std::string> notes;    ///< lines on a changed volume; logged likewise, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }

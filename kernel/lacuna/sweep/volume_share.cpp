@@ -41,7 +41,8 @@ constexpr double kLonger = 1.35;
 /// Upper bound of the mean elongation of quads on an end, √(area / projected area): steeper ends, such as
 /// most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// An end may close its grid with fewer rim sides than the size asks for, by this factor: 16 instead of 24.
+/// Factor by which an end may have fewer rim sides than the size asks for, so that its grid closes: 16
+/// instead of 24.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
@@ -181,7 +182,7 @@ public:
         }
     }
 
-    /// Relative volume error of a mesh against the walls; negative: the mesh encloses less.
+    /// Relative volume error of a mesh compared with the walls; negative: the mesh encloses less.
     /// @param layers  0: as many as there are rows.
     [[nodiscard]] double off(const Sides& sides, int layers) const
     {
@@ -349,7 +350,7 @@ private:
         walls_ = nullptr;
     }
 
-    /// The share that remains after that of curvature along the sweep.
+    /// The allowed error that remains after subtracting that of curvature along the sweep.
     [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
 
     /// Whether the sides suffice on the rims and, if the walls bend between the rims, on the walls.
