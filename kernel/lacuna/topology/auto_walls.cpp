@@ -250,7 +250,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     Model oriented = model;
     orient_consistently(oriented);
     const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
-    const auto faces_as_end = [&](FaceId face) { // and is flat
+    const auto faces_as_end = [&](FaceId face) { // a flat face with the end's normal
         return face_area_vector(oriented, face).dot(way) > (1 - kFlatShare) * face_area(oriented, face);
     };
     if (!std::ranges::all_of(end, faces_as_end)) return result;

@@ -26,7 +26,7 @@ constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
 struct RimNode {
-    Index point = -1; ///< of the model
+    Index point = -1; ///< index of a point of the model
     double at = 0;    ///< running length on the loop
 };
 
