@@ -108,7 +108,8 @@ void check_content(const std::string& name, const FormatRow& format, std::string
     const std::string_view ending = ending_by_content(bytes);
     if (ending.empty() || ending == format.ending) return;
     const Format* const other = find_format("file" + std::string(ending));
-    if (other != nullptr && row_of(*other).read == format.read) return; // several endings mean the same
+    // Several endings can mean the same format.
+    if (other != nullptr && row_of(*other).read == format.read) return;
     throw InvalidInput(Message("io.unreadable", "cannot read {}, line 1: expected {}, found {}", name,
                                format.name,
                                found(other != nullptr ? std::string(other->name)
@@ -135,8 +136,8 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Points sorted along x: within the tolerance there can be as many as in a plane normal to x; of these,
-    // the ones near in y are found by bisection too.
+    // Points are sorted along x. Within the tolerance there can be as many as lie in a plane normal to x;
+    // among these, bisection finds the ones near in y.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };

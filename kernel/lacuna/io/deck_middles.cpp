@@ -108,7 +108,7 @@ std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3
     }
     std::vector<Vec3> middles(wanted.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     const std::vector<Index> found = find_middles<N>(deck, all);
-    for (std::size_t i = found.size(); i-- > 0;) // of several the first stays
+    for (std::size_t i = found.size(); i-- > 0;) // backwards, so that the first of several wins
         if (found[i] >= 0) middles[of[i]] = deck.points[index(found[i])] * scale;
     return middles;
 }

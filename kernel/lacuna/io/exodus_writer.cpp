@@ -45,7 +45,7 @@ void put_name(std::string& out, std::string_view name)
 struct Attribute {
     std::string name;
     NcType type;
-    std::string values{}; ///< as they lie in the file
+    std::string values{}; ///< bytes as in the file
     std::size_t count = 1;
 };
 
@@ -121,7 +121,7 @@ public:
         std::vector<Section> sections(1);
         for (Array& array : arrays_) {
             const std::size_t bytes = array.count * bytes_of(array.type);
-            constexpr std::size_t kMost = 0xffff'fffb; // what the format's counts of bytes hold
+            constexpr std::size_t kMost = 0xffff'fffb; // largest byte count that the format can store
             if (bytes > kMost)
                 throw InvalidInput(Message("io.too_large",
                                            "{} would have {} bytes, more than a netCDF array can hold",
@@ -141,7 +141,7 @@ public:
         return sections;
     }
 
-    static constexpr int kTimeStep = 0; ///< the first dimension, whose length is that of the records: none
+    static constexpr int kTimeStep = 0; ///< the record dimension comes first; it has no records
 
 private:
     struct Array {

@@ -131,7 +131,7 @@ char* put_point(char* out, const Vec3& point)
 
 std::vector<Section> stl_text(const Skin& skin)
 {
-    constexpr std::size_t kWords = 100; // of a facet, besides its numbers
+    constexpr std::size_t kWords = 100; // bytes of the words around a facet's numbers
     return {{"solid volume\n", skin.triangles.size(), kWords + 12 * kNumberBytes,
              [&skin](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = begin; i < end; ++i) {

@@ -99,7 +99,7 @@ private:
         const auto take = [&](std::span<const Index> points, Index region) {
             Quad nodes{-1, -1, -1, -1};
             const std::size_t corners = points.size();
-            bool all = true; // corners are the skin's
+            bool all = true; // whether all corners lie on the skin
             for (std::size_t k = 0; k < corners; ++k) {
                 nodes[k] = node_of_[index(points[k])];
                 all = all && nodes[k] >= 0;
@@ -138,7 +138,7 @@ private:
         }
     }
 
-    using Votes = std::vector<std::array<Index, 2>>; ///< two different points at most, of each node
+    using Votes = std::vector<std::array<Index, 2>>; ///< for each node, at most two different points
 
     static void vote(Votes& votes, Index node, Index point)
     {
@@ -231,10 +231,11 @@ private:
     std::vector<Index> skin_;                        ///< nodes of the mesh
     NodesAt at_;                                     ///< of these
     std::vector<std::span<const Index>> candidates_; ///< of each node of the mesh, in `at_`
-    std::vector<Index> node_of_;                     ///< of each of the deck's points the mesh's node; -1
+    /// Node of the mesh at each of the deck's points; -1: none.
+    std::vector<Index> node_of_;
     Votes by_face_, by_side_;
     std::vector<bool> matched_;         ///< quads of the skin
-    std::vector<std::size_t> touching_; ///< faces of each region that are the skin's
+    std::vector<std::size_t> touching_; ///< for each region, number of its faces on the skin
 };
 
 } // namespace

@@ -88,8 +88,8 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.notes, more.notes);
 }
 
-/// The entities of one model and after them those of another, without their loops; face, edge and vertex tags
-/// count on.
+/// The entities of one model followed by those of another, without loops. Tags of faces, edges and vertices
+/// of the second follow the highest of the first.
 topology::Model joined(topology::Model first, topology::Model second)
 {
     topology::ModelBuilder model(std::move(first)), more(std::move(second));
@@ -193,7 +193,7 @@ public:
 private:
     const std::vector<std::string>& parts_;
     std::vector<bool> found_;
-    std::vector<Deck> names_; ///< what the decks have, for the message
+    std::vector<Deck> names_; ///< all part names of the decks, for the message
 };
 
 /// The facets of files as faces, before stitching.
@@ -240,7 +240,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;
-    constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
+    constexpr double kMostTolerance = 0.01; // share of the diagonal: a larger tolerance joins separate parts
     if (model.tolerance > kMostTolerance * model.diagonal) {
         throw InvalidInput(Message("io.tolerance",
                                    "the tolerance {:.6g} exceeds a hundredth of the model's diagonal "

@@ -229,7 +229,7 @@ private:
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
         DeckSet cells;
-        cells.listed = added_.region >= 0; // for several pieces
+        cells.listed = added_.region >= 0; // so that several pieces can extend it
         for (std::size_t c = 0; c < mesh_.cell_count() && joins(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -252,8 +252,8 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may join a set: not if its section would give them a second material or, where each
-    /// of several decks has one for all its cells, a second section.
+    /// Whether the cells may join a set. They must not if its section would give them a second material, or a
+    /// second section if several decks each have one for all their cells.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
@@ -319,7 +319,7 @@ private:
         });
     }
 
-    /// Nastran's cards and case control refer to some sets by number, so these sets are not changed.
+    /// Report sets that were not changed because Nastran's cards or case control refer to them by number.
     void tell_kept_sets() const
     {
         if (!joins() || deck_.format != DeckFormat::nastran) return;
@@ -497,7 +497,8 @@ private:
                            known.empty() ? "no materials"
                                          : formatted("the materials {}", short_list(known, std::identity())));
     }
-    static constexpr const char* kSkin = "\n"; // keeps keys of skin and cell groups apart; in no name
+    // Separates keys of skin groups from those of cell groups; occurs in no name.
+    static constexpr const char* kSkin = "\n";
 
     [[nodiscard]] std::string volume() const
     {

@@ -51,7 +51,7 @@ void write_view(const FormatRow& format, const View& view, const mesh::ViewParts
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// Write the view of swept meshes, in parts where these are asked for or the format has only pieces.
+/// Write the view of swept meshes; in parts if that is requested or if the format consists of pieces.
 template <class PartsOf>
 void write_divided(const FormatRow& format, const View& view, const PartsOf& parts_of_view,
                    const MeshFileOptions& options, const OutputPath& path, const RunContext& context,
@@ -77,7 +77,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
         context, team);
 }
 
-/// Write a swept mesh. @param readers  makes the readers of its fields, which decks have not
+/// Write a swept mesh. @param readers  makes the readers of its fields, which decks do not have
 template <class Readers>
 void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_ptr<const NodeReader> nodes,
                  const Readers& readers, const OutputPath& path, const MeshFileOptions& options,

@@ -258,7 +258,7 @@ std::string head_of(const char* kind, const char* object, const std::string& not
                      kind, note.empty() ? "" : formatted("    note        \"{}\";\n", note), object);
 }
 
-/// A list of `count` entries, one a line, each of at most `numbers` numbers.
+/// A list of `count` entries, one per line, each of at most `numbers` numbers.
 std::vector<Section> list(const std::string& head, std::size_t count, std::size_t numbers, Fill fill)
 {
     return {{head + std::to_string(count) + "\n(\n", count, numbers * kNumberBytes + 4, std::move(fill)},

@@ -92,10 +92,10 @@ void WholeFolder::commit()
     }
 #ifdef RENAME_EXCHANGE
     if (::renameat2(folder, unfinished_.c_str(), folder, name_.c_str(), RENAME_EXCHANGE) == 0)
-        return remove_unfinished(); // which is now the old folder
+        return remove_unfinished(); // now the old folder
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
-    // The file system cannot exchange names: between the two renames no folder is in place.
+    // The file system cannot exchange names, so between the two renames there is no folder at the path.
     const std::string before = unfinished_ + "-before";
     if (::renameat(folder, name_.c_str(), folder, before.c_str()) != 0) fail(errno);
     if (::renameat(folder, unfinished_.c_str(), folder, name_.c_str()) != 0) {

@@ -18,9 +18,9 @@ namespace lacuna::io {
 /// Position in a deck of the cells of a mesh that it does not store.
 struct BulkPlace {
     DeckTag first_node = 1;          ///< number of the first node of the whole mesh; the others follow
-    DeckTag first_cell = 1;          ///< number of the first; the others follow
-    Index region = 0;                ///< of all of them
-    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all of them, increasing
+    DeckTag first_cell = 1;          ///< number of the first cell; the others follow
+    Index region = 0;                ///< region of all cells
+    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all cells, increasing
     DeckTag highest = 0;             ///< highest cell number of earlier meshes
 };
 
