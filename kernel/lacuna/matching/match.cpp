@@ -21,14 +21,16 @@ using namespace topology;
 
 namespace {
 
-/// Below this confidence the second best alignment is reported too: its residual is then at most a third
-/// larger than the best. A higher value reports more alternatives that are unlikely to be meant.
+/// Confidence below which the second best alignment is reported too: its residual is then at most a third
+/// larger than the best.
 constexpr double kUnsure = 0.25;
-/// Below this confidence, equal numbers of given sides outweigh a fit up to 2.5 times as good that rotates as
-/// much or more. Ring sectors whose outer end is eight times as far out as the inner need a value this high.
+/// Confidence below which an alignment with equal numbers of given sides is preferred to one that fits up to
+/// 2.5 times as well but rotates as much or more. Ring sectors whose outer end is eight times as far out as
+/// the inner one need this.
 constexpr double kUnsureBesideSides = 0.6;
-/// The same confidence against a fit that rotates less, and the difference in rotation that is ignored, as a
-/// share of half a turn. Both are small, so that a plain prism is not twisted to suit its target mesh.
+/// Confidence below which it is preferred even to one that rotates less; and the difference in rotation that
+/// is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to suit its
+/// target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// Confidence that the best score is right: 1 − best / second best.
@@ -160,8 +162,8 @@ private:
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Shift a loop paired by length to the best fit of all the others, unless its samples are given nodes.
-    /// Other loops that can still shift count by their centroids, weighted like a loop.
+    /// Shift a loop that is paired by length to the best common fit with all others, unless its samples are
+    /// given nodes. Other loops that can still shift count by their centroids, with the weight of a loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);

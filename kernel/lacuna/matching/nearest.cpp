@@ -18,8 +18,8 @@ using namespace topology;
 
 namespace {
 
-/// Step 7: distances within this many standard deviations of the mean are no outliers, and at least this
-/// share must be none. Both are the paper's.
+/// Step 7: distances within this many standard deviations of the mean are not outliers, and at least this
+/// share of all distances must lie there. Both values are the paper's.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -124,8 +124,8 @@ private:
         return best;
     }
 
-    /// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the
-    /// nearest source vertex of each target vertex that has no partner or several.
+    /// Steps 4 and 5: find the nearest target vertex of each source vertex. If that is not one-to-one, find
+    /// the nearest source vertex of each target vertex that has several partners or none.
     void match_vertices()
     {
         std::vector<int> met(target_.vertex.size(), 0);
