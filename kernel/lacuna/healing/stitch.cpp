@@ -393,8 +393,8 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // Collect the sides that get points first, with the points before merging and the numbers they merge
-    // into.
+    // For each facet side that gets points: its end points and new points, with the point numbers from before
+    // merging, and the numbers they are merged into. All are collected before any is changed.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;
@@ -463,7 +463,8 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
     return bundles;
 }
 
-/// Merge two free edges further apart than the tolerance if they are close relative to their length.
+/// Merge two free edges that are further apart than the tolerance, if their distance is small relative to
+/// their length.
 void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
 {
     std::vector<Bundle*> free;
