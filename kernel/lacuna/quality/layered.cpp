@@ -31,7 +31,7 @@ std::vector<Slab> slabs_of(const HexMesh& mesh)
     return slabs;
 }
 
-/// Compute the slabs of this process one by one, and call `visit(slab, its cells as a mesh)`.
+/// Compute the slabs of this process one by one; for each, call `visit(slab, its cells as a mesh)`.
 template <class Visit>
 void each_slab(const LayeredMesh& layered, std::span<const Slab> slabs, const Team* team,
                const RunContext& context, const Visit& visit)
