@@ -485,7 +485,7 @@ void Worker::release(std::uint64_t handle) noexcept
         }
         const std::unique_lock lock(busy_, std::try_to_lock);
         if (lock && !ended_) flush_released();
-    } catch (...) { // The process ended, or memory is exhausted; the next request notices.
+    } catch (...) { // the process ended, or memory is exhausted; the next request notices it
     }
 }
 
