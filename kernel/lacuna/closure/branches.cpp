@@ -29,8 +29,8 @@ using namespace topology;
 
 namespace {
 
-/// Walls turn inward at a mouth by more than this [degrees]. A lower value takes the facets of a bent wall
-/// for mouths; a higher one misses branches that leave at a small angle.
+/// Angle by which walls turn inward at a mouth [degrees]: above the angle between facets of a bent wall,
+/// below that of a branch that leaves obliquely.
 constexpr double kConcave = 15;
 /// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
@@ -39,13 +39,12 @@ constexpr double kDeepest = 0.5;
 /// to each other; a lower one lets branches to different sides share a plane.
 constexpr double kSameSide = 0.87;
 /// A face at the mouth is an end of its branch, not a wall, if the cosine between its normal and the branch
-/// is above this (44°). A lower value refuses branches with strong taper; a higher one takes slanted ends for
-/// walls.
+/// is above this (44°): about half way between an end square to the branch and a wall along it.
 constexpr double kAlongWay = 0.72;
 /// Lines along a main body closer than this share of its widest mouth are merged, as they would bound a
 /// sliver. A higher value moves lines further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Chords of the dip, a parabola: each has a sag of 1/256 of its depth. More chords cost facets.
+/// Number of chords of the dip, a parabola: each has a sag of 1/256 of its depth.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges.

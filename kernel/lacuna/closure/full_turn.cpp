@@ -26,9 +26,8 @@ namespace {
 /// Planes tried through each principal axis. Straight rings with up to as many sides are cut near the middle
 /// of a side.
 constexpr int kDirections = 8;
-/// Section lengths that differ by less than this share are equal, and the plane found first is tried first.
-/// Otherwise the facets of round walls would decide, as they are closer to the axis in their middles. A
-/// higher value may take a longer cut.
+/// Section lengths that differ by less than this share count as equal, and the plane found first is tried
+/// first. Otherwise the sag of facets would decide between planes through a round wall.
 constexpr double kAsShort = 0.02;
 
 /// Sections used to measure the length of the turn. With these, the chords of a half circle are short by

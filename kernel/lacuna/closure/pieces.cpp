@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// A cut is across the sweep if the cosine between its normal and the source's exceeds this (26°). A lower
-/// value takes slanted cuts for ends; a higher one takes them for walls.
+/// A cut is across the sweep, and so an end of its pieces, if the cosine between its normal and the source's
+/// exceeds this (26°); otherwise it is a wall.
 constexpr double kAcross = 0.9;
 
 /// A piece, in the common model.

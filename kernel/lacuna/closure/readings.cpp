@@ -19,14 +19,13 @@ using namespace topology;
 
 namespace {
 
-/// Number of candidates that are sealed, which takes some tenths of a second for 10,000 facets. A lower
-/// number may miss a void; a higher one costs time in proportion.
+/// Limit of candidates that are sealed, the likeliest first: some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
 /// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
 /// costs time in proportion.
 constexpr std::size_t kMostTried = 50;
-/// Cost of closing by flat faces that are not one per free loop: that of a missing end in
-/// `topology::role_candidates()`. A lower value prefers such closings to candidates of the given faces.
+/// Cost of closing by flat faces that are not one per free loop, compared with candidates of the given faces:
+/// as for a missing end in `topology::role_candidates()`.
 constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle.
