@@ -16,9 +16,8 @@ namespace {
 
 using namespace paving;
 
-/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves
-/// but heights are measured square to the side, so zero would reject valid input; a larger share accepts more
-/// uneven rows.
+/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves,
+/// but heights are measured square to the side, so the two differ slightly.
 constexpr double kOffHeight = 0.05;
 
 /// A loop while rows are placed along it.

@@ -16,8 +16,7 @@ constexpr double kPi = std::numbers::pi;
 /// equal quads. A larger bulge flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
 /// Distances of the block's corners and of the middles of its sides, as shares of the distance to the
-/// boundary. Larger values leave less room for the quads around the block, smaller ones make the quads around
-/// it larger than those inside.
+/// boundary. With a half, the quads around the block get about the size of those inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
 /// Distance from the centre to the boundary in a direction: the least within an eighth of a turn on either

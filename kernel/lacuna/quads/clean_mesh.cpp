@@ -16,8 +16,8 @@ namespace {
 /// this. The bound exceeds 0.5 so that half way between two numbers either is accepted; larger values leave
 /// more distorted corners.
 constexpr double kFits = 0.65;
-/// Loss of a quad whose area is off by a factor e, per squared logarithm of e, and the logarithm used for a
-/// folded quad. A larger kSizeLoss favours sizes over shapes.
+/// Weight of size against shape: the loss of a quad whose area is off by a factor e, quadratic in the
+/// logarithm of the factor; and the logarithm used for a folded quad.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace

@@ -15,8 +15,8 @@ constexpr double kLossForgiven = 1.2;
 /// Share of a filling's loss that remains after the first smoothing sweeps, at least, in 99 of 100 of 6,000
 /// fillings from six domains. A filling whose loss is above the limit even at this share is rejected early.
 constexpr double kLeft = 0.6;
-/// Sweeps over a filling and its surroundings, and rounds over its poor quads. More of them accept slightly
-/// more fillings and cost time.
+/// Number of smoothing sweeps over a filling and its surroundings, and of rounds over its poor quads, before
+/// the last judgement.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace

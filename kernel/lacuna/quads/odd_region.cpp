@@ -22,11 +22,11 @@ namespace {
 /// Limit of sides tried, and the quality of the worst cell that ends the search: that of `ImproveOptions`
 /// from which a cell of the sweep is good enough.
 constexpr std::size_t kMostSides = 4;
-/// Number of quads of a row, from the boundary on, that are tried as the triangle. More quads find a better
-/// place further inside at a higher cost.
+/// Number of quads of a row, from the boundary on, that are tried as the triangle: how far inside the
+/// triangle may lie.
 constexpr std::size_t kMostSteps = 8;
 /// Rings of neighbours around the closed row whose nodes move, and rounds of moving them; fewer if the mesh
-/// is smoothed later. More of them improve the worst cell slightly and take more time.
+/// is smoothed later. Further ones improve the worst cell only slightly.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 

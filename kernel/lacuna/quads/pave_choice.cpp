@@ -27,8 +27,8 @@ namespace {
 /// measured on the named outlines.
 constexpr std::size_t kSmall = 4000;
 /// Limits of the total number of quads made with the rows of weights: about eight meshes of a region of
-/// kSmall. If the worst quad stays poor, the outline is more likely the cause than the cuts, so the limit is
-/// lower. Higher limits take more time for a small gain.
+/// kSmall. The limit is lower if the worst quad stays poor, because then the outline rather than the cuts is
+/// the cause.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
 
 /// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
@@ -59,12 +59,11 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
      .most_patch = 0.7},
 }};
 
-/// A score, close to the maximum of 3.325, at which no further weights are tried. A lower value saves time
-/// and may miss a better mesh.
+/// Score at which no further weights are tried: so close to the maximum of 3.325 that little can be gained.
 constexpr double kGoodEnough = 3.3;
-/// A mesh is kept without further trials if its worst quad and its shares of right sizes and right rows reach
-/// these bounds, and its irregular nodes hardly exceed the topological minimum. Looser bounds save time and
-/// may miss a better mesh.
+/// A mesh is kept without further trials if its worst quad (scaled Jacobian) and its shares of right sizes
+/// and right rows reach these bounds, and its irregular nodes exceed the topological minimum by at most the
+/// factor kNearLeast or the number kFewMore.
 constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)

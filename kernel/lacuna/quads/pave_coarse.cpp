@@ -16,11 +16,10 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Coarse regions with at least this many quads are coarsened again. A lower value saves time and leaves less
-/// regular sizes.
+/// Number of quads from which a coarse region is coarsened again: it bounds the time of paving the coarsest
+/// region.
 constexpr double kManyStill = 8000;
-/// Limit of sides that may be divided for that. Each leaves a triangle, with a few irregular nodes, so a
-/// higher limit coarsens more regions at the cost of more of them.
+/// Limit of sides that may be divided for that. Each leaves a triangle with a few irregular nodes.
 constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even

@@ -168,7 +168,7 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
     std::optional<std::vector<CountedLoop>> best;
     if (symmetric > 2) {
         // A loop of many corners has one side per corner, and the other loop as many, for a symmetric mesh.
-        constexpr CountRange kMany{kRing.least, 4}; // a larger ratio accepts more stretched rows
+        constexpr CountRange kMany{kRing.least, 4}; // up to four times as many sides as asked
         const auto corners = static_cast<int>(
             std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
         if (corners % symmetric == 0 && corners > 2 * symmetric - 1)

@@ -336,7 +336,7 @@ double worth_of(const PlaneQuality& quality)
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
-    // Accepted loss of mean scaled Jacobian. A larger loss improves more rows at the cost of other quads.
+    // Accepted loss of mean scaled Jacobian for better rows.
     constexpr double kLess = 0.01;
     constexpr int kRounds = 12, kIdle = 3; // limit of rounds, and of rounds without gain
     constexpr double kStill = 0.03;        // share of a side: smaller moves count as none

@@ -11,8 +11,7 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it. A higher limit gives
-/// more candidates with worse angles.
+/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it.
 constexpr double kMostSlant = 0.7;
 
 /// Twice the foot that `spoke_feet()` finds for side i: the alternating sum of every second side's length.
