@@ -15,8 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Number of sampled columns if there are no side lines: one every 45° on a round wall. Fewer miss local
-/// changes of shape, more cost time. Not measured.
+/// Number of sampled columns if there are no side lines: one every 45° on a round wall. Not measured.
 constexpr int kPlaces = 8;
 
 /// Walls count as straight if they are longer than the straight line by less than this share, which is below
