@@ -428,7 +428,8 @@ private:
     /// The quad nearest to a point among at most `kMost` of a list, taken at even steps.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
+        // Limit of quads that are compared, to bound the time per point; not measured.
+        constexpr std::size_t kMost = 16;
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
         double best = kInfinity;
         Index nearest = quads.front();

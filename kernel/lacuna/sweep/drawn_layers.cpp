@@ -29,8 +29,8 @@ constexpr std::size_t kMiddle = 2;
 /// Where the mean of the columns moves by less than this share of their mean length, the columns diverge, as
 /// around the edge of an end, and turns are ignored. A higher value ignores more turns. Not measured.
 constexpr double kSlow = 0.7;
-/// Maximum height ratio of neighbouring layers, and of all layers. Higher values resolve bends better at the
-/// cost of elongated cells. Not measured.
+/// Maximum ratio between the heights of neighbouring layers, and between any two. They limit how elongated
+/// cells become for the sake of bends. Not measured.
 constexpr double kMostBeside = 2, kMostInAll = 4;
 /// Weights of the total turning relative to the length of the axis, increasing: from nearly uniform layers to
 /// most layers in the bends.

@@ -27,8 +27,8 @@ constexpr double kShareAtTip = 1;
 /// whichever is smaller. Gaps and overlaps of faces in real parts are as large, and no mesh shows them.
 constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
 
-/// Allowed difference between the mesh's volume and the sealed one. Six sides for a turn, the minimum that
-/// the size alone leaves, lose 17 % of a disc, so a lower value refuses these. Not measured.
+/// Allowed difference between the mesh's volume and the sealed one, relative. It must exceed 17 %, the loss
+/// of a disc with six sides for a turn, the minimum that the size alone permits. Not measured.
 constexpr double kMostOfVolume = 0.2;
 
 /// A face that the skin omits.

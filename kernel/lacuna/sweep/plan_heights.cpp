@@ -19,12 +19,12 @@ using namespace topology;
 
 namespace {
 
-/// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
-/// measured.
+/// Number of points along each column at which the size is sampled. It decides how short a variation of the
+/// size is seen. Not measured.
 constexpr int kSamples = 32;
 
-/// Chords that represent a column when its turning is measured. More chords would count local dents as bends
-/// of the sweep, fewer would miss bends. Not measured.
+/// Number of chords that represent a column when its turning is measured: few enough to ignore local dents,
+/// enough to see the bends of a sweep. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
 /// Mean data of the columns between both rims.

@@ -15,11 +15,10 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Rounds over the invalid cells; each may spoil neighbours that the next repairs. More cost time. Not
+/// Limit of rounds over the invalid cells; each round may spoil neighbours that the next one repairs. Not
 /// measured.
 constexpr int kRounds = 4;
-/// Halvings of the search step, which starts at a tenth of the side. More steps cost time for smaller moves.
-/// Not measured.
+/// Number of step lengths, each half the previous one: from a tenth of the side to 1/80 of it. Not measured.
 constexpr int kSteps = 4;
 constexpr double kFirstStep = 0.1;
 

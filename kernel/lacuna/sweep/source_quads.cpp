@@ -23,9 +23,8 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of source quads that narrow places may cause by default. A ring of three quads across a
-/// width of a 200th of its radius has some 8,000. A lower value leaves more narrow places coarse; a higher
-/// one allows surprisingly large meshes. Not measured.
+/// Maximum number of source quads that narrow places may cause by default; narrower places stay coarse. A
+/// ring of three quads across a width of a 200th of its radius has some 8,000. Not measured.
 constexpr double kMostForWidth = 20000;
 
 /// Maximum number of cells if only the size or only the number of layers is given: more would fill a large
