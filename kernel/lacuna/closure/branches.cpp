@@ -645,8 +645,9 @@ private:
     const OpenVolume& volume_;
     Branching found_;
     const RunContext& context_;
-    bool lined_ = false;                               ///< walls have lines along the main body
-    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the direction along it
+    bool lined_ = false; ///< walls have lines along the main body
+    /// Centre of the first mouth, and direction of the main body's axis.
+    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero();
 };
 
 } // namespace

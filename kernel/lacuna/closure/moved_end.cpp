@@ -399,7 +399,7 @@ private:
     Climber climber_;
     std::set<VertexId> on_end_;
     std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by start vertex
-    std::vector<Rim> free_rims_;          ///< of walls
+    std::vector<Rim> free_rims_;          ///< free rims of walls
     std::size_t free_count_ = 0;          ///< number of free edges of walls
     std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
     std::set<EdgeId> accounted_;          ///< free edges that lead up to those

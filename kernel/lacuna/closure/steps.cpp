@@ -37,7 +37,7 @@ constexpr int kRounds = 64;
 
 /// A rim of an end where the walls lead away from the opposite end.
 struct Hanging {
-    std::size_t part = 0; ///< of the end
+    std::size_t part = 0; ///< index of the part of the end
     Rim rim;
 };
 
@@ -84,7 +84,7 @@ struct Imprinted {
     Rim rim;
     FaceId target;                       ///< the face it lies on
     std::size_t inside = 0, outside = 0; ///< the regions of that face on its two sides
-    std::vector<Index> points;           ///< of the model, the first is not repeated
+    std::vector<Index> points;           ///< points of the model, the first not repeated
     std::vector<Vec2> flat;              ///< the same, projected along the sweep
     std::vector<FaceId> curtain;
 };
@@ -455,12 +455,13 @@ private:
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
-    Steps steps_;            ///< of the stepped end
+    Steps steps_;            ///< steps of the stepped end
     geometry::Plane across_; ///< its normal is the direction to the other end
     std::vector<Imprinted> images_;
-    std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
-    std::map<Index, Vec2> uv_;                          ///< of points projected onto the opposite end
-    std::optional<geometry::FacetTree> tree_;           ///< of the original opposite end
+    std::vector<FaceId> regions_; ///< faces of the opposite end after the cuts
+    /// Surface parameters of points projected onto the opposite end.
+    std::map<Index, Vec2> uv_;
+    std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
     std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree
 };
 

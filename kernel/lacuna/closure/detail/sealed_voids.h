@@ -17,8 +17,8 @@ struct Sealed : SealedVolume {
 
 /// One void, and the role candidates that enclose it.
 struct Void {
-    double cost = 0;                           ///< of its likeliest candidate, plus the cost of bent void
-                                               ///< faces
+    /// Cost of its likeliest candidate, plus the cost of bent void faces.
+    double cost = 0;
     topology::RoleCandidate first;             ///< the candidate it was sealed with
     Sealed sealed;                             ///< the result of sealing with `first`
     std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
