@@ -99,7 +99,7 @@ std::vector<Vec3> normals_of(const Facets& facets, const FacetSides& sides, doub
 }
 
 struct Flood {
-    std::vector<Index> face;   ///< of each facet
+    std::vector<Index> face;   ///< for each facet
     std::vector<bool> flipped; ///< facets oriented against their face
     Index faces = 0;
 };
@@ -337,7 +337,7 @@ private:
     const FacetSides& sides_;
     const RunContext& context_;
     double least_cosine_;
-    std::vector<Index> kind_; ///< of each segment; -1 within a face
+    std::vector<Index> kind_; ///< for each segment; -1 within a face
     std::vector<bool> done_;  ///< segments already chained
     Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;
