@@ -282,11 +282,12 @@ private:
     View view_;
     bool same_; ///< same format: names and text stay
     DeckFile file_;
-    std::vector<bool> by_elements_;                 ///< sets
-    std::vector<bool> makes_set_;                   ///< regions
-    std::vector<Index> set_of_region_;              ///< set that each region creates; -1: none
-    std::vector<int> dimensions_;                   ///< of the elements of regions; 0: there are none
-    std::vector<std::string> names_, region_names_; ///< of sets and regions in the file
+    std::vector<bool> by_elements_;    ///< sets
+    std::vector<bool> makes_set_;      ///< regions
+    std::vector<Index> set_of_region_; ///< set that each region creates; -1: none
+    /// Dimension of the elements of each region; 0: there are none.
+    std::vector<int> dimensions_;
+    std::vector<std::string> names_, region_names_; ///< names of sets and of regions in the file
 };
 
 } // namespace

@@ -189,7 +189,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
 {
     struct Side {
         std::size_t middle; ///< number of the mesh's middle node; 0: of order 1
-        std::size_t quad;   ///< of the skin
+        std::size_t quad;   ///< quad of the skin
     };
     std::vector<Segment> pairs;
     std::vector<Side> sides;

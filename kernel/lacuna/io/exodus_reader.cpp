@@ -16,7 +16,7 @@ namespace {
 
 /// An array of a netCDF file.
 struct NcArray {
-    std::vector<std::size_t> lengths; ///< of its dimensions
+    std::vector<std::size_t> lengths; ///< lengths of its dimensions
     std::string element_type{};       ///< its attribute of that name
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
@@ -414,8 +414,8 @@ private:
     Cursor& cursor_;
     DeckBuilder& into_;
     NcHead head_;
-    std::vector<DeckTag> numbers_;                 ///< of all elements, block after block
-    std::vector<std::optional<DeckShape>> shapes_; ///< of these; empty: the element is ignored
+    std::vector<DeckTag> numbers_;                 ///< numbers of all elements, block after block
+    std::vector<std::optional<DeckShape>> shapes_; ///< their shapes; empty: the element is ignored
 };
 
 } // namespace

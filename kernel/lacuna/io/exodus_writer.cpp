@@ -289,7 +289,7 @@ private:
     struct Set {
         std::string name;
         mesh::Ranges members{};                             ///< from 1
-        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< of each member; null: not a set of sides
+        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member; null: not a set of sides
     };
 
     void find_blocks()

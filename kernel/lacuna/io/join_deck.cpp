@@ -229,8 +229,8 @@ private:
     double scale_;
     const mesh::HexMesh& mesh_;
     std::vector<Index> skin_;                        ///< nodes of the mesh
-    NodesAt at_;                                     ///< of these
-    std::vector<std::span<const Index>> candidates_; ///< of each node of the mesh, in `at_`
+    NodesAt at_;                                     ///< points of the deck at these nodes
+    std::vector<std::span<const Index>> candidates_; ///< for each node of the mesh, in `at_`
     /// Node of the mesh at each of the deck's points; -1: none.
     std::vector<Index> node_of_;
     Votes by_face_, by_side_;

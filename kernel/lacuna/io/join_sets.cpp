@@ -157,8 +157,8 @@ private:
     /// Of the part with the volume's name, otherwise of everything left out; increasing.
     std::vector<DeckTag> cells_, nodes_;
     std::vector<Face> skin_;   ///< of the elements left out
-    std::vector<Index> on_;    ///< of each quad of the new skin, in `skin_`; -1: none
-    std::vector<double> area_; ///< of these quads
+    std::vector<Index> on_;    ///< for each quad of the new skin, in `skin_`; -1: none
+    std::vector<double> area_; ///< area of each of these quads
 };
 
 /// Whether a set of all solids was meant as such: it is neither a body's own set nor the set of cells behind

@@ -71,7 +71,7 @@ struct LoadedFiles {
     topology::Model model{};
     /// Decks of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
     std::vector<std::shared_ptr<const Deck>> decks{};
-    double scale = 1; ///< of the model's coordinates to the decks' [-]
+    double scale = 1; ///< factor from the model's coordinates to the decks' [-]
     /// Those notes of the model that report content read differently from the file, to be shown to every
     /// user.
     std::vector<Message> warnings{};

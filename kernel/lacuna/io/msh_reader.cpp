@@ -638,7 +638,7 @@ private:
     };
     Place last_place_{};
     std::map<Place, std::size_t> regions_;
-    std::vector<Place> place_of_;                ///< of each region
+    std::vector<Place> place_of_;                ///< for each region
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
     /// For each region, number of cells of its naming group, and whether by number.
     std::map<std::size_t, std::pair<std::size_t, bool>> named_by_;

@@ -234,7 +234,7 @@ private:
     std::span<const BulkPart> meshes_;
     std::vector<std::vector<Index>> of_layer_; ///< part of each layer of each mesh
     std::vector<DeckTag> first_;               ///< number of the first cell of each mesh
-    std::vector<std::vector<Index>> part_;     ///< of each element of each block
+    std::vector<std::vector<Index>> part_;     ///< for each element of each block
     /// Ghosts by their own part and the list of the parts that see them, then by block.
     std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts_;
     std::vector<std::vector<int>> lists_{{}}; ///< lists of parts, increasing

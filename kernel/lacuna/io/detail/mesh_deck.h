@@ -33,7 +33,7 @@ struct AddedMesh {
     std::map<Quad, DeckTag>* skin_tags = nullptr;
     /// Sets of the meshes added before, by kind and group, which this one's extend; null: there are none.
     GroupSets* groups = nullptr;
-    Index region = -1; ///< of the deck, to which the cells are added; -1: a new one
+    Index region = -1; ///< region of the deck to which the cells are added; -1: a new one
     /// Null: the deck was read from a file, and its sets are extended.
     /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
     /// cells' shapes; this gets their position.
