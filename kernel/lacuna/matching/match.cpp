@@ -270,7 +270,7 @@ private:
     const Problem& problem_;
     Match& match_;
     std::vector<Alignment> chosen_;
-    PointPairs known_; ///< of the loops aligned so far
+    PointPairs known_; ///< corresponding points of the loops aligned so far
     std::optional<bool> backward_;
 };
 

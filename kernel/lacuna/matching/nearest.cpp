@@ -27,9 +27,9 @@ constexpr double kShare = 0.5;
 struct Ends {
     std::vector<VertexId> vertex;
     std::vector<Vec3> at;
-    std::vector<std::size_t> loop;  ///< of each vertex
+    std::vector<std::size_t> loop;  ///< for each vertex
     std::vector<std::size_t> first; ///< first vertex of each loop, then the total
-    std::vector<Vec3> area;         ///< of each loop
+    std::vector<Vec3> area;         ///< for each loop
 
     [[nodiscard]] std::size_t count(std::size_t l) const { return first[l + 1] - first[l]; }
 };
