@@ -376,7 +376,7 @@ private:
     std::vector<RowTurn> turn_;
     std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows take up a part of the angle
     std::vector<Front> fronts_;
-    std::vector<Index> foot_; ///< of each added node
+    std::vector<Index> foot_; ///< for each added node
     std::optional<RowsFinding> finding_;
 };
 

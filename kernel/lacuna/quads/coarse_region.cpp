@@ -93,7 +93,7 @@ Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& oppos
 /// Rows between whole sides; each whole side is the end of one row.
 struct Pairing {
     std::vector<Row> rows;
-    std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< of all rows
+    std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< number of quads of all rows
 };
 
 /// Find the pairing with the fewest quads.

@@ -62,8 +62,8 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
 /// Score at which no further weights are tried: so close to the maximum of 3.325 that little can be gained.
 constexpr double kGoodEnough = 3.3;
 /// A mesh is kept without further trials if its worst quad (scaled Jacobian) and its shares of right sizes
-/// and right rows reach these bounds, and its irregular nodes exceed the topological minimum by at most the
-/// factor kNearLeast or the number kFewMore.
+/// and right rows reach these bounds, and its irregular nodes number at most kNearLeast times the topological
+/// minimum plus kFewMore.
 constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
@@ -110,7 +110,7 @@ std::uint64_t name_of(const PlanarQuads& mesh)
 
 /// An attempt before it is finished.
 struct Begun {
-    std::size_t irregular; ///< nodes
+    std::size_t irregular; ///< number of irregular nodes
     Attempt attempt;
 };
 
@@ -128,7 +128,7 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
 
 /// Lower bounds for accepting a mesh.
 struct Limits {
-    double least, mean; ///< scaled Jacobian
+    double least, mean; ///< least and mean scaled Jacobian
     double of_size;     ///< share of sides with the size asked
 };
 

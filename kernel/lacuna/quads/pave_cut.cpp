@@ -311,7 +311,7 @@ private:
     const std::vector<double>& angles_;
     std::size_t n_;
     std::vector<double> arc_;     ///< along the loop, up to each node
-    std::vector<double> heading_; ///< of the side that leaves each node [radians]
+    std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
     std::vector<std::size_t> places_; ///< nodes between which lines are tried

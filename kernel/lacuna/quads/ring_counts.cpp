@@ -127,7 +127,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
 struct RingLoops {
     std::array<CountedLoop, 2> ends; ///< the outer loop and the hole
     std::array<int, 2> along{};      ///< their numbers of sides along the ring, rounded
-    std::vector<CountedLoop> others; ///< of the other holes, closed
+    std::vector<CountedLoop> others; ///< loops of the other holes, closed
 };
 
 /// @return empty if a loop fits no grid around a hole.

@@ -263,7 +263,7 @@ private:
     const MixedMesh& mesh_;
     WholeEdges whole_;
     MixedMesh made_;
-    std::vector<Index> middle_; ///< of each side; -1: not made yet
+    std::vector<Index> middle_; ///< for each side; -1: not made yet
 };
 
 } // namespace

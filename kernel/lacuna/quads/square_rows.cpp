@@ -22,7 +22,7 @@ namespace {
 struct RowSide {
     Index a, b, c, d;
     Vec2 along;         ///< unit length, from a to b
-    Lanes cosine, sine; ///< of the target angle at each corner
+    Lanes cosine, sine; ///< cosine and sine of the target angle at each corner
     double height;      ///< target height [length]
 };
 

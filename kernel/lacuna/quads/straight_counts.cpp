@@ -150,7 +150,7 @@ void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const 
 /// Loops that close, for a number of rows before soft turns and a factor on the wanted sides.
 struct ClosedLoops {
     std::vector<CountedLoop> loops;
-    std::vector<LoopGrid> grids; ///< of the loops that have one
+    std::vector<LoopGrid> grids; ///< grids of the loops that have one
     double cost = 0, quads = 0;
     int soft = 0;
 };

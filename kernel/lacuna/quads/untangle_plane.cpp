@@ -41,7 +41,7 @@ struct ReferenceQuad {
 struct FoldedPart {
     std::vector<ReferenceQuad> cells;
     std::vector<Index> moving;   ///< points
-    std::vector<Index> variable; ///< of each point; -1: stays
+    std::vector<Index> variable; ///< for each point; -1: stays
 };
 
 /// Least determinant of the corners of a quad that can change; those of three fixed points are left out.

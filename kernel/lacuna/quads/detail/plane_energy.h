@@ -18,7 +18,7 @@ struct TargetAreas {
         double area = 0, inverse = 0; ///< target area and its inverse; 0: no target
     };
     double weight = 0;
-    std::vector<Target> asked; ///< of each point; empty: no targets
+    std::vector<Target> asked; ///< for each point; empty: no targets
 };
 
 /// Energy of the quads around one point, with its gradient and curvature as functions of the point.
