@@ -225,7 +225,7 @@ private:
     const LayeredMesh& layered_;
     const std::vector<Slab>& slabs_;
     std::vector<SlabPlace> boxes_;
-    Eigen::AlignedBox3d bounds_; ///< of all nodes
+    Eigen::AlignedBox3d bounds_; ///< bounding box of all nodes
     double tolerance_;
     const RunContext& context_;
     std::vector<std::vector<std::size_t>> beside_; ///< non-neighbours whose boxes overlap
