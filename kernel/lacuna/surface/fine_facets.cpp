@@ -249,8 +249,8 @@ private:
     const SizeField& size_;
     double off_;
     std::vector<FacetSide> sides_;
-    std::vector<std::array<std::size_t, 3>> side_of_;       ///< of each facet, by the corner it runs from
-    std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
+    std::vector<std::array<std::size_t, 3>> side_of_;       ///< for each facet, by the corner it runs from
+    std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
     std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of accurate sides
 };
 

@@ -37,7 +37,7 @@ constexpr double kMostShrunk = 20;
 
 /// A chain in the plane, and the edges of source and target that it represents.
 struct Border {
-    EdgeId source; ///< of the new model
+    EdgeId source; ///< edge of the new model
     std::optional<EdgeImage> image;
 };
 
@@ -512,9 +512,9 @@ private:
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
     std::vector<FlatPiece> pieces_;   ///< pieces that only the target has
-    std::vector<Vec2> place_;         ///< of each model point
+    std::vector<Vec2> place_;         ///< for each model point
     std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
-    std::vector<PlaneChain> chains_;  ///< of each border
+    std::vector<PlaneChain> chains_;  ///< for each border
     std::map<EdgeId, FaceId> new_on_; ///< source face each new edge lies on
     std::map<FaceId, Vec2> seam_jump_;
     std::set<FaceId> split_; ///< source faces with new edges

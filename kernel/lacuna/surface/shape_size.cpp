@@ -140,7 +140,7 @@ struct RimPiece {
     EdgeId edge;
     Vec3 start;
     double from = 0;   ///< running length of the edge at its start
-    double length = 0; ///< of the whole edge
+    double length = 0; ///< length of the whole edge
 };
 
 /// The boundary of a face as pieces in a tree, and the size by local width.
@@ -292,7 +292,7 @@ private:
     FaceId face_;
     double mean_width_ = 0;
     geometry::FacetTree tree_;
-    std::vector<RimPiece> pieces_; ///< of each triangle in the tree
+    std::vector<RimPiece> pieces_; ///< for each triangle in the tree
     std::vector<EdgeId> edges_;
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };

@@ -27,7 +27,7 @@ struct StripGrid {
         double share; ///< fraction of the edge's length
         Vec2 place;   ///< in the strip
     };
-    std::vector<Vec2> place;               ///< of each node, by layer · nodes + node
+    std::vector<Vec2> place;               ///< for each node, by layer · nodes + node
     std::map<std::size_t, Pinned> on_edge; ///< nodes on an edge
     std::vector<std::size_t> stops;        ///< node at each stop of the net
 };

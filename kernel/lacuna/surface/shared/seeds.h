@@ -91,7 +91,7 @@ struct Seeds {
     std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped;     ///< faces meshed as a grid of right angles
     std::set<FaceId> kept;          ///< faces whose own quads are the mesh
-    RimRows rows;                   ///< of boundary layers, along the rim
+    RimRows rows;                   ///< rows of boundary layers along the rim
     std::vector<std::string> notes; ///< a line for each given mesh that is not kept
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
