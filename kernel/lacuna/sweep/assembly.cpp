@@ -567,14 +567,14 @@ private:
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_; ///< the members' volumes, if faces had to be split
-    std::vector<std::string> notes_;    ///< of the report: imprints and near misses
+    std::vector<std::string> notes_;    ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
     std::vector<PartState> states_;          ///< for each part
     std::vector<SharedNodes> pairs_;         ///< for each part, its pairs with earlier parts
-    std::vector<Eigen::AlignedBox3d> boxes_; ///< of each member, at order 2
+    std::vector<Eigen::AlignedBox3d> boxes_; ///< for each member, at order 2
     SweptAssembly result_;
 };
 

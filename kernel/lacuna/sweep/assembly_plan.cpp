@@ -286,8 +286,8 @@ private:
     }
     struct SidesOfClass {
         int count = 0;
-        std::string region; ///< of the member with the request
-        Argument name;      ///< of the entity with the request
+        std::string region; ///< region of the member with the request
+        Argument name;      ///< name of the entity with the request
     };
     void ask_class(std::size_t e, const SidesOfClass& sides)
     {
@@ -769,7 +769,7 @@ private:
     std::span<const SharedFace> shared_;
     const RunContext& context_;
     std::vector<std::size_t> first_; ///< index of each member's first edge
-    std::vector<MemberEdge> edges_;  ///< of all members
+    std::vector<MemberEdge> edges_;  ///< edges of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
     /// The given nodes of an edge that are kept: none, those of a face that is only geometry, those of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
@@ -791,7 +791,7 @@ private:
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     std::vector<Vec3> corners_;           ///< vertices where edges of several members end
-    mutable std::vector<double> spacing_; ///< of each member's rim
+    mutable std::vector<double> spacing_; ///< for each member's rim
 };
 
 } // namespace

@@ -411,7 +411,7 @@ private:
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
     std::vector<SharedFace> shared_ = shared_faces(members_, context_);
-    std::vector<std::vector<surface::KnownLine>> known_; ///< of each member, by its source and target
+    std::vector<std::vector<surface::KnownLine>> known_; ///< for each member, by its source and target
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;
 };

@@ -38,7 +38,7 @@ struct Sample {
     Vec3 point = Vec3::Zero();
     double area = 0;      ///< area that it represents
     double side = 0;      ///< length of the quads' sides there, to which the allowed distance is proportional
-    std::size_t quad = 0; ///< of the patch
+    std::size_t quad = 0; ///< index of the quad in the patch
     double distance = 0;
     bool turned = false; ///< has the opposite orientation
 };
@@ -421,7 +421,8 @@ private:
                 front.push_back(next);
             }
         }
-        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another component
+        // Facets of another component get any of them.
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet;
         return near;
     }
 
@@ -529,7 +530,7 @@ private:
 
     struct QuadTree {
         geometry::FacetTree tree;
-        std::vector<std::size_t> quad; ///< of each triangle
+        std::vector<std::size_t> quad; ///< for each triangle
     };
 
     [[nodiscard]] QuadTree tree_of(const std::vector<std::size_t>& quads) const
@@ -645,7 +646,7 @@ private:
     const RunContext& context_;
 
     std::vector<Vec3> tips_;
-    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< of the plane of a flat face
+    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< origin and normal of the plane of a flat face
     std::vector<Index> facet_of_node_;                   ///< nearest to each node of the patch
     FaceFidelity result_;
     std::size_t worst_ = 0;

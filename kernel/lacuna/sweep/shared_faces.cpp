@@ -64,7 +64,7 @@ std::vector<std::vector<Vec3>> chains_of(const Side& side)
 struct RimOff {
     double distance = 0;
     Vec3 place = Vec3::Zero();
-    double sag = 0; ///< of the other rim
+    double sag = 0; ///< sag of the other rim
 };
 
 RimOff rim_off(const Side& one, const Side& other)

@@ -112,18 +112,18 @@ struct SweepOptions {
     bool wedges = false;
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
-    surface::SizeField row_height; ///< of those rows; null: the size
+    surface::SizeField row_height; ///< height of these rows; null: the size
     /// Thin rows of cells along walls and ends; each face is in at most one.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
     quads::PlanarQuadMesher quad_mesher;      ///< the mesher of `Quads::gmsh`
     Interior interior = Interior::automatic;
-    int order = 1;                   ///< of the cells: 1, or 2
-    SecondOrderOptions second_order; ///< of order 2
+    int order = 1;                   ///< order of the cells: 1 or 2
+    SecondOrderOptions second_order; ///< options of order 2
     double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
     bool improve = true;             ///< move nodes of folded or poor cells
     ImproveOptions improving;        ///< limits of that improvement
-    Beside beside;                   ///< of volumes in an assembly, which sets it
+    Beside beside;                   ///< constraints in an assembly, which sets them
     /// Whether nodes of layers may be generated when they are written: `Swept::layers`.
     bool layered = false;
     const Crew* crew = nullptr; ///< processes that help with generated layers; null: none
@@ -145,7 +145,7 @@ struct Swept {
     std::optional<mesh::LayeredNodes> layers;
     std::shared_ptr<const LayerPlan> plan; ///< the plan by which `layers` are placed
     double min_scaled_jacobian = 1;
-    quality::Quality quality;        ///< of the cells, from the proof
+    quality::Quality quality;        ///< quality of the cells, from the proof
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape

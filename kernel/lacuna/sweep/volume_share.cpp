@@ -216,7 +216,7 @@ private:
         std::vector<Segment> segments;
         surface::LinkingNodes nodes;
         std::vector<std::vector<Vec3>> rows;
-        double sign = 1;   ///< of its enclosed volume
+        double sign = 1;   ///< sign of its enclosed volume
         double within = 0; ///< six times the volume within its walls
     };
 
@@ -396,7 +396,7 @@ private:
     const surface::SizeField& size_;
     const RunContext& context_;
     surface::RimFacets facets_{volume_, links_};
-    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< of the breaks followed
+    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< breaks that the model follows
     std::vector<char> on_crease_;
     double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks
     std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as given

@@ -43,7 +43,7 @@ private:
     struct Frame {
         Vec3 corner = Vec3::Zero(), normal = Vec3::Zero();
         Vec3 to_first = Vec3::Zero(), to_second = Vec3::Zero(); ///< gradients of the second and third weight
-        Vec3 altitude = Vec3::Zero(); ///< of each corner over the opposite side; zero: too thin
+        Vec3 altitude = Vec3::Zero(); ///< for each corner over the opposite side; zero: too thin
         double rounding = 0;          ///< tolerance of distances [model length]
         double fold = 1;              ///< tangent of half the sharpest angle to a facet at one of its corners
     };

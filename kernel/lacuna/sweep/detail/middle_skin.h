@@ -41,7 +41,7 @@ public:
 
 private:
     std::size_t period_, on_level_, layers_;
-    std::size_t ring_ = 0;    ///< of a level and the layer over it
+    std::size_t ring_ = 0;    ///< number of places on a level and the layer over it
     std::vector<Index> rank_; ///< compact index of each place on a level and the layer above it; -1: inside
 };
 
@@ -101,7 +101,7 @@ private:
         Index from, to, side;
     };
     struct Chord {
-        std::size_t begin, end; ///< of `steps_`
+        std::size_t begin, end; ///< range in `steps_`
         bool closed;
     };
     template <class Take>

@@ -16,7 +16,7 @@ struct Plan {
     bool keeps_end = false; ///< the end where it starts has given quads, which are kept
     Outline outline = Outline::source;
     surface::Turning turning = surface::Turning::each;
-    std::vector<double> heights{}; ///< of layers that are thinner in bends, as `LayerSpec::heights`
+    std::vector<double> heights{}; ///< heights of layers that are thinner in bends, as `LayerSpec::heights`
     int per_turn = 12;             ///< sides for a full turn
     bool wedges = false;           ///< see `SweepOptions::wedges`
     std::string why{};             ///< for the report: why it comes first; may be empty

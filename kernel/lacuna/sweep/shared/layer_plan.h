@@ -32,7 +32,7 @@ struct LayerPlan {
     PlacementOptions options;
     /// Nodes of the skin that are moved after all are placed, increasing.
     std::vector<std::pair<Index, Vec3>> laid{};
-    std::optional<MiddlePlan> middles{}; ///< of order 2
+    std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
 
 /// The cells over a source, without nodes and patches.
