@@ -647,13 +647,13 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<double> angle_; ///< of each edge between its faces [degrees]
+    std::vector<double> angle_; ///< for each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< by stepped candidate
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
     std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNoIndex`: an end
-    std::size_t windows_ = 0;          ///< of the candidate last checked
+    std::size_t windows_ = 0;          ///< number of windows in the candidate last checked
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;
     bool used_twice_ = false;        ///< faces use an edge twice in one direction

@@ -12,8 +12,8 @@ namespace lacuna::topology {
 struct SmoothPatch {
     std::vector<FaceId> faces; ///< in the model's order
     std::vector<Rim> rims;
-    std::vector<VertexId> vertices; ///< of the faces' loops, without repeats
-    std::vector<EdgeId> edges;      ///< of the faces' loops, without repeats
+    std::vector<VertexId> vertices; ///< vertices of the faces' loops, without repeats
+    std::vector<EdgeId> edges;      ///< edges of the faces' loops, without repeats
     long inner_euler = 0;           ///< Euler number without the points and sides on `edges`
     Vec3 normal = Vec3::Zero();     ///< unit mean normal
     Vec3 centre = Vec3::Zero();
